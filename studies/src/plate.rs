@@ -15,7 +15,7 @@ use crate::Error;
 use crate::figures::plates;
 use crate::files::{decimals, pretty};
 use crate::paper::{Claim, table};
-use bars::{Beside, STRIKES};
+use bars::{BarsAndPlate, STRIKES};
 use directions::{Counts, Endless, endless_on_the_diagonal, endless_round_the_corners, letters, share};
 use ties::Ties;
 
@@ -33,8 +33,8 @@ const CELLS: u16 = 45;
 const CURVES: [f64; 3] = [0.1, E, 0.5];
 
 /// Uniform plates over e, from 0.02 to 1.
-pub(crate) fn over_e() -> Result<Vec<Beside>, Error> {
-    let plate = |k: u16| Beside::new([3.0; 2], f64::from(k) / f64::from(STEPS));
+pub(crate) fn over_e() -> Result<Vec<BarsAndPlate>, Error> {
+    let plate = |k: u16| BarsAndPlate::new([3.0; 2], f64::from(k) / f64::from(STEPS));
     (1..=STEPS).into_par_iter().map(plate).collect()
 }
 
@@ -44,19 +44,19 @@ fn inertia(k: u16, steps: u16) -> f64 {
 }
 
 /// Plates over α and β at [`E`], α fastest.
-pub(crate) fn plane() -> Result<Vec<Beside>, Error> {
+pub(crate) fn plane() -> Result<Vec<BarsAndPlate>, Error> {
     let side = CELLS + 1;
-    let plate = |k: u16| Beside::new([inertia(k % side, CELLS), inertia(k / side, CELLS)], E);
+    let plate = |k: u16| BarsAndPlate::new([inertia(k % side, CELLS), inertia(k / side, CELLS)], E);
     (0..side * side).into_par_iter().map(plate).collect()
 }
 
 /// Everything the report shows.
 #[derive(Debug)]
 pub(crate) struct Data {
-    over_e: Vec<Beside>,
-    over_inertia: [Vec<Beside>; 3],
-    plane: Vec<Beside>,
-    designs: [Beside; 4],
+    over_e: Vec<BarsAndPlate>,
+    over_inertia: [Vec<BarsAndPlate>; 3],
+    plane: Vec<BarsAndPlate>,
+    designs: [BarsAndPlate; 4],
     atlas: Atlas,
     counts: Counts,
     bar_strikes: usize,
@@ -78,10 +78,10 @@ impl Data {
     /// Computes everything.
     pub(crate) fn compute() -> Result<Self, Error> {
         let alike = |e| {
-            let plate = |k| Beside::new([inertia(k, INERTIAS); 2], e);
+            let plate = |k| BarsAndPlate::new([inertia(k, INERTIAS); 2], e);
             (0..=INERTIAS).into_par_iter().map(plate).collect::<Result<Vec<_>, Error>>()
         };
-        let design = |[q, e]: [f64; 2]| Beside::new([(1.0 + q) / (1.0 - q); 2], e);
+        let design = |[q, e]: [f64; 2]| BarsAndPlate::new([(1.0 + q) / (1.0 - q); 2], e);
         let ([a, b, c, d], [dead, usual, bouncy]) = (DESIGNS.map(design), CURVES.map(alike));
         let (over_e, plane) = (over_e()?, plane()?);
         Ok(Self {
@@ -125,7 +125,7 @@ impl Data {
     /// Every number that the page says.
     fn numbers(&self) -> Value {
         let percent = |share: f64| decimals(100.0 * share, 1);
-        let row = |plate: &Beside| {
+        let row = |plate: &BarsAndPlate| {
             json!({
                 "e": plate.e,
                 "corner": decimals(plate.corner, 3), "end": decimals(plate.bar[0], 3),
@@ -142,7 +142,7 @@ impl Data {
             row
         });
         // Over all plates of the plane: the least, the most and what has it.
-        let range = |of: fn(&Beside) -> f64| {
+        let range = |of: fn(&BarsAndPlate) -> f64| {
             let plates = self.plane.iter().map(|plate| (of(plate), plate.inertia));
             let least = plates.clone().fold(f64::INFINITY, |least, one| least.min(one.0));
             let most = plates.fold((0.0, [0.0; 2]), |most, one| if one.0 > most.0 { one } else { most });

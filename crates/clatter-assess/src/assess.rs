@@ -1,5 +1,7 @@
 //! From a product to its verdict.
 
+use std::f64::consts::PI;
+
 use crate::bound::bound;
 use crate::drop::{Model, Posture, SingleDrop};
 use crate::engine::answer;
@@ -8,7 +10,7 @@ use crate::reason::{Doubt, Note, Reason};
 use crate::search::{Candidate, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, Drop, Error, Landing, LandingAssessment, Law, Limit,
-    LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Spread, Unit, Verdict, WorstCase,
+    LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Spread, Unit, Verdict, Width, WorstCase,
 };
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
@@ -17,8 +19,10 @@ pub(crate) const COVERAGE: f64 = 0.02;
 /// what was found by 5 % at most.
 const COVERAGE_OF_BOXES: f64 = 0.1;
 
-/// A plate whose file does not tell its thickness is taken as so thick over its length where real tilt counts.
+/// A plate whose file does not tell its thickness is taken as so thick over its length where real tilt counts; and any at least as
+/// thick as lets corners sink in, over what they do in a lone contact.
 pub(crate) const THIN: f64 = 0.05;
+const DEEP: f64 = 8.0;
 
 /// A drop that asks for more than is of use.
 #[derive(Debug, Clone, Copy)]
@@ -254,13 +258,15 @@ impl ProductFile {
             of.notes.push(Note::Model { asked, fullest, off: off / utilization });
         }
         if let (Some(width), false, None) = (&self.product.width, worst.stopped, ranges.posture) {
-            let thickness_m = width.thickness_m.unwrap_or(THIN * self.product.body.length_m());
-            match ranges.real_tilt(task, &asked, thickness_m) {
-                Ok(off) => {
-                    of.most += utilization * off.max(0.0);
-                    of.notes.push(Note::Tilt { off, thickness_m });
+            let thickness_m = self.thickness_as_block(width);
+            match ranges.as_block(task, &asked, &worst.near, thickness_m) {
+                Ok(most) => {
+                    of.most += (most - utilization).max(0.0);
+                    if utilization > 0.0 {
+                        of.notes.push(Note::Tilt { off: most / utilization - 1.0, thickness_m });
+                    }
                 }
-                Err(error) => of.notes.push(Note::NoTilt(error)),
+                Err(error) => of.doubts.push(Doubt::NoTilt(error)),
             }
         }
         if let Some((count, error)) = worst.refused.clone() {
@@ -269,7 +275,7 @@ impl ProductFile {
         if worst.stopped {
             of.doubts.push(Doubt::Stopped);
         }
-        if utilization <= 1.0 && of.most.is_infinite() {
+        if utilization <= 1.0 && !of.most.is_finite() {
             of.doubts.push(Doubt::NoBound);
         } else if utilization <= 1.0 && of.most > 1.0 {
             of.doubts.push(Doubt::Others { found: utilization, most: of.most });
@@ -284,6 +290,13 @@ impl ProductFile {
         of.flat = flat.map(|flat| flat.answer.value);
         of.asked = Some(asked);
         Ok(of)
+    }
+
+    /// The thickness of a plate where it is followed as a box.
+    fn thickness_as_block(&self, width: &Width) -> f64 {
+        let [_, fastest] = self.drop.speeds_m_s();
+        let depth_m = self.product.contact_time_s.map_or(0.0, |time| fastest * time.hi() / PI);
+        width.thickness_m.unwrap_or(THIN * self.product.body.length_m()).max(DEEP * depth_m)
     }
 
     /// What the worst drop would ask if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the same

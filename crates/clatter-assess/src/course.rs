@@ -87,15 +87,25 @@ impl BlockMotion {
             }),
         }
     }
-    /// The angular acceleration about an axis: half of what it does to places on both sides, by the curl of what they feel.
+    /// The angular acceleration about an axis.
     fn turned_about(&self, about: [f64; 3]) -> Excitation {
-        let curl =
-            |f: &[[f64; 4]; 3]| [f[2][2] - f[1][3], f[0][3] - f[2][1], f[1][1] - f[0][2]].map(|twice| 0.5 * twice);
-        self.lines(|felt| curl(felt).iter().zip(about).map(|(a, b)| a * b).sum())
+        self.lines(|felt| angular_acceleration(felt).iter().zip(about).map(|(a, b)| a * b).sum())
+    }
+    /// Its magnitude.
+    pub(crate) fn turned_at_all(&self) -> Excitation {
+        self.lines(|felt| {
+            let [x, y, z] = angular_acceleration(felt);
+            libm::hypot(libm::hypot(x, y), z)
+        })
     }
 }
 
-/// Axes about which the turning of a box is looked at, all over half of a sphere: one is within 11° of any, 2 %.
+/// Half of what it does to places on both sides, by the curl of what they feel.
+fn angular_acceleration([x, y, z]: &[[f64; 4]; 3]) -> [f64; 3] {
+    [z[2] - y[3], x[3] - z[1], y[1] - x[2]].map(|twice| 0.5 * twice)
+}
+
+/// Axes about which the turning of a box is looked at, all over half of a sphere: one is within 14° of any, 3 %.
 const AXES: u32 = 64;
 
 fn axes() -> impl Iterator<Item = [f64; 3]> {

@@ -241,7 +241,7 @@ impl DataFault {
             ],
             Self::Askew { share } => [
                 format!("the masses of a box lie askew of its sides: their product of inertia is {share:.3} of both radii of gyration"),
-                "allowed: up to 0.05, which is left out".to_owned(),
+                "allowed: up to 0.01, which is left out".to_owned(),
             ],
             Self::Attitude { field, value } => [
                 format!("`{field}` cannot be {value:?}"),

@@ -262,8 +262,7 @@ impl SingleDrop {
     /// The same drop of a box of this thickness, its center of mass midway and its axes those of the sides.
     pub(crate) fn block_drop(&self, across: &Across, thickness_m: f64) -> Result<BlockDrop, Error> {
         let ([a, b], width) = (self.body.arms_m(), &across.width);
-        let (kx, ky, kz) = (self.body.gyration_m(), width.gyration_m, thickness_m / 12_f64.sqrt());
-        let radii = [libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)];
+        let radii = self.radii_of_box(width, &Posture { upward: [0.0, 0.0, 1.0], thickness_m });
         let block = Block::new([a + b, width.m(), thickness_m], [0.5 * (a - b), width.center_m(), 0.0], radii)?;
         let (speed, gravity) = (self.speed_m_s, self.gravity_m_s2);
         Ok(match &across.posture {
@@ -289,7 +288,8 @@ impl SingleDrop {
         let corners = [[-a, -front], [b, -front], [b, back], [-a, back]];
         (corners.map(of).to_vec(), of([x + 0.5 * (b - a), y - width.center_m()]))
     }
-    /// The same of a box that lies on the face across the axis of the part; of any axis, of the one that says most.
+    /// The same of a box, as bounds that hold however it lies: impulses at a corner q do no more than
+    /// `√(1 + q²) √(1 + p²)` to the place along the axis of the part, with p the lever arm of that axis over the radii of gyration.
     fn in_radii_of_box(
         &self,
         width: &Width,
@@ -297,33 +297,34 @@ impl SingleDrop {
         at_m: [f64; 2],
         inside: Inside,
     ) -> (Vec<[f64; 2]>, [f64; 2]) {
-        let ([a, b], [front, back], half) = (self.body.arms_m(), width.edges_m, 0.5 * posture.thickness_m);
-        let ([x, y], kz) = (self.about_center(at_m), posture.thickness_m / 12_f64.sqrt());
-        let (sides, place) = ([[-a, b], [-front, back], [-half, half]], [x, y, inside.height_m]);
-        let k = [self.body.gyration_m(), width.gyration_m, kz];
-        let of = |axis: usize| {
-            let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
-            // The mass along one side and that along the axis turn about the other side.
-            let radii = [i, j].map(|side| libm::hypot(k[side], k[axis]));
-            let corner = |p: f64, q: f64| [p / radii[0], q / radii[1]];
-            let corners = sides[i].iter().flat_map(|&p| sides[j].iter().map(move |&q| corner(p, q))).collect();
-            (corners, corner(place[i], place[j]))
-        };
-        let far = |(_, [p, q]): &(Vec<[f64; 2]>, [f64; 2])| p * p + q * q;
-        match inside.axis {
-            Axis::Any => {
-                let all = (0..3).map(of).max_by(|a, b| far(a).total_cmp(&far(b)));
-                all.unwrap_or_else(|| unreachable!("there are three axes"))
+        let ([a, b], [front, back]) = (self.body.arms_m(), width.edges_m);
+        let ([x, y], least) = (self.about_center(at_m), self.least_gyration_m());
+        let norm = |[x, y, z]: [f64; 3]| libm::hypot(libm::hypot(x, y), z);
+        let far = norm([a.max(b), front.max(back), 0.5 * posture.thickness_m]) / least;
+        let (place, radii) = ([x, y, inside.height_m], self.radii_of_box(width, posture));
+        let here = match inside.axis {
+            Axis::Any => [norm(place) / least, 0.0],
+            axis => {
+                let [i, j] = [1, 2].map(|next| (axis as usize + next) % 3);
+                // What lies along one side is turned about the other.
+                [place[i] / radii[j], place[j] / radii[i]]
             }
-            axis => of(axis as usize),
-        }
+        };
+        (vec![[far, 0.0]; 4], here)
+    }
+    /// Radii of gyration of a box about its axes.
+    fn radii_of_box(&self, width: &Width, posture: &Posture) -> [f64; 3] {
+        let (kx, ky, kz) = (self.body.gyration_m(), width.gyration_m, posture.thickness_m / 12_f64.sqrt());
+        [libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)]
     }
     /// The smallest radius of gyration.
     pub(crate) fn least_gyration_m(&self) -> f64 {
         let along = self.body.gyration_m();
-        let Some(Across { width, posture, .. }) = self.across else { return along };
-        let thin = posture.map_or(0.0, |posture| posture.thickness_m / 12_f64.sqrt());
-        libm::hypot(width.least_gyration_m(along), thin)
+        let Some(Across { width, posture, .. }) = &self.across else { return along };
+        match posture {
+            Some(posture) => self.radii_of_box(width, posture).into_iter().fold(f64::INFINITY, f64::min),
+            None => width.least_gyration_m(along),
+        }
     }
     /// What a place feels of a motion of this drop.
     pub(crate) fn felt(&self, motion: &Course, spot: &Spot) -> clatter::Excitation {

@@ -54,6 +54,7 @@ mod assess;
 mod attitude;
 mod bound;
 mod check;
+mod component;
 mod course;
 mod data_fault;
 pub mod design;
@@ -85,16 +86,14 @@ mod visible;
 pub use attitude::Attitude;
 pub use clatter_flight::ContactLaw;
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
+pub use component::{Axis, Component, Damping, Inside, Limits, Mount};
 pub use data_fault::DataFault;
 pub use drop::{Across, Model, Posture, SingleDrop};
 pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use portrait::{Changes, CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
-pub use product::{
-    Axis, Component, Damping, Drop, Fall, First, Inside, Landing, Limits, Mount, Product, ProductFile, RecordFile,
-    Width,
-};
+pub use product::{Drop, Fall, First, Landing, Product, ProductFile, RecordFile, Width};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
 pub use reason::{Doubt, Note, Reason};

@@ -23,6 +23,8 @@ pub enum Doubt {
     },
     /// The search was stopped.
     Stopped,
+    /// What real tilt adds to a plate is not known: the box beside it is not followed, for this.
+    NoTilt(Error),
     /// Nothing tells how far other drops may exceed the worst one found.
     NoBound,
     /// Other drops of the ranges may exceed the limit.
@@ -61,6 +63,7 @@ impl Display for Doubt {
                 write!(f, "{count} of {drops} drops that were tried are not answered: {error}")
             }
             Self::Stopped => write!(f, "{} its end", Error::Stopped),
+            Self::NoTilt(error) => write!(f, "what real tilt adds is not known: {error}"),
             Self::NoBound => f.write_str("how far other drops may exceed the worst one found is not known"),
             Self::Others { found, most } => write!(
                 f,
@@ -113,8 +116,6 @@ pub enum Note {
         /// Its thickness.
         thickness_m: f64,
     },
-    /// What real tilt adds is not known: the box is not followed, for this.
-    NoTilt(Error),
     /// The model that was asked for is not the one with the most physics.
     Model {
         /// The one that was asked for.
@@ -150,7 +151,6 @@ impl Display for Note {
                 (1e6 * thickness_m).round() / 1e3,
                 percent(*off)
             ),
-            Self::NoTilt(error) => write!(f, "what real tilt adds is not known: {error}"),
             Self::Model { asked, fullest, off } => {
                 write!(f, "{} was asked for; {} says {:+} % in this drop", asked.name(), fullest.name(), percent(*off))
             }

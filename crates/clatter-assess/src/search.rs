@@ -14,6 +14,7 @@ mod edges;
 mod found;
 mod grid;
 mod ranges;
+mod settle;
 
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,13 +23,13 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
-use crate::engine::{Answer, Part, PlaceHistory, Spot, of_followed, once};
+use crate::engine::{Part, PlaceHistory, Spot, once};
 use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
 use climb::{BOX_REACH, BOX_TRIES, CLIMBS, EDGES_REACH, EDGES_TRIES, FACE_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
-use ranges::{DAMPING, FREQUENCY, RESTITUTION};
+use ranges::{DAMPING, FREQUENCY};
 pub(crate) use ranges::{Place, Ranges};
 
 /// Is told how much of how much is done, from any thread, and says whether to go on.
@@ -85,10 +86,6 @@ const SAMPLE: u32 = 128;
 const CLIMB: usize = 72;
 /// Drops that are followed side by side, knowing the worst of those before.
 const WAVE: usize = 64;
-/// Worst cases that are answered to the tolerance, early ones and late ones.
-const TRIES: usize = 8;
-/// So many times the space between two places of an extended part is halved about the worst.
-const NARROWED: usize = 7;
 
 impl Ranges<'_> {
     /// The worst of each task; tasks of one component follow one another. They are searched in the drops in which `all_tasks` are,
@@ -174,9 +171,10 @@ impl Ranges<'_> {
                 climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
             reached.extend_from_slice(&found[n]);
             let in_time = work.go_on(0).is_ok();
+            let near = if self.product.width.is_some() { starts(&mut reached) } else { Vec::new() };
             let mut worst =
                 if in_time { self.settle(&tasks[n], reached) } else { self.settle_at_once(&tasks[n], reached) };
-            (worst.drops, worst.later) = (drops, later[n]);
+            (worst.drops, worst.later, worst.near) = (drops, later[n], near);
             if let Some((count, error)) = &refused {
                 worst.refuse(*count, error);
             }
@@ -261,6 +259,9 @@ impl Ranges<'_> {
                     let later = felt.later_most(&task.limit, &parts, reached(asked));
                     if later > 0.0 {
                         of_drop.later.push((number, later));
+                    }
+                    // A box is followed for its first landing alone.
+                    if later > 0.0 && self.posture.is_none() {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
                         let longer = felt.longer(rebounded)?;
                         let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());
@@ -366,98 +367,6 @@ impl Ranges<'_> {
         }
         if free[DAMPING] {
             ask(&place.with(FREQUENCY, end).with(DAMPING, 1.0))?;
-        }
-        Ok(worst)
-    }
-
-    /// The worst of what was reached, answered to the tolerance. What comes after rebounds is so sensitive that it may not come up
-    /// again; so the next are tried until none may be worse.
-    fn settle(&self, task: &Task<'_>, mut reached: Vec<Candidate>) -> Worst {
-        reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
-        let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0, stopped: false };
-        // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
-        let mut bounces = f64::INFINITY;
-        for late in [false, true] {
-            let such = reached.iter().filter(|found| found.late == late);
-            let mut tries = 0;
-            for found in such {
-                let most = worst.asked.map_or(0.0, |asked: Candidate| asked.answer.utilization());
-                if found.answer.utilization() < most || tries == TRIES {
-                    break;
-                }
-                if found.place.shares[RESTITUTION] >= bounces {
-                    continue;
-                }
-                tries += 1;
-                match self.exactly(task, found) {
-                    Ok(exact) if exact.answer.utilization() > most || worst.asked.is_none() => {
-                        worst.asked = Some(exact);
-                    }
-                    Ok(_) => {}
-                    Err(error) => {
-                        if matches!(error, Error::Unfinished) && self.free(task)[RESTITUTION] {
-                            bounces = found.place.shares[RESTITUTION];
-                        }
-                        worst.refuse(1, &error);
-                    }
-                }
-            }
-        }
-        // The one that counts, with all that it may be off by.
-        if let Some(asked) = &mut worst.asked {
-            let part = asked.part_there(task.component);
-            let drop = self.single(&asked.place);
-            asked.answer =
-                asked.answer.with_what_strikes_multiply(&drop, &part, &task.limit, self.model, self.tolerance);
-        }
-        worst
-    }
-
-    /// The worst of what was reached as it was found, where the time is over: to the tolerance if it decides, and nobody knows how far
-    /// off.
-    fn settle_at_once(&self, task: &Task<'_>, reached: Vec<Candidate>) -> Worst {
-        let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0, stopped: true };
-        let found = reached.into_iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()));
-        let exact =
-            |found: Candidate| if found.answer.utilization() > 1.0 { self.exactly(task, &found) } else { Ok(found) };
-        match found.map(exact) {
-            Some(Ok(asked)) => {
-                let answer = Answer { off_by: f64::INFINITY, ..asked.answer };
-                worst.asked = Some(Candidate { answer, ..asked });
-            }
-            Some(Err(error)) => worst.refuse(1, &error),
-            None => {}
-        }
-        worst
-    }
-
-    /// What a drop that was found asks to the tolerance, of the part that was found.
-    fn exactly(&self, task: &Task<'_>, found: &Candidate) -> Result<Candidate, Error> {
-        let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
-        let at = |at_m: [f64; 2]| {
-            let there = Candidate { place: Place { at_m, ..found.place }, ..*found };
-            let answer = of_followed(&followed, &there.part_there(task.component), &task.limit)?;
-            Ok::<_, Error>(Candidate { answer, ..there })
-        };
-        let mut worst = at(found.place.at_m)?;
-        if !task.limit.kind.is_largest_between() {
-            return Ok(worst);
-        }
-        // Where two shocks become one lies anywhere between two places.
-        let (reaches, between) = (task.component.reaches_m(), f64::from(task.component.between()));
-        let mut steps = reaches.map(|[lo, hi]| 0.5 * (hi - lo) / (between + 1.0));
-        for _ in 0..NARROWED {
-            for axis in (0..2).filter(|axis| reaches[*axis][0] < reaches[*axis][1]) {
-                for by in [-steps[axis], steps[axis]] {
-                    let mut next = worst.place.at_m;
-                    next[axis] = (next[axis] + by).clamp(reaches[axis][0], reaches[axis][1]);
-                    let next = at(next)?;
-                    if next.exceeds(&worst) {
-                        worst = next;
-                    }
-                }
-            }
-            steps = steps.map(|step| 0.5 * step);
         }
         Ok(worst)
     }

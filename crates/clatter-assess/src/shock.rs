@@ -24,6 +24,9 @@ pub(crate) struct Shock {
     pub(crate) time_s: f64,
 }
 
+/// About one axis a shock may reach further than that of the magnitude: axes are looked at from this share on.
+const NEAR_AT_ALL: f64 = 0.7;
+
 /// Share of its peak down to which a shock reaches, whatever the acceleration does in between.
 const TENTH: f64 = 0.1;
 
@@ -36,6 +39,18 @@ impl Followed {
         }
         let s = self.drop.relative(position_m);
         at_instants(motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
+    }
+
+    /// The largest of the turning of the product, where it passes `above`: of a box, whose axes are many, they are looked at one by one
+    /// only where the magnitude comes near that.
+    pub(crate) fn largest_turn(&self, above: f64) -> Option<Shock> {
+        let passes = |shock: &Shock| shock.change > above;
+        if let Course::Block(motion) = &self.motion
+            && largest(&shocks(&motion.turned_at_all(), 0.0)).change < NEAR_AT_ALL * above
+        {
+            return None;
+        }
+        Some(largest(&self.turns())).filter(passes)
     }
 
     /// The same of the turning of the product; of a plate about the axis of the largest.

@@ -1,5 +1,6 @@
 //! What `scatter`, the ladder of models and `design` say of plates.
 
+use crate::plates::file;
 use clatter_assess::design::{Bounds, Lever, Outcome};
 use clatter_assess::ladder::{Ladder, Rung};
 use clatter_assess::scatter::{Column, Input, Progress, Sampler, Settings};
@@ -30,10 +31,6 @@ velocity_change_limit = "5.5 m/s"
 acceleration_limit = "1400 gn"
 "#;
 
-fn file(text: &str) -> ProductFile {
-    ProductFile::read(text, "plate.toml").unwrap_or_else(|faults| panic!("{faults}"))
-}
-
 fn settings(samples: u64) -> Settings {
     Settings { samples, seed: 1, confidence: 0.95, merge_s: 1e-3 }
 }
@@ -51,20 +48,7 @@ fn values(file: &ProductFile, samples: u64) -> (Vec<Column>, Vec<Vec<f64>>) {
 
 /// A drop of the terminal, and what it asks of its board, by the engine of one drop alone.
 fn asked(file: &ProductFile, direction_deg: f64, tilt_deg: f64, across_m: f64) -> f64 {
-    let across =
-        Across { width: file.product.width.unwrap(), direction_rad: direction_deg.to_radians(), posture: None };
-    let drop = SingleDrop {
-        body: file.product.body,
-        across: Some(across),
-        first: clatter::End::A,
-        tilt_rad: tilt_deg.to_radians(),
-        flat: false,
-        speed_m_s: 3.0,
-        restitution: 0.4,
-        gravity_m_s2: file.drop.gravity_m_s2,
-        contact_time_s: Some(4e-4),
-        contact_law: file.product.law(),
-    };
+    let (drop, _) = one(file, tilt_deg, direction_deg);
     let board = &file.components[0];
     let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
     let part = |[x, y]: [f64; 2]| {

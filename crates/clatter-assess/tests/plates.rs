@@ -33,7 +33,7 @@ damping_ratio = 0.1
 rattle_space = "9 mm"
 "#;
 
-fn file(text: &str) -> ProductFile {
+pub(crate) fn file(text: &str) -> ProductFile {
     ProductFile::read(text, "plate.toml").unwrap_or_else(|faults| panic!("{faults}"))
 }
 

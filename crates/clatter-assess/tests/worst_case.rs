@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use crate::random::Random;
 use clatter::End;
 use clatter_assess::{
-    Across, Component, Limit, LimitAssessment, Model, Mount, Part, ProductFile, SingleDrop, Verdict, answer,
+    Across, Component, Limit, LimitAssessment, Model, Mount, Part, Posture, ProductFile, SingleDrop, Verdict, answer,
 };
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
@@ -114,6 +114,9 @@ fn product(r: &mut Random, is_plate: bool) -> ProductFile {
     ProductFile::read(&text, "random").unwrap_or_else(|faults| panic!("{faults}\n{text}"))
 }
 
+/// Of the box at real tilt, over its length.
+const THICKNESS: f64 = 0.05;
+
 /// Shares of the ranges of tilt, speed, restitution, contact time, frequency, position and direction, and the end that is first.
 type Shares = ([f64; 7], f64);
 
@@ -132,14 +135,21 @@ fn shares(r: &mut Random, near: Option<&Shares>) -> Shares {
 }
 
 /// What a single drop asks of a limit, as a utilization; those that no model takes ask nothing.
-fn single(file: &ProductFile, component: &Component, limit: &Limit, (shares, first): &Shares) -> (f64, String) {
+fn single(
+    file: &ProductFile,
+    component: &Component,
+    limit: &Limit,
+    at_real_tilt: bool,
+    (shares, first): &Shares,
+) -> (f64, String) {
     let ends = file.drop.first_ends();
     let [slow, fast] = file.drop.speeds_m_s();
     let [from, to] = file.drop.direction_rad.map_or([0.0, TAU], |direction| [direction.lo(), direction.hi()]);
     let direction_rad = from + shares[6] * (to - from);
+    let level = Posture { upward: [0.0, 0.0, 1.0], thickness_m: THICKNESS * file.product.body.length_m() };
     let drop = SingleDrop {
         body: file.product.body,
-        across: file.product.width.map(|width| Across { width, direction_rad, posture: None }),
+        across: file.product.width.map(|width| Across { width, direction_rad, posture: at_real_tilt.then_some(level) }),
         first: if ends.len() > 1 && *first < 0.5 { End::B } else { ends[0] },
         tilt_rad: file.drop.tilt_rad.at(shares[0]),
         flat: false,
@@ -175,7 +185,7 @@ struct Claimed {
     by: String,
 }
 
-fn told(file: &ProductFile, r: &mut Random, singles: usize) -> (f64, Vec<Claimed>) {
+fn told(file: &ProductFile, r: &mut Random, singles: usize, at_real_tilt: bool) -> (f64, Vec<Claimed>) {
     let begun = std::time::Instant::now();
     let assessment = file.assess().expect("an assessment");
     let took_s = begun.elapsed().as_secs_f64();
@@ -184,7 +194,7 @@ fn told(file: &ProductFile, r: &mut Random, singles: usize) -> (f64, Vec<Claimed
         for (limit, assessed) in Limit::of(component).into_iter().zip(assessed.limits) {
             let list: Vec<Shares> = (0..singles).map(|_| shares(r, None)).collect();
             let worst = |list: &[Shares]| {
-                let all = list.par_iter().map(|at| (single(file, component, &limit, at), *at));
+                let all = list.par_iter().map(|at| (single(file, component, &limit, at_real_tilt, at), *at));
                 all.reduce_with(|a, b| if b.0.0 > a.0.0 { b } else { a }).expect("single drops")
             };
             let far = worst(&list);
@@ -206,24 +216,30 @@ fn setting(name: &str, default: usize) -> usize {
 /// may do more. Few limits are undecided.
 #[test]
 fn no_single_drop_is_worse() {
-    none_is_worse(bar, 10, 10);
+    none_is_worse(bar, 10, 10, false);
 }
 
 #[test]
 fn no_single_drop_of_a_plate_is_worse() {
     // What rebounds may ask by their energy is more: it turns about two axes.
-    none_is_worse(plate, 5, 4);
+    none_is_worse(plate, 5, 4, false);
+}
+
+/// The same at real tilt: of a box of small thickness with full rotation, by another integration.
+#[test]
+fn no_single_drop_of_a_box_at_real_tilt_is_worse() {
+    none_is_worse(plate, 5, 4, true);
 }
 
 /// Of so many limits at most one is undecided.
-fn none_is_worse(product: fn(&mut Random) -> ProductFile, products: usize, one_of: usize) {
+fn none_is_worse(product: fn(&mut Random) -> ProductFile, products: usize, one_of: usize, at_real_tilt: bool) {
     let (products, singles, seed) = (setting("PRODUCTS", products), setting("SINGLES", 400), setting("SEED", 1));
     let (mut limits, mut passed, mut passed_more, mut undecided) = (0, 0, 0, 0);
     let (mut slowest, mut all) = (0.0_f64, 0.0);
     for n in 0..products {
         let mut r = Random(((seed as u64) << 32) + n as u64);
         let file = product(&mut r);
-        let (took_s, told) = told(&file, &mut r, singles);
+        let (took_s, told) = told(&file, &mut r, singles, at_real_tilt);
         (slowest, all) = (slowest.max(took_s), all + took_s);
         for Claimed { limit, over, by } in told {
             limits += 1;
@@ -247,6 +263,7 @@ fn none_is_worse(product: fn(&mut Random) -> ProductFile, products: usize, one_o
         1e3 * slowest
     );
     assert!(passed_more == 0, "{passed_more} of {limits} passed by more than was told");
-    assert!(passed * 20 <= limits, "{passed} of {limits} passed by more than 2 %");
+    // What real tilt adds is told, and may be more.
+    assert!(at_real_tilt || passed * 20 <= limits, "{passed} of {limits} passed by more than 2 %");
     assert!(undecided * one_of <= limits, "{undecided} of {limits} undecided");
 }

@@ -2,20 +2,18 @@
 
 mod changes;
 mod inputs;
+mod landings;
 mod measured;
 mod part;
 mod plate;
 
 use clatter::End;
-use clatter_assess::{
-    Assessment, Component, ComponentAssessment, LandingAssessment, LimitAssessment, LimitKind, Portrait, ProductFile,
-    Spread, Verdict,
-};
-use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares, three};
+use clatter_assess::{Assessment, Component, ComponentAssessment, LimitAssessment, LimitKind, Portrait, Verdict};
+use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
 use serde_json::{Value, json};
 
 use crate::Pages;
-use crate::words::{self, customary, hundredths, name, percent, sure_name};
+use crate::words::{customary, hundredths, name, percent, sure_name};
 
 /// What the models leave out, in plain words.
 const NOT_COVERED: [[&str; 2]; 10] = [
@@ -57,50 +55,6 @@ const NOT_COVERED: [[&str; 2]; 10] = [
     ],
     ["Damage by repetition", "Each limit is on the worst moment of one drop. Fatigue over many drops is not counted."],
 ];
-
-/// What the pages of a box leave out.
-const NOT_COVERED_OF_BOX: [[&str; 2]; 7] = [
-    [
-        "Landing again",
-        "A box is followed for the clatter of its first landing. How it comes down again is sensitive to every input: what it may do then is bounded by the energy that is left, and where that is too much a limit is undecided.",
-    ],
-    [
-        "Drops between",
-        "Fewer drops are followed than of a bar or a plate: the search may miss a tenth of what is asked.",
-    ],
-    [
-        "Corners and edges",
-        "They are sharp: no case is. Mass is spread evenly over the thickness, about axes along the sides.",
-    ],
-    [
-        "The ground",
-        "It is hard, level and without friction, and the same for all corners: nothing holds a corner or lets it slide. A corner that slides turns the box otherwise.",
-    ],
-    ["The case", "It is rigid: a case that bends rings on its own, and may take part of a blow or add to it."],
-    ["Parts", "They are light and linear. A part that hits its stop is undecided."],
-    ["Ranges", "Values are those of the product file. What is not measured is assumed."],
-];
-
-/// Of a box, a row for each drop: what it lands on, how far off it may be, verdict, and the limit that it leaves least room.
-fn landings(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
-    let row = |landing: &LandingAssessment| {
-        let tightest = landing.tightest()?;
-        let component = file.components.iter().find(|component| component.name == tightest.component)?;
-        let unit = tightest.limit.unit();
-        let of = |value: Option<f64>| value.map_or("–".to_owned(), |value| words::shown(unit, value));
-        Some(json!([
-            landing.landing.to_string(),
-            format!("{}°", three(landing.tolerance_deg)),
-            name(&tightest.component),
-            tightest.limit.words(),
-            of(component.limits.get(tightest.limit).map(Spread::lo)),
-            of(tightest.demand),
-            tightest.margin.map_or("?".to_owned(), percent),
-            landing.verdict.name(),
-        ]))
-    };
-    assessment.landings.iter().filter_map(row).collect()
-}
 
 /// Of a bar or of a plate.
 fn not_covered(is_plate: bool) -> [[&'static str; 2]; 10] {
@@ -181,9 +135,9 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "drawings": drawings.collect::<Vec<_>>(),
         "curves": shown.len(),
         "plate": of_plate.is_some(),
-        "landings": landings(file, assessment),
+        "landings": landings::rows(file, assessment),
         "landings-of": file.landings.first().and_then(|landing| landing.source),
-        "limits-of-the-model": if is_box { NOT_COVERED_OF_BOX.to_vec() } else { not_covered(of_plate.is_some()).to_vec() },
+        "limits-of-the-model": if is_box { landings::NOT_COVERED.to_vec() } else { not_covered(of_plate.is_some()).to_vec() },
     });
     files.push(("assessment.json".into(), data.to_string()));
     Ok(files)
@@ -376,7 +330,7 @@ mod tests {
         let text = include_str!("../../../reports/examples/laptop.toml");
         let found = ProductFile::read(text, "laptop.toml").unwrap().assess().unwrap();
         let shares = found.components.iter().flat_map(|c| &c.limits).map(|l| l.demand.unwrap() / l.allowed);
-        let share = three(100.0 * shares.fold(0.0, f64::max));
+        let share = clatter_figures::three(100.0 * shares.fold(0.0, f64::max));
         let pdf = pages(text, &dir.path().join("report.pdf"));
         let first: String = said(&pdf, 1).split_whitespace().collect();
         assert!(first.contains(&format!("therattlespaceofdiskdrive:theworstdropasksfor{share}%ofit")), "{first}");

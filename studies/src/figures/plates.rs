@@ -6,7 +6,7 @@ use clatter_figures::draw::{
     Anchor, Axes, Axis, BLUES, GRAY, GUIDE, INK, Ink, LABEL, Label, Paper, RUST, SAND, SMALL, width,
 };
 
-use crate::plate::bars::{Beside, STRIKES};
+use crate::plate::bars::{BarsAndPlate, STRIKES};
 use crate::plate::directions::{Counts, Interval, letters};
 use crate::plate::ties::{GAP, Ties};
 
@@ -33,12 +33,12 @@ fn key(paper: &mut Paper, lines: &[(Ink<'_>, &str)], at: &[f64], note: &str) {
 const HEIGHT: f64 = 184.0;
 
 /// Largest shocks over e: the corners and the middle of a uniform plate, the ends and the middle of its bar.
-pub(crate) fn shocks(plates: &[Beside]) -> Result<String, FigureError> {
+pub(crate) fn shocks(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
     let mut paper = Paper::new(226.0, HEIGHT);
     let top = plates.iter().fold(0.0_f64, |most, plate| most.max(plate.corner));
     let x = Axis::linear(0.0, 1.0, "coefficient of restitution *e*");
     let axes = frame(x, Axis::linear(0.0, 1.04 * top, "largest shock, in *v*_0")).on(&mut paper, 22.0);
-    let pairs: [fn(&Beside) -> [f64; 2]; 2] =
+    let pairs: [fn(&BarsAndPlate) -> [f64; 2]; 2] =
         [|plate| [plate.corner, plate.bar[0]], |plate| [plate.middle, plate.bar[1]]];
     for (of, ink) in pairs.into_iter().zip(PLATE) {
         axes.curve(&mut paper, plates.iter().map(|plate| (plate.e, of(plate)[1])), dashed(ink));
@@ -55,7 +55,7 @@ pub(crate) fn shocks(plates: &[Beside]) -> Result<String, FigureError> {
 }
 
 /// Safe share over e for each threshold: of the plan of a uniform plate, of the length of its bar.
-pub(crate) fn zones(plates: &[Beside]) -> Result<String, FigureError> {
+pub(crate) fn zones(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
     let mut paper = Paper::new(226.0, HEIGHT);
     let x = Axis::linear(0.0, 1.0, "coefficient of restitution *e*");
     let axes = frame(x, Axis::linear(0.0, 1.0, "share that is safe")).on(&mut paper, 22.0);
@@ -70,7 +70,7 @@ pub(crate) fn zones(plates: &[Beside]) -> Result<String, FigureError> {
 }
 
 /// Share within v0/2 over α = β for some e: of the plan, of the length of the bar.
-pub(crate) fn inertia(curves: &[Vec<Beside>; 3]) -> Result<String, FigureError> {
+pub(crate) fn inertia(curves: &[Vec<BarsAndPlate>; 3]) -> Result<String, FigureError> {
     let mut paper = Paper::new(226.0, HEIGHT);
     let top = curves.iter().flatten().fold(0.0_f64, |most, plate| most.max(plate.length[0]));
     let axes = frame(Axis::linear(1.0, 10.0, "*α* = *β*"), Axis::linear(0.0, 1.05 * top, "share within *v*_0/2"));
@@ -95,7 +95,7 @@ fn bands(levels: &[f64]) -> Vec<String> {
 }
 
 /// The largest corner shock over that of the bar's ends, over α and β; the plates row by row, α fastest.
-pub(crate) fn plane(plates: &[Beside]) -> Result<String, FigureError> {
+pub(crate) fn plane(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
     const LEVELS: [f64; 6] = [1.05, 1.1, 1.15, 1.2, 1.25, 1.3];
     const COLORS: [&str; 7] = [SAND, BLUES[1], BLUES[2], BLUES[4], BLUES[5], BLUES[6], BLUES[8]];
     let mut paper = Paper::new(226.0, HEIGHT);
@@ -107,7 +107,7 @@ pub(crate) fn plane(plates: &[Beside]) -> Result<String, FigureError> {
     };
     let axes = axes.without_grid(&mut paper, 22.0);
     // Rows of one β, in them runs of one color; each cell reaches half way to its neighbors.
-    let band = |plate: &Beside| LEVELS.iter().filter(|level| plate.corner / plate.bar[0] >= **level).count();
+    let band = |plate: &BarsAndPlate| LEVELS.iter().filter(|level| plate.corner / plate.bar[0] >= **level).count();
     let half = plates.first().zip(plates.get(1)).map_or(0.0, |(a, b)| 0.5 * (b.inertia[0] - a.inertia[0]));
     for run in plates.chunk_by(|a, b| a.inertia[1].to_bits() == b.inertia[1].to_bits() && band(a) == band(b)) {
         let (first, last) = (&run[0], &run[run.len() - 1]);

@@ -11,7 +11,7 @@ pub(crate) const THRESHOLDS: [f64; 3] = [0.5, 1.0, 2.0];
 
 /// What a centered plate does over all directions of tilt, and what bars say of it. Shocks in v0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Beside {
+pub(crate) struct BarsAndPlate {
     /// α = A²/k_x² and β = B²/k_y².
     pub(crate) inertia: [f64; 2],
     /// Restitution.
@@ -32,7 +32,7 @@ pub(crate) struct Beside {
     pub(crate) length: [f64; 3],
 }
 
-impl Beside {
+impl BarsAndPlate {
     /// The plate of these α and β.
     ///
     /// # Errors
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn a_uniform_plate_has_its_closed_forms() {
         for e in [0.2, 0.3, 0.5, 0.8] {
-            let plate = Beside::new([3.0; 2], e).unwrap();
+            let plate = BarsAndPlate::new([3.0; 2], e).unwrap();
             let corner = (1.0 + e) * (1.0 + 5.0 / 7.0 * (1.0 + e));
             assert!((plate.corner - corner).abs() < 1e-13 && plate.later <= plate.corner, "{plate:?}");
             assert!((plate.middle - corner / 7.0).abs() < 1e-13, "{plate:?}");
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_plate_without_width_is_the_bar() {
-        let plate = Beside::new([3.0, 1e-12], 0.3).unwrap();
+        let plate = BarsAndPlate::new([3.0, 1e-12], 0.3).unwrap();
         assert!((plate.corner - plate.bar[0]).abs() < 1e-9 && (plate.middle - plate.bar[1]).abs() < 1e-9, "{plate:?}");
         assert!(plate.plan.iter().zip(plate.length).all(|(plan, length)| (plan - length).abs() < 1e-9), "{plate:?}");
     }

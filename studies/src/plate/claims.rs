@@ -2,7 +2,7 @@
 
 use clatter::{Bar, Corner, Extent, Plate, PlateCount, PlateStart, Start};
 
-use super::bars::{Beside, STRIKES};
+use super::bars::{BarsAndPlate, STRIKES};
 use super::directions::{is_rod, share};
 use super::{E, over_e, plane};
 use crate::Error;
@@ -29,7 +29,7 @@ pub fn plate_claims() -> Result<Vec<Claim>, Error> {
 }
 
 /// The same with uniform plates over e, and plates over α and β at e = 0.3.
-pub(crate) fn claims(over_e: &[Beside], plane: &[Beside]) -> Result<Vec<Claim>, Error> {
+pub(crate) fn claims(over_e: &[BarsAndPlate], plane: &[BarsAndPlate]) -> Result<Vec<Claim>, Error> {
     Ok(vec![
         sequence(over_e)?,
         rods()?,
@@ -51,7 +51,7 @@ const UNIFORM: [f64; 2] = [3.0; 2];
 /// Mass near the long axis: β > 1 + α.
 const SLENDER: [f64; 2] = [3.0, 8.0];
 
-fn sequence(over_e: &[Beside]) -> Result<Claim, Error> {
+fn sequence(over_e: &[BarsAndPlate]) -> Result<Claim, Error> {
     let mut fewest = usize::MAX;
     for plate in over_e {
         let atlas = Plate::uniform(plate.e)?.atlas(STRIKES)?;
@@ -154,10 +154,10 @@ fn without_zone() -> [f64; 2] {
     [turn(0.2, 0.9, |e| bar(e) == Ok(Extent::None)), turn(0.2, 0.9, |e| plate(e) == Ok(Extent::None))]
 }
 
-fn insight(over_e: &[Beside]) -> Result<Claim, Error> {
+fn insight(over_e: &[BarsAndPlate]) -> Result<Claim, Error> {
     let against = over_e.windows(2).filter(|w| w[1].corner < w[0].corner || w[1].middle < w[0].middle).count();
     let narrower = over_e.windows(2).filter(|w| (0..3).any(|k| w[1].plan[k] > w[0].plan[k])).count();
-    let plate = Beside::new(UNIFORM, E)?;
+    let plate = BarsAndPlate::new(UNIFORM, E)?;
     let (corner, middle) = (plate.corner / plate.bar[0], plate.middle / plate.bar[1]);
     let [bar, own] = without_zone();
     #[expect(clippy::cast_precision_loss, reason = "a few")]
@@ -178,8 +178,8 @@ fn insight(over_e: &[Beside]) -> Result<Claim, Error> {
     })
 }
 
-fn chore(over_e: &[Beside], plane: &[Beside]) -> Result<Claim, Error> {
-    let off = |plate: &Beside| plate.corner / plate.diagonal - 1.0;
+fn chore(over_e: &[BarsAndPlate], plane: &[BarsAndPlate]) -> Result<Claim, Error> {
+    let off = |plate: &BarsAndPlate| plate.corner / plate.diagonal - 1.0;
     let uniform = largest(over_e.iter().map(|plate| off(plate).abs()));
     let others = plane.iter().map(off);
     let (least, most) = (smallest(others.clone()), largest(others));
@@ -201,10 +201,10 @@ fn chore(over_e: &[Beside], plane: &[Beside]) -> Result<Claim, Error> {
     })
 }
 
-fn zone(over_e: &[Beside]) -> Result<Claim, Error> {
-    let usual = Beside::new(UNIFORM, E)?.plan[0];
-    let dead = Beside::new(UNIFORM, 0.1)?.plan[0];
-    let both = Beside::new([10.0; 2], 0.1)?.plan[0];
+fn zone(over_e: &[BarsAndPlate]) -> Result<Claim, Error> {
+    let usual = BarsAndPlate::new(UNIFORM, E)?.plan[0];
+    let dead = BarsAndPlate::new(UNIFORM, 0.1)?.plan[0];
+    let both = BarsAndPlate::new([10.0; 2], 0.1)?.plan[0];
     let widest = largest(over_e.iter().map(|plate| plate.plan[0]));
     Ok(Claim {
         place: "Abstract",

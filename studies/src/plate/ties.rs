@@ -16,13 +16,13 @@ const TOLERANCE: f64 = 1e-3;
 
 /// A drop of a uniform plate onto contacts that take time: the heights of b and d together over what it falls in one contact time,
 /// and the direction r of its tilt.
-fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Felt, Error> {
+fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Shocks, Error> {
     let plate = clatter_flight::Plate::new([1.0; 4], [(1.0_f64 / 3.0).sqrt(); 2])?;
     let height = gap * CONTACT_S;
     let contact = Contact::new(law, E, CONTACT_S)?;
     let scene = PlateScene::new(plate, 1.0, [height * (1.0 - r), height * r], 0.0)?;
     let drop = SingleDrop::of_plate(&scene, &contact)?;
-    let mut felt = Felt { shocks: [0.0; 4], peak: 0.0 };
+    let mut felt = Shocks { shocks: [0.0; 4], peak: 0.0 };
     for (shock, [x, across_m]) in felt.shocks.iter_mut().zip(plate.corners_m()) {
         let part = Part { across_m, ..Part::new(x, None) };
         let asked = |kind| answer(&drop, &part, &Limit::new(kind, 1.0), Model::Compliant, TOLERANCE);
@@ -33,14 +33,14 @@ fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Felt, Error> {
 }
 
 /// What the corners of a plate feel.
-struct Felt {
+struct Shocks {
     /// Largest velocity shock of each, in v0.
     shocks: [f64; 4],
     /// Largest acceleration of any, as the shock of a lone contact that has it.
     peak: f64,
 }
 
-impl Felt {
+impl Shocks {
     fn largest(&self) -> f64 {
         self.shocks.into_iter().fold(0.0, f64::max)
     }

@@ -18,7 +18,7 @@ use clatter_flight::{ContactLaw, Scene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
-use super::limits::{Asked, unlimited, value};
+use super::limits::{OneDrop, unlimited, value};
 use super::{Equivalent, Factors, LargestValues, Limit, Peaks, Position, swings};
 use crate::{Error, Json, letter, on_body};
 
@@ -124,7 +124,7 @@ pub struct Answer {
     /// Where contacts take time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_law: Option<&'static str>,
-    /// Asked for.
+    /// OneDrop for.
     pub tolerance: Json,
     /// The place that is answered.
     pub at: Json,
@@ -166,7 +166,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
     let (body, side) = (scene.body(), if first == End::A { 1.0 } else { -1.0 });
     let half_m = 0.5 * body.length_m();
-    let asked = Asked { drop: question.drop(), model, tolerance };
+    let asked = OneDrop { drop: question.drop(), model, tolerance };
     // The end that touches first feels every drop: where not even that is answered, none is.
     asked.answer(&unlimited(LimitKind::VelocityChange), &Part::new(-half_m, None))?;
     swings(suspension.as_ref())?;

@@ -57,7 +57,7 @@ impl Limit {
 }
 
 /// A drop that is asked about.
-pub(super) struct Asked {
+pub(super) struct OneDrop {
     pub(super) drop: SingleDrop,
     pub(super) model: Model,
     pub(super) tolerance: f64,
@@ -73,7 +73,7 @@ pub(super) fn value(largest: Option<Largest>) -> Json {
     largest.map_or(Json(0.0), |largest| largest.value)
 }
 
-impl Asked {
+impl OneDrop {
     pub(super) fn answer(
         &self,
         limit: &clatter_assess::Limit,

@@ -18,7 +18,7 @@ use clatter_flight::{Contact, PlateScene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
-use super::limits::{Asked, unlimited, value};
+use super::limits::{OneDrop, unlimited, value};
 use super::{Equivalent, Factors, LargestValues, Limit, Peaks, Position, swings};
 use crate::simulate::plate::told;
 use crate::{Error, Json, on_plate};
@@ -116,7 +116,7 @@ pub struct Answer {
     pub contact_time_s: Json,
     /// What the ground does meanwhile.
     pub contact_law: &'static str,
-    /// Asked for.
+    /// OneDrop for.
     pub tolerance: Json,
     /// The place that is answered.
     pub at: [Json; 2],
@@ -153,7 +153,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { scene, contact, at, suspension, tolerance, .. } = question;
     on_plate(at)?;
     let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
-    let asked = Asked { drop: SingleDrop::of_plate(scene, contact)?, model: Model::Compliant, tolerance: *tolerance };
+    let asked = OneDrop { drop: SingleDrop::of_plate(scene, contact)?, model: Model::Compliant, tolerance: *tolerance };
     let (plate, signs) = (scene.plate(), question.mirrored.map(|is| if is { -1.0 } else { 1.0 }));
     let [length, width] = plate.sides_m();
     // The corner that touches first feels every drop: where not even that is answered, none is.

@@ -2,6 +2,11 @@
 
 use clatter_shock::Suspension;
 
+use super::PlaceHistory;
+use crate::Limit;
+use crate::drop::Followed;
+use crate::quantity::Source;
+
 /// What strikes may do at a place after a motion was left, by the energy left.
 pub(super) struct Later {
     /// Of a motion that was given up, with many strikes to come.
@@ -55,3 +60,104 @@ pub(super) fn slowest(part: &Suspension) -> f64 {
 /// Strikes of both ends in step do this many times what one does that has all the energy, at most: of the drops of random
 /// products without damping, one in a thousand exceeds it.
 const CHATTER: f64 = 1.5;
+
+impl PlaceHistory<'_> {
+    /// The utilization that strikes after the motion was left may reach, by the energy that is left and what a part still rings
+    /// with; 0 where that is not above `above`. Of the parts given, or of a limit that is no response.
+    pub(crate) fn later_most<'p>(
+        &self,
+        limit: &Limit,
+        parts: impl IntoIterator<Item = &'p Suspension>,
+        above: f64,
+    ) -> f64 {
+        if !self.followed.is_early() {
+            return 0.0;
+        }
+        let later = self.later();
+        let most = match limit.kind.source() {
+            Source::Response(peak) => {
+                let of = |part: &Suspension| {
+                    let unit = peak.of_velocity(peak.after_impulse(part.damping()), part.omega());
+                    self.rings_most(unit / limit.allowed, part, later.shock_of(part), above)
+                };
+                let most = parts.into_iter().map(of).reduce(f64::max);
+                most.unwrap_or(later.acceleration_m_s2 / limit.allowed)
+            }
+            Source::Turn => later.turn_rad_s / limit.allowed,
+            Source::Shock => later.turned_m_s / limit.allowed,
+            // It takes both.
+            Source::Boundary => {
+                let acceleration = later.acceleration_m_s2 / limit.critical_acceleration_m_s2;
+                (later.turned_m_s / limit.allowed).min(acceleration)
+            }
+        };
+        if most > above { most } else { 0.0 }
+    }
+    /// What strikes may do here after the motion was left.
+    pub(super) fn later(&self) -> Later {
+        let drop = &self.followed.drop;
+        let (points, here) = drop.in_radii(&self.spot);
+        let dot = |[x, y]: [f64; 2], [x2, y2]: [f64; 2]| x * x2 + y * y2;
+        let mass = |p: [f64; 2]| (1.0 + dot(p, p)).sqrt();
+        let farthest = points.iter().fold(0.0_f64, |most, &p| most.max(dot(p, p)));
+        // All energy in the motion of the center of mass, over all of it in what moves the farthest point fastest.
+        let is_box = self.is_box();
+        let fastest = if is_box { 1.0 } else { (1.0 + farthest).sqrt() };
+        let center = self.followed.motion.later_m_s() / fastest;
+        let pressed = points.iter().fold(0.0, |all, &p| libm::hypot(all, (1.0 + dot(here, p)) / mass(p)));
+        // A strike gives back the restitution's share of what it takes; several that overlap may turn all of the motion around.
+        let turned = 2.0 / (1.0 + drop.restitution);
+        let given_up = self.followed.is_given_up().then(|| GivenUp {
+            in_turn: drop.across.map_or(2.0, |_| 4.0) / (1.0 - drop.restitution),
+            lever: 1.0 + dot(here, here).sqrt() * farthest.sqrt(),
+            center_m_s: center * turned,
+            gravity_m_s2: drop.gravity_m_s2,
+        });
+        Later {
+            given_up,
+            weight_m_s2: self.followed.weight_to_come_m_s2(),
+            shock_m_s: center * mass(here),
+            turned_m_s: center * mass(here) * turned,
+            turn_rad_s: center / drop.least_gyration_m() * turned,
+            // Nothing where nothing is left, also where a strike has no largest force.
+            acceleration_m_s2: if center > 0.0 {
+                // Four corners of a box at most, each with no more than if it had all lever arms of the place.
+                let pressed = if is_box { 2.0 * mass(here) } else { pressed.max(mass(here)) };
+                center * pressed * self.peak_per_change()
+            } else {
+                0.0
+            },
+        }
+    }
+    /// The utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
+    /// `above` as the last contact ended, has decayed since, and stays below.
+    fn rings_most(&self, per_velocity: f64, part: &Suspension, shock: f64, above: f64) -> f64 {
+        let omega = part.omega();
+        if shock * per_velocity <= above * -libm::expm1(-slowest(part) * omega * self.followed.quiet_s()) {
+            return 0.0;
+        }
+        let rest = self.pulses.state_at_end(part);
+        per_velocity * (libm::hypot(omega * rest.displacement, rest.velocity) + shock)
+    }
+    /// What a shock of this size may be off by: the share of the largest shock that lever arms get wrong, and what later ones
+    /// could exceed it by.
+    pub(super) fn off_by(&self, value: f64, of_box: impl Fn(&Later) -> f64) -> f64 {
+        let Followed { largest_m_s, motion, .. } = self.followed;
+        // No later strike changes the velocity of a point of a bar or of a plate by more; of a box, that of its center of mass.
+        let later = if self.is_box() { of_box(&self.later()) } else { motion.later_m_s() };
+        self.followed.kept_arms() * largest_m_s + (later - value).max(0.0)
+    }
+    fn is_box(&self) -> bool {
+        self.followed.drop.across.is_some_and(|across| across.posture.is_some())
+    }
+    /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
+    pub(super) fn later_of(&self, limit: &Limit) -> f64 {
+        let Later { turned_m_s, turn_rad_s, acceleration_m_s2, .. } = self.later();
+        match limit.kind.source() {
+            Source::Turn => turn_rad_s,
+            Source::Shock | Source::Boundary => turned_m_s,
+            Source::Response(peak) if peak.is_acceleration() => acceleration_m_s2,
+            Source::Response(_) => f64::INFINITY,
+        }
+    }
+}

@@ -85,7 +85,7 @@ impl Product {
 }
 
 /// What is asked of one limit of a part in its worst drop.
-struct Asked<'a> {
+struct OneLimit<'a> {
     limit: Limit,
     suspension: Option<Suspension>,
     /// Up to which natural frequency histories may be rough.
@@ -93,7 +93,7 @@ struct Asked<'a> {
     worst: &'a WorstCase,
 }
 
-impl Asked<'_> {
+impl OneLimit<'_> {
     /// The share that a followed drop asks at a place, where it passes `above`.
     fn share(&self, followed: &Followed, at_m: [f64; 2], above: f64) -> Option<f64> {
         let felt = PlaceHistory::rough(followed, at_m, self.rough_to_rad_s).ok()?;
@@ -128,7 +128,7 @@ pub(super) fn portrait(
     let across = worst.drop.across.filter(|across| across.posture.is_none())?;
     let asked = Limit::of(component).into_iter().find(|asked| asked.kind == limit.limit)?;
     let asked =
-        Asked { limit: asked, suspension: worst.part.suspension, rough_to_rad_s: rough_to_rad_s(component), worst };
+        OneLimit { limit: asked, suspension: worst.part.suspension, rough_to_rad_s: rough_to_rad_s(component), worst };
     let own = Followed::new(&worst.drop, worst.model, worst.tolerance).ok()?;
     let given_rad = ranges.drop.direction_rad.map(|given| [given.lo(), given.hi()]);
     let places = component.places_m();
@@ -182,7 +182,7 @@ fn strikes(own: &Followed, across: &Across) -> Vec<CornerStrike> {
 }
 
 /// The map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.
-fn map(asked: &Asked<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
+fn map(asked: &OneLimit<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
     let (length, width) = (own.drop.body.length_m(), own.drop.across?.width.m());
     let [x, y] = asked.worst.part.at_m();
     let columns = (PLACES * length / width).sqrt().clamp(5.0, 16.0).round();

@@ -9,8 +9,8 @@ use clatter_shock::Suspension;
 use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error};
+use crate::component::places;
 use crate::drop::Across;
-use crate::product::places;
 use crate::quantity::Source;
 use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 

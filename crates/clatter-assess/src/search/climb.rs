@@ -133,29 +133,44 @@ impl Ranges<'_> {
 }
 
 impl Ranges<'_> {
-    /// What a box of this thickness with full rotation asks for over what the plate of small tilt does, less 1: the most of a worst drop
-    /// and of drops next to it, which real tilt shifts. Of masses that lie askew both are followed as if they did not.
+    /// The utilization that a box of this thickness with full rotation asks for at most: in the worst drop of a plate, in other drops
+    /// from which the search climbed, and in drops next to each, which real tilt shifts. Where masses lie askew, which no box knows,
+    /// what both ask without that is scaled.
     ///
     /// # Errors
-    /// That of the drop itself, of a box that is not followed so.
-    pub(crate) fn real_tilt(&self, task: &Task<'_>, worst: &Candidate, thickness_m: f64) -> Result<f64, Error> {
+    /// That of the worst drop, of a box that is not followed so.
+    pub(crate) fn as_block(
+        &self,
+        task: &Task<'_>,
+        worst: &Candidate,
+        others: &[Candidate],
+        thickness_m: f64,
+    ) -> Result<f64, Error> {
+        let mut most = self.as_block_next_to(task, worst, thickness_m, AS_BLOCK)?;
+        for other in others {
+            most = most.max(self.as_block_next_to(task, other, thickness_m, AS_BLOCK / 3)?);
+        }
+        Ok(most)
+    }
+
+    fn as_block_next_to(&self, task: &Task<'_>, at: &Candidate, thickness_m: f64, count: u32) -> Result<f64, Error> {
         let of = |place: &Place, as_block: bool| -> Result<f64, Error> {
             let mut drop = self.single(place);
             if let Some(across) = &mut drop.across {
                 across.width.product_of_inertia_m2 = 0.0;
             }
-            let until_s = (BEYOND_PEAK * worst.answer.time_s).max(drop.clatter_s());
+            let until_s = (BEYOND_PEAK * at.answer.time_s).max(drop.clatter_s());
             let followed = if as_block {
                 Followed::as_block(&drop, thickness_m, until_s)?
             } else {
                 Followed::until(&drop, self.model, self.tolerance, Until::Past(until_s))?
             };
-            let part = Candidate { place: *place, ..*worst }.part_there(task.component);
+            let part = Candidate { place: *place, ..*at }.part_there(task.component);
             Ok(of_followed(&followed, &part, &task.limit)?.utilization())
         };
-        let free = self.free_at(task, &worst.place);
+        let free = self.free_at(task, &at.place);
         let next = |k: u32| {
-            let mut place = worst.place;
+            let mut place = at.place;
             for axis in [TILT, DIRECTION].into_iter().filter(|axis| free[*axis]) {
                 let step = NEXT * (2.0 * halton(axis.min(1), k) - 1.0);
                 place.shares[axis] = (place.shares[axis] + step).clamp(0.0, 1.0);
@@ -163,12 +178,12 @@ impl Ranges<'_> {
             place
         };
         let most = |as_block: bool| -> Result<f64, Error> {
-            let here = of(&worst.place, as_block)?;
-            Ok((1..=AS_BLOCK).into_par_iter().map(|k| of(&next(k), as_block).unwrap_or(0.0)).reduce(|| here, f64::max))
+            let here = of(&at.place, as_block)?;
+            Ok((1..=count).into_par_iter().map(|k| of(&next(k), as_block).unwrap_or(0.0)).reduce(|| here, f64::max))
         };
-        let is_askew = self.product.width.is_some_and(|width| width.product_of_inertia_m2 != 0.0);
-        let plate = if is_askew { most(false)? } else { worst.answer.utilization() };
-        Ok(most(true)? / plate - 1.0)
+        let (block, is_askew) = (most(true)?, self.product.width.is_some_and(|w| w.product_of_inertia_m2 != 0.0));
+        let straight = if is_askew { most(false)? } else { 0.0 };
+        Ok(if straight > 0.0 { block / straight * at.answer.utilization() } else { block })
     }
 }
 

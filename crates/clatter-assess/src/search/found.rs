@@ -22,6 +22,8 @@ pub(crate) struct Candidate {
 pub(crate) struct Worst {
     /// The drop that asks most; none where no drop of the ranges was answered.
     pub(crate) asked: Option<Candidate>,
+    /// Drops some way from one another that ask for nearly as much, as they were found.
+    pub(crate) near: Vec<Candidate>,
     /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
     pub(crate) later: f64,
     /// Drops that the model does not take, and why the first of them.

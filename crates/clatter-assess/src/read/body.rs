@@ -1,0 +1,234 @@
+//! What falls: a bar or a plate, and its masses.
+
+use std::ops::Range;
+
+use clatter::Mass;
+use clatter_flight::{Body, ContactLaw};
+
+use super::{At, Reader, Section};
+use crate::check::{self, body_of, width_of};
+use crate::slip;
+use crate::units;
+use crate::{DataFault, Product, Spread, Width};
+
+impl Reader {
+    pub(super) fn product(&mut self, section: &Section<'_>) -> Option<Product> {
+        let name = self.name(section);
+        let length = self.quantity(section, "length");
+        let width = self.quantity(section, "width");
+        let thickness = self.quantity(section, "thickness");
+        if let (Some(thickness), false) = (&thickness, self.is_plate) {
+            self.data(thickness.span.clone(), &DataFault::OfBar { field: "thickness" }, "this");
+        }
+        let mass = self.quantity(section, "mass");
+        let restitution = self.spread(section, "restitution");
+        let contact_time = self.spread(section, "contact_time");
+        let contact_law = self.choice(section, "contact_law");
+        let gyration = self.spread_of_sides(section, "radius_of_gyration");
+        let moment = self.quantity_of_sides(section, "moment_of_inertia");
+        let center = self.quantity_of_sides(section, "center_of_mass");
+        let masses = self.masses(section);
+        self.exactly_one(section, &["radius_of_gyration", "moment_of_inertia", "masses"], true);
+        self.exactly_one(section, &["masses", "center_of_mass"], false);
+        self.exactly_one(section, &["masses", "mass"], false);
+        if let (true, Some((key, _))) = (
+            contact_time.is_none() && !section.table.contains_key("contact_time"),
+            section.table.get_key_value("width"),
+        ) {
+            self.data(key.span(), &DataFault::PlateWithoutContactTime, "beside this");
+        }
+        let mut product_of_inertia_m2 = 0.0;
+        let (center_m, gyration) = if let Some(moment) = &moment {
+            let Some(mass) = &mass else {
+                if !section.table.contains_key("mass") {
+                    self.fault(moment.span.clone(), "`moment_of_inertia` needs the `mass`", "", "add mass = \"190 g\"");
+                }
+                return None;
+            };
+            let radii = moment.value.map(|moment| (moment / mass.value).sqrt());
+            (center.clone(), of_values(radii, moment.span.clone())?)
+        } else if let Some(masses) = &masses {
+            let sides = [0, 1].map(|side| center_and_gyration(&masses.value.iter().map(|piece| piece[side])));
+            product_of_inertia_m2 = product_of_inertia(&masses.value, sides.map(|(center, _)| center));
+            let center = At { value: sides.map(|(center, _)| center), span: masses.span.clone() };
+            (Some(center), of_values(sides.map(|(_, gyration)| gyration), masses.span.clone())?)
+        } else {
+            (center.clone(), gyration?)
+        };
+        let length_m = length?.value;
+        if masses.is_some() {
+            self.outside(section, [Some(length_m), width.as_ref().map(|width| width.value)]);
+        }
+        let total = masses.as_ref().map(|m| m.value.iter().map(|[piece, _]| mass_of(piece)).sum());
+        if let (Some(total), Some(masses)) = (total, &masses)
+            && let Err(fault) = check::mass(total)
+        {
+            self.data(masses.span.clone(), &fault, "these together");
+        }
+        let [along, across] = gyration.value;
+        let span = gyration.span;
+        let center_along = center_m.clone().map(|At { value: [x, _], span }| At { value: x, span });
+        let ends = [along.lo(), along.hi()];
+        for end in &ends[..if along.is_value() { 0 } else { 2 }] {
+            self.body(length_m, center_along.clone(), &At { value: *end, span: span.clone() })?;
+        }
+        let middle = At { value: along.at(0.5), span: span.clone() };
+        let body = self.body(length_m, center_along, &middle)?;
+        let width = match width {
+            Some(width) => {
+                let center_across = center_m.map(|At { value: [_, y], span }| At { value: y, span });
+                let width = self.width(width.value, center_across, &At { value: across, span: span.clone() })?;
+                let width = Width { product_of_inertia_m2, thickness_m: thickness.map(|t| t.value), ..width };
+                Some(width)
+            }
+            None if self.is_plate => return None,
+            None => None,
+        };
+        let product = Product {
+            name: name?,
+            body,
+            width,
+            gyration_m: along,
+            mass_kg: mass.map(|m| m.value).or(total),
+            restitution: restitution?.value,
+            contact_time_s: contact_time.map(|t| t.value),
+            contact_law: contact_law.and_then(|law| ContactLaw::from_name(law.value)),
+        };
+        if let Err(fault @ DataFault::ProductOfInertia { .. }) = product.check() {
+            self.data(span, &fault, "these together");
+        }
+        Some(product)
+    }
+
+    /// The side across, with what it asks told in the file's terms.
+    fn width(&mut self, width_m: f64, center: Option<At<f64>>, gyration: &At<Spread>) -> Option<Width> {
+        if !gyration.value.is_value() {
+            let message = "the radius of gyration of the mass along the width has a range";
+            self.fault(
+                gyration.span.clone(),
+                message,
+                "the second",
+                "give one value; that of the mass along the length may have a range",
+            );
+            return None;
+        }
+        let center_m = center.as_ref().map_or(0.0, |c| c.value);
+        width_of(width_m, center_m, gyration.value.lo())
+            .map_err(|fault| match fault {
+                DataFault::CenterAcross { .. } => self.data(center.map_or(0..0, |c| c.span), &fault, "this place"),
+                _ => self.data(gyration.span.clone(), &fault, "from this"),
+            })
+            .ok()
+    }
+
+    /// Warns of masses far outside of the body.
+    fn outside(&mut self, section: &Section<'_>, sides_m: [Option<f64>; 2]) {
+        let items = section.table.get("masses").and_then(|masses| masses.get_ref().as_array());
+        for piece in items.into_iter().flatten().filter_map(|piece| piece.get_ref().as_table()) {
+            for name in ["position", "from", "to"] {
+                let Some(value) = piece.get(name) else { continue };
+                let places: Vec<_> = value.get_ref().as_array().map_or(vec![value], |pair| pair.iter().collect());
+                for (value, side_m) in places.into_iter().zip(sides_m) {
+                    let place = value.get_ref().as_str().and_then(|text| units::LENGTH.read(text).ok());
+                    if let Some(slip) = place.zip(side_m).and_then(|(place, side_m)| slip::outside(&place, side_m)) {
+                        self.warn(value.span(), slip.message, slip.hint);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The body, with what it asks of center of mass and radius of gyration told in the file's terms.
+    fn body(&mut self, length_m: f64, center: Option<At<f64>>, gyration: &At<f64>) -> Option<Body> {
+        let center_m = center.as_ref().map_or(0.0, |c| c.value);
+        body_of(length_m, center_m, gyration.value)
+            .map_err(|fault| match fault {
+                DataFault::CenterOfMass { .. } => self.data(center.map_or(0..0, |c| c.span), &fault, "this place"),
+                _ => self.data(gyration.span.clone(), &fault, "from this"),
+            })
+            .ok()
+    }
+
+    fn masses(&mut self, section: &Section<'_>) -> Option<At<Vec<[Mass; 2]>>> {
+        let span = section.table.get("masses")?.span();
+        let sections = self.tables(section, "masses");
+        let mut masses = Vec::with_capacity(sections.len());
+        let count = sections.len();
+        for piece in sections {
+            masses.extend(self.mass(&piece));
+        }
+        (count > 0 && masses.len() == count).then_some(At { value: masses, span })
+    }
+
+    /// A mass along the length and along the width.
+    fn mass(&mut self, section: &Section<'_>) -> Option<[Mass; 2]> {
+        self.text(section, "name");
+        let mass = self.quantity(section, "mass");
+        let position = self.quantity_of_sides(section, "position");
+        let [from, to] = ["from", "to"].map(|name| self.quantity_of_sides(section, name));
+        let has = |name| section.table.contains_key(name);
+        let help = "a point mass has a `position`, a slab has `from` and `to`";
+        if has("position") == (has("from") || has("to")) || has("from") != has("to") {
+            let message = format!("{} is neither a point mass nor a slab", section.title);
+            self.fault(section.span.clone(), message, "this one", help);
+            return None;
+        }
+        let mass_kg = mass?.value;
+        if let Some(position) = position {
+            return Some(position.value.map(|position_m| Mass::Point { mass_kg, position_m }));
+        }
+        let (from, to) = (from?, to?);
+        if (0..2).any(|side| from.value[side] > to.value[side]) {
+            self.fault(to.span, format!("{} ends before it begins", section.title), "`to` is below `from`", help);
+            return None;
+        }
+        Some([0, 1].map(|side| Mass::Slab { mass_kg, from_m: from.value[side], to_m: to.value[side] }))
+    }
+}
+
+/// Radii of gyration that were worked out; none where one is no number, which is told otherwise.
+fn of_values(values: [f64; 2], span: Range<usize>) -> Option<At<[Spread; 2]>> {
+    let [along, across] = values.map(|value| Spread::value(value).ok());
+    Some(At { value: [along?, across?], span })
+}
+
+fn mass_of(piece: &Mass) -> f64 {
+    match *piece {
+        Mass::Point { mass_kg, .. } | Mass::Slab { mass_kg, .. } => mass_kg,
+    }
+}
+
+/// Center of mass from the middle, and radius of gyration about it.
+///
+/// A slab is a point mass at its middle plus its own moment m w²/12. A center of mass within roundings of the middle is
+/// the middle.
+fn center_and_gyration(masses: &(impl Iterator<Item = Mass> + Clone)) -> (f64, f64) {
+    let places = masses.clone().map(|piece| match piece {
+        Mass::Point { mass_kg, position_m } => (mass_kg, position_m, 0.0),
+        Mass::Slab { mass_kg, from_m, to_m } => (mass_kg, 0.5 * (from_m + to_m), to_m - from_m),
+    });
+    let (total, count) = masses.clone().fold((0.0, 0.0), |(sum, n), piece| (sum + mass_of(&piece), n + 1.0));
+    let (first, reach) =
+        places.clone().fold((0.0, 0.0), |(first, reach), (m, x, w)| (first + m * x, reach + m * (x.abs() + w)));
+    let center = if first.abs() <= 8.0 * f64::EPSILON * count * reach { 0.0 } else { first / total };
+    let second: f64 = places.map(|(m, x, w)| m * ((x - center) * (x - center) + w * w / 12.0)).sum();
+    (center, (second / total).sqrt())
+}
+
+/// ∫x y dm over the mass, about the center of mass: slabs along the edges have none of their own. 0 where it is no more than roundings.
+fn product_of_inertia(masses: &[[Mass; 2]], center: [f64; 2]) -> f64 {
+    let middle = |piece: &Mass| match *piece {
+        Mass::Point { position_m, .. } => position_m,
+        Mass::Slab { from_m, to_m, .. } => 0.5 * (from_m + to_m),
+    };
+    let (mut sum, mut size, mut total) = (0.0, 0.0, 0.0);
+    for piece in masses {
+        let [x, y] = [0, 1].map(|side| middle(&piece[side]) - center[side]);
+        let mass_kg = mass_of(&piece[0]);
+        (sum, size, total) = (sum + mass_kg * x * y, size + mass_kg * (x * y).abs(), total + mass_kg);
+    }
+    if sum.abs() <= ROUNDINGS * size { 0.0 } else { sum / total }
+}
+
+/// A product of inertia below this share of what its masses have each is none.
+const ROUNDINGS: f64 = 1e-12;

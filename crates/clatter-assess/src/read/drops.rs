@@ -1,0 +1,89 @@
+//! How it falls, and what a box lands on.
+
+use clatter::End;
+
+use super::{Reader, Section, shown};
+use crate::keys;
+use crate::standard;
+use crate::{Attitude, DataFault, Drop, Fall, First, Landing, Product, Spread};
+
+/// Keys of what a box lands on: by so many faces at once, and by a standard.
+pub(super) const LANDS_ON: [&str; 4] = ["face", "edge", "corner", "standard"];
+
+impl Reader {
+    /// What a box lands on; none where a fault was told.
+    pub(super) fn landings(&mut self, section: &Section<'_>, product: Option<&Product>) -> Vec<Landing> {
+        let tolerance = self.quantity(section, "attitude_tolerance");
+        if let (Some(tolerance), false) = (&tolerance, self.is_box) {
+            let message = "`attitude_tolerance` is that of a box that lands on a face, edge or corner";
+            self.fault(tolerance.span.clone(), message, "here", "add `face`, `edge`, `corner` or `standard`");
+        }
+        let mut landings = Vec::new();
+        for (faces, name) in (1..).zip(&LANDS_ON[..3]) {
+            let Some(text) = self.text(section, name) else { continue };
+            match Attitude::on(&text.value).filter(|attitude| attitude.faces() == faces) {
+                Some(attitude) => landings.push((attitude, 1.0, None)),
+                None => self.data(text.span, &DataFault::Attitude { field: name, value: shown(&text.value) }, "this"),
+            }
+        }
+        if let (Some(keyword), Some(product)) = (self.text(section, "standard"), product) {
+            let sides = [Some(product.body.length_m()), product.width.map(|width| width.m())];
+            let largest_m = sides.into_iter().flatten().fold(0.0, f64::max);
+            match standard::drops(&keyword.value, standard::Item { mass_kg: product.mass_kg, largest_m }) {
+                Ok((drops, source)) => {
+                    landings.extend(drops.into_iter().map(|(attitude, height_m)| (attitude, height_m, Some(source))));
+                }
+                Err(fault) => self.data(keyword.span, &fault, "this"),
+            }
+        }
+        let landing = |(attitude, height_m, source)| Landing {
+            attitude,
+            source,
+            tolerance_rad: tolerance.as_ref().map_or_else(|| standard::tolerance_rad(attitude), |given| given.value),
+            fall: Fall::HeightM(Spread::finite(height_m)),
+        };
+        landings.into_iter().map(landing).collect()
+    }
+
+    pub(super) fn drop(&mut self, section: &Section<'_>) -> Option<Drop> {
+        let height = self.spread(section, "height");
+        let speed = self.spread(section, "speed");
+        let tilt = self.spread(section, "tilt");
+        let first = self.choice(section, "first");
+        let direction = self.spread(section, "direction");
+        if !(self.is_box || section.table.contains_key("tilt")) {
+            let key = keys::find(keys::DROP, "tilt").map_or("", |key| key.doc);
+            let message = format!("{} has no `tilt`", section.title);
+            self.fault(section.span.clone(), message, "in this table", format!("add tilt = \"5 deg\": {key}"));
+        }
+        let gravity = self.quantity(section, "gravity");
+        self.exactly_one(section, &["height", "speed"], !section.table.contains_key("standard"));
+        self.exactly_one(section, &["tilt", "face", "edge", "corner", "standard"], false);
+        self.exactly_one(section, &["standard", "height"], false);
+        self.exactly_one(section, &["standard", "speed"], false);
+        let wrong =
+            if self.is_plate { DataFault::OfPlate { field: "first" } } else { DataFault::OfBar { field: "direction" } };
+        if let DataFault::OfPlate { field } | DataFault::OfBar { field } = wrong
+            && let Some((key, _)) = section.table.get_key_value(field)
+        {
+            self.data(key.span(), &wrong, "here");
+        }
+        let gravity_m_s2 = gravity.as_ref().map_or(clatter_shock::STANDARD_GRAVITY_M_S2, |g| g.value);
+        if let (Some(height), true) = (&height, gravity_m_s2 == 0.0) {
+            self.data(height.span.clone(), &DataFault::NoGravity, "this height");
+        }
+        let first = match first.map(|f| f.value) {
+            Some("a") => First::End(End::A),
+            Some("b") => First::End(End::B),
+            _ => First::Either,
+        };
+        let fall = match (height, speed) {
+            (Some(height), _) => Fall::HeightM(height.value),
+            // Each drop of a standard has its own.
+            (None, None) if section.table.contains_key("standard") => Fall::HeightM(Spread::finite(1.0)),
+            (None, speed) => Fall::SpeedMS(speed?.value),
+        };
+        let tilt_rad = if self.is_box { Spread::finite(0.0) } else { tilt?.value };
+        Some(Drop { fall, tilt_rad, first, direction_rad: direction.map(|d| d.value), gravity_m_s2 })
+    }
+}

@@ -1,0 +1,106 @@
+//! The worst of what a search reached, answered to the tolerance.
+
+use super::ranges::{Place, RESTITUTION, Ranges};
+use super::{Candidate, Task, Worst};
+use crate::Error;
+use crate::drop::Followed;
+use crate::engine::{Answer, of_followed};
+
+/// Worst cases that are answered to the tolerance, early ones and late ones.
+const TRIES: usize = 8;
+/// So many times the space between two places of an extended part is halved about the worst.
+const NARROWED: usize = 7;
+
+impl Ranges<'_> {
+    /// The worst of what was reached, answered to the tolerance. What comes after rebounds is so sensitive that it may not come up
+    /// again; so the next are tried until none may be worse.
+    pub(super) fn settle(&self, task: &Task<'_>, mut reached: Vec<Candidate>) -> Worst {
+        reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
+        let mut worst = Worst { asked: None, near: Vec::new(), later: 0.0, refused: None, drops: 0, stopped: false };
+        // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
+        let mut bounces = f64::INFINITY;
+        for late in [false, true] {
+            let such = reached.iter().filter(|found| found.late == late);
+            let mut tries = 0;
+            for found in such {
+                let most = worst.asked.map_or(0.0, |asked: Candidate| asked.answer.utilization());
+                if found.answer.utilization() < most || tries == TRIES {
+                    break;
+                }
+                if found.place.shares[RESTITUTION] >= bounces {
+                    continue;
+                }
+                tries += 1;
+                match self.exactly(task, found) {
+                    Ok(exact) if exact.answer.utilization() > most || worst.asked.is_none() => {
+                        worst.asked = Some(exact);
+                    }
+                    Ok(_) => {}
+                    Err(error) => {
+                        if matches!(error, Error::Unfinished) && self.free(task)[RESTITUTION] {
+                            bounces = found.place.shares[RESTITUTION];
+                        }
+                        worst.refuse(1, &error);
+                    }
+                }
+            }
+        }
+        // The one that counts, with all that it may be off by.
+        if let Some(asked) = &mut worst.asked {
+            let part = asked.part_there(task.component);
+            let drop = self.single(&asked.place);
+            asked.answer =
+                asked.answer.with_what_strikes_multiply(&drop, &part, &task.limit, self.model, self.tolerance);
+        }
+        worst
+    }
+
+    /// The worst of what was reached as it was found, where the time is over: to the tolerance if it decides, and nobody knows how far
+    /// off.
+    pub(super) fn settle_at_once(&self, task: &Task<'_>, reached: Vec<Candidate>) -> Worst {
+        let mut worst = Worst { asked: None, near: Vec::new(), later: 0.0, refused: None, drops: 0, stopped: true };
+        let found = reached.into_iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()));
+        let exact =
+            |found: Candidate| if found.answer.utilization() > 1.0 { self.exactly(task, &found) } else { Ok(found) };
+        match found.map(exact) {
+            Some(Ok(asked)) => {
+                let answer = Answer { off_by: f64::INFINITY, ..asked.answer };
+                worst.asked = Some(Candidate { answer, ..asked });
+            }
+            Some(Err(error)) => worst.refuse(1, &error),
+            None => {}
+        }
+        worst
+    }
+
+    /// What a drop that was found asks to the tolerance, of the part that was found.
+    pub(super) fn exactly(&self, task: &Task<'_>, found: &Candidate) -> Result<Candidate, Error> {
+        let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
+        let at = |at_m: [f64; 2]| {
+            let there = Candidate { place: Place { at_m, ..found.place }, ..*found };
+            let answer = of_followed(&followed, &there.part_there(task.component), &task.limit)?;
+            Ok::<_, Error>(Candidate { answer, ..there })
+        };
+        let mut worst = at(found.place.at_m)?;
+        if !task.limit.kind.is_largest_between() {
+            return Ok(worst);
+        }
+        // Where two shocks become one lies anywhere between two places.
+        let (reaches, between) = (task.component.reaches_m(), f64::from(task.component.between()));
+        let mut steps = reaches.map(|[lo, hi]| 0.5 * (hi - lo) / (between + 1.0));
+        for _ in 0..NARROWED {
+            for axis in (0..2).filter(|axis| reaches[*axis][0] < reaches[*axis][1]) {
+                for by in [-steps[axis], steps[axis]] {
+                    let mut next = worst.place.at_m;
+                    next[axis] = (next[axis] + by).clamp(reaches[axis][0], reaches[axis][1]);
+                    let next = at(next)?;
+                    if next.exceeds(&worst) {
+                        worst = next;
+                    }
+                }
+            }
+            steps = steps.map(|step| 0.5 * step);
+        }
+        Ok(worst)
+    }
+}

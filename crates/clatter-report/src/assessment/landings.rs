@@ -1,0 +1,51 @@
+//! What the pages say of a box that lands on faces, edges and corners.
+
+use clatter_assess::{Assessment, LandingAssessment, ProductFile, Spread};
+use clatter_figures::three;
+use serde_json::{Value, json};
+
+use crate::words::{name, percent, shown};
+
+/// What the pages of a box leave out.
+pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
+    [
+        "Landing again",
+        "A box is followed for the clatter of its first landing. How it comes down again is sensitive to every input: what it may do then is bounded by the energy that is left, and where that is too much a limit is undecided.",
+    ],
+    [
+        "Drops between",
+        "Fewer drops are followed than of a bar or a plate: the search may miss a tenth of what is asked.",
+    ],
+    [
+        "Corners and edges",
+        "They are sharp: no case is. Mass is spread evenly over the thickness, about axes along the sides.",
+    ],
+    [
+        "The ground",
+        "It is hard, level and without friction, and the same for all corners: nothing holds a corner or lets it slide. A corner that slides turns the box otherwise.",
+    ],
+    ["The case", "It is rigid: a case that bends rings on its own, and may take part of a blow or add to it."],
+    ["Parts", "They are light and linear. A part that hits its stop is undecided."],
+    ["Ranges", "Values are those of the product file. What is not measured is assumed."],
+];
+
+/// Of a box, a row for each drop: what it lands on, how far off it may be, verdict, and the limit that it leaves least room.
+pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
+    let row = |landing: &LandingAssessment| {
+        let tightest = landing.tightest()?;
+        let component = file.components.iter().find(|component| component.name == tightest.component)?;
+        let unit = tightest.limit.unit();
+        let of = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(unit, value));
+        Some(json!([
+            landing.landing.to_string(),
+            format!("{}°", three(landing.tolerance_deg)),
+            name(&tightest.component),
+            tightest.limit.words(),
+            of(component.limits.get(tightest.limit).map(Spread::lo)),
+            of(tightest.demand),
+            tightest.margin.map_or("?".to_owned(), percent),
+            landing.verdict.name(),
+        ]))
+    };
+    assessment.landings.iter().filter_map(row).collect()
+}
