@@ -5,6 +5,7 @@ use crate::samples::{check, float, peak};
 
 /// The two effective durations of a shock.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EffectiveDuration {
     /// Tₑ, s: from the first to the last time at which the acceleration is a third of its peak.
     pub third_of_peak_s: f64,

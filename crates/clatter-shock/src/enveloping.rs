@@ -4,6 +4,7 @@ use crate::{Error, Frequencies, Pulse, Pulses, Shape, Spectrum};
 
 /// A pulse that asks of no component less than a spectrum does, and by how much it asks for more.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnvelopingPulse {
     /// From time zero; its amplitude is positive.
     pub pulse: Pulse,

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 /// A limit on what a component goes through.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Limit {
     /// Peak absolute acceleration of the component.
     Acceleration(f64),
@@ -36,6 +37,7 @@ impl Limit {
 
 /// What is allowed and what is asked, in one unit: of a response, or of a velocity change of the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Margin {
     /// The limit.
     pub allowed: f64,
@@ -84,6 +86,7 @@ pub struct DamageBoundary {
 
 /// Result of one shock test.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Trial {
     /// Velocity change or acceleration of the table.
     pub level: f64,
@@ -256,6 +259,7 @@ fn largest_amplification(damping: DampingRatio, limit: Limit, shape: Shape) -> R
 
 /// What a shock table can do, in the units of the component; a limit may be infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ShockTable {
     /// Shortest half-sine.
     pub shortest: f64,
@@ -269,6 +273,7 @@ pub struct ShockTable {
 
 /// A half-sine that does to a component what another excitation does.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EquivalentPulse {
     /// The half-sine; it gives the component the same peak absolute acceleration.
     pub pulse: Pulse,

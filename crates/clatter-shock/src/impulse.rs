@@ -10,6 +10,7 @@ use std::ops::RangeInclusive;
 
 /// A jump of the base's velocity, in no time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VelocityShock {
     /// When.
     pub time: f64,

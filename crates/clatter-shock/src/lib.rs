@@ -24,6 +24,8 @@
 //! [`fit_pulses`] which pulses fit it, and [`check_pulse`] whether it is the pulse that a standard asks for.
 //! [`STANDARD_PULSES`], [`PULSE_TOLERANCES`] and [`STANDARD_CURVES`] hold what standards state.
 //!
+//! The feature `serde` writes and reads parts, pulses, spectra and what was found, and checks again what is checked on construction.
+//!
 //! ```
 //! use clatter::{Bar, Start};
 //! use clatter_shock::{DampingRatio, Limit, Suspension, respond};
@@ -50,6 +52,8 @@ mod duration;
 mod eight;
 mod enveloping;
 mod error;
+#[cfg(feature = "serde")]
+mod fields;
 mod filter;
 mod forced;
 mod fragility;

@@ -4,6 +4,7 @@ use crate::suspension::{Modes, Motion};
 
 /// An extreme value of the response.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extreme {
     /// The value, with its sign.
     pub value: f64,
@@ -17,6 +18,7 @@ pub struct Extreme {
 /// The largest positive and the largest negative value of a quantity. Before the first shock all is at rest: a
 /// quantity that never turns negative has 0 there.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extremes {
     /// Largest value, at least 0.
     pub positive: Extreme,
@@ -45,6 +47,7 @@ impl Extremes {
 
 /// Which peak is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Peaked {
     /// ω|z|.
     PseudoVelocity,

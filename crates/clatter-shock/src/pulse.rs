@@ -13,6 +13,7 @@ use std::f64::consts::PI;
 
 /// The classical pulse shapes, of amplitude a and duration D.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shape {
     /// a sin(πt/D); area 2aD/π.
     HalfSine,
@@ -54,6 +55,7 @@ impl Shape {
 
 /// One pulse of base acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pulse {
     /// Its shape.
     pub shape: Shape,

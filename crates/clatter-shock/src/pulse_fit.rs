@@ -7,6 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 /// A pulse fitted to a history.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PulseFit {
     /// Amplitude in m/s² with its sign; duration and start in seconds, from the first sample.
     pub pulse: Pulse,

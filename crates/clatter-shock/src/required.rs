@@ -29,6 +29,7 @@ pub struct RequiredSpectrum {
 
 /// A spectrum beside the required one, at one frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Deviation {
     /// What is required.
     pub required: f64,

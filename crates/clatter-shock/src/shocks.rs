@@ -7,6 +7,7 @@ use std::ops::Range;
 
 /// How shocks are told apart from noise and from each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Search {
     /// A shock is where the acceleration passes this either way, m/s²; by [`noise_threshold`] if it is not given.
     pub threshold_m_s2: Option<f64>,
@@ -16,6 +17,7 @@ pub struct Search {
 
 /// The shocks of a history.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Shocks {
     /// The threshold that was taken, m/s².
     pub threshold_m_s2: f64,
@@ -27,6 +29,7 @@ pub struct Shocks {
 
 /// One shock. Times count from the first sample.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Shock {
     /// First 10 % point, s: where the acceleration last was a tenth of the peak before it.
     pub start_s: f64,

@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 /// The five quantities of ISO 18431-4. Signs as in [`crate::Response`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quantity {
     /// Absolute acceleration of the component, A.
     AbsoluteAcceleration,
@@ -35,6 +36,11 @@ impl Quantity {
 
 /// A checked list of natural frequencies.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Vec<f64>", into = "Vec<f64>")
+)]
 pub struct Frequencies {
     hz: Vec<f64>,
 }
@@ -110,6 +116,7 @@ impl Frequencies {
 /// The primary part lasts from the first start to the last end of the excitation, the residual part from there on: the
 /// whole ring-down.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Spectrum {
     /// The quantity.
@@ -145,6 +152,7 @@ pub struct Spectrum {
 
 /// One spectrum for several.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Summary {
     /// The root of the sum of squares: of the axes of one sensor what the length of the response reaches at most.
     RootSumSquare,

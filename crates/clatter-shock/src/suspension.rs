@@ -24,6 +24,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Damping ratio ζ = c/(2√(km)), zero or more: 0 never decays, 1 is critical.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "f64", into = "f64"))]
 pub struct DampingRatio(f64);
 
 impl DampingRatio {
@@ -55,6 +56,11 @@ impl DampingRatio {
 ///
 /// Units are the caller's, as long as they agree: rad/s with seconds and meters, or v0/h0 with the units of the bar.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::fields::SuspensionFields", into = "crate::fields::SuspensionFields")
+)]
 pub struct Suspension {
     omega: f64,
     damping: DampingRatio,
@@ -62,6 +68,7 @@ pub struct Suspension {
 
 /// Motion of the component relative to its base.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State {
     /// Relative displacement z.
     pub displacement: f64,

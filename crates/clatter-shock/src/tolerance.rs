@@ -71,6 +71,7 @@ pub fn pulse_tolerance(keyword: &str) -> Option<&'static PulseTolerance> {
 
 /// A measured value and the range that is allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Within {
     /// As measured, with the sign of the history.
     pub measured: f64,
@@ -92,6 +93,7 @@ impl Within {
 
 /// How far a history is from the nominal pulse while that lasts.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Distortion {
     /// The largest difference, history less pulse, m/s².
     pub largest_m_s2: Within,
@@ -105,6 +107,7 @@ pub struct Distortion {
 
 /// How a history compares with a nominal pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PulseCheck {
     /// The nominal pulse where it fits the history best, as its base: it begins and ends at zero.
     pub nominal: Pulse,

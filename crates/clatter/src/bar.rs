@@ -38,6 +38,7 @@ use crate::{Count, End, Error, Mass, Start};
 
 /// Coefficient of restitution of an end, in [0, 1]: departure speed over approach speed.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "f64", into = "f64"))]
 pub struct Restitution(f64);
 
 impl Restitution {

@@ -4,6 +4,7 @@
 
 /// A point of the design plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Point {
     /// Inertia ratio.
     pub q: f64,

@@ -15,6 +15,7 @@ const SCAN: u32 = 512;
 
 /// What a design shall reach. Velocities are in v0, angular velocities in v0/L.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Goal {
     /// Within `s` half-lengths from the center no velocity shock exceeds `threshold` (Eq. 5: s(threshold) ≥ s).
     Zone {
@@ -139,6 +140,7 @@ pub fn region(goals: &[Goal], flatness: f64) -> Vec<Vec<Point>> {
 
 /// A design of a front.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrontPoint {
     /// Inertia ratio.
     pub q: f64,
@@ -149,6 +151,7 @@ pub struct FrontPoint {
 /// The front of the largest safe zone against q at one restitution: designs than which no other has both a larger zone
 /// and a smaller q, which is easier to build.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Front {
     /// Restitution.
     pub e: f64,

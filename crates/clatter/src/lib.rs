@@ -14,6 +14,9 @@
 //! `q = (L² − ρ²)/(L² + ρ²)` of half-length `L` and radius of gyration `ρ`.
 //!
 //! A product that is no bar is a [`Plate`], which lands on its four corners; the bar is its limit of large inertia across.
+//!
+//! Features: `parallel`, on unless switched off, fills maps on several threads; `serde` writes and reads what is given and
+//! answered, and checks again what is checked on construction.
 
 #![cfg_attr(
     test,
@@ -28,6 +31,8 @@ pub mod design;
 mod error;
 mod exact;
 mod excitation;
+#[cfg(feature = "serde")]
+mod fields;
 mod map;
 mod mass;
 mod motion;

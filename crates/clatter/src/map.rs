@@ -2,10 +2,12 @@
 
 use crate::symmetric::Symmetric;
 use crate::{Bar, Count, Error, Start};
+#[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
 /// What a map shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quantity {
     /// Number of impacts; endless is +∞.
     Impacts,
@@ -25,6 +27,7 @@ pub enum Quantity {
 
 /// What an axis of a grid runs over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Variable {
     /// Inertia ratio q.
     InertiaRatio,
@@ -191,7 +194,11 @@ impl Map {
         let columns: Vec<f64> = (0..e.points).map(|j| e.value(j)).collect();
         // A task takes rows for about 10 µs at least.
         let rows = 8192_usize.div_ceil(e.points);
-        values.par_chunks_mut(rows * e.points).enumerate().for_each(|(chunk, values)| {
+        #[cfg(feature = "parallel")]
+        let tasks = values.par_chunks_mut(rows * e.points);
+        #[cfg(not(feature = "parallel"))]
+        let tasks = values.chunks_mut(rows * e.points);
+        tasks.enumerate().for_each(|(chunk, values)| {
             for (i, row) in values.chunks_mut(e.points).enumerate() {
                 let inertia = q.value(chunk * rows + i);
                 let bar = |e| bar(q.variable, inertia, e);

@@ -4,6 +4,7 @@ use crate::Error;
 
 /// A piece of mass on the bar, for [`Bar::from_masses`](crate::Bar::from_masses).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mass {
     /// A point mass.
     Point {

@@ -40,6 +40,7 @@ use crate::{Error, Restitution};
 
 /// A corner of the plate. Corner `a` strikes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Corner {
     /// At (−1, −1).
     A,

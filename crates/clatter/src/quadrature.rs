@@ -2,6 +2,7 @@
 
 /// An integral and a bound on what the quadrature leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Integral {
     /// The value.
     pub value: f64,

@@ -5,6 +5,7 @@ use crate::dd::Dd;
 
 /// An end of the bar. End `a` strikes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum End {
     /// The end that strikes first, at position −1.
     A,
@@ -30,6 +31,11 @@ impl End {
 
 /// State of the bar at the instant end `a` first touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::fields::StartFields", into = "crate::fields::StartFields")
+)]
 pub struct Start {
     velocity: [f64; 2],
     height_gap: f64,

@@ -7,6 +7,7 @@ use crate::{Bar, Start};
 
 /// How many impacts the train has.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Count {
     /// Exactly so many.
     Finite(u64),
@@ -18,6 +19,7 @@ pub enum Count {
 
 /// Which impact holds the peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PeakImpact {
     /// Impact number, from 1; the first if several tie.
     Number(u64),
@@ -30,6 +32,7 @@ pub enum PeakImpact {
 /// The largest velocity shocks of the train (Eq. 4 of the paper), all held by the same impact where the center of mass
 /// is the middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Peak {
     /// Largest velocity shock at a struck end, (1 + e) max |a_n|; may be infinite (q = e = 1).
     pub end: f64,
@@ -43,6 +46,7 @@ pub struct Peak {
 
 /// Sum of all velocity shocks, from before the first to after the last impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Net {
     /// At end a.
     pub a: f64,
@@ -56,6 +60,7 @@ pub struct Net {
 
 /// Everything about a train that needs no list of its impacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Summary {
     /// Number of impacts.
     pub count: Count,

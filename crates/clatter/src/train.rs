@@ -7,6 +7,7 @@ use crate::{Bar, Count, End, Start};
 
 /// One impact of the train.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact {
     /// From 1.
     pub number: u64,

@@ -21,6 +21,7 @@ use crate::{Bar, End, Peak, PeakImpact, Start};
 
 /// How much of the bar a safe zone covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Extent {
     /// s < 0: even the safest place, the center of a symmetric bar, sees more than the threshold.
     None,
@@ -32,6 +33,7 @@ pub enum Extent {
 
 /// Safe zone of a threshold, whichever end strikes first.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Zone {
     /// Threshold of velocity shock, in v0.
     pub threshold: f64,
@@ -43,6 +45,7 @@ pub struct Zone {
 
 /// Largest shocks of one train at the ends that are struck, by end: with end a striking first they differ.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EndPeaks {
     /// Largest velocity shock of end a in its own strikes.
     pub a: f64,
@@ -106,6 +109,7 @@ pub struct Shocks {
 
 /// The position where the largest shock is least.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Safest {
     /// Position in [−1, 1].
     pub s: f64,

@@ -19,6 +19,7 @@ use crate::exact::Dyadic;
 
 /// The directions of tilt that lead to one word of corners.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Word {
     /// Between these directions r = h_d/(h_b + h_d).
     pub from: f64,
@@ -46,6 +47,7 @@ impl Word {
 
 /// Largest shocks over all directions of tilt.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AtlasPeak {
     /// Of a corner in its own strikes.
     pub corner: f64,

@@ -5,6 +5,7 @@ use super::{Corner, Plate, PlateImpact, PlateShocks, PlateStart};
 
 /// How many impacts a plate has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum PlateCount {
     /// Exactly so many.
@@ -17,6 +18,7 @@ pub enum PlateCount {
 
 /// The largest velocity shock of a train.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlatePeak {
     /// Largest shock of a corner in its own strike, (1 + e)|v_j|.
     pub corner: f64,

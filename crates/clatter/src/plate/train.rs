@@ -22,6 +22,7 @@ use later::{Found, Later};
 
 /// One impact of a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlateImpact {
     /// From 1.
     pub number: u64,

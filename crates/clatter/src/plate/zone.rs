@@ -28,6 +28,7 @@ pub struct PlateShocks {
 
 /// Where on the plate no shock exceeds a threshold.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlateZone {
     /// Threshold of velocity shock, in v0.
     pub threshold: f64,
