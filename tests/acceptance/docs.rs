@@ -1,4 +1,4 @@
-//! What README says is what the tests hold.
+//! What README and the pages of docs/ say is what the tests hold.
 
 use clatter::accuracy::TABLE;
 
@@ -14,24 +14,66 @@ fn readme_states_every_allowed_error() {
     }
 }
 
-/// What README shows after a command, up to its three dots.
-fn example(command: &str) -> &'static str {
-    let shown = include_str!("../../README.md").split(&format!("$ {command}\n")).nth(1);
-    let example = shown.and_then(|rest| rest.split("...").next()).unwrap_or_default();
-    assert!(!example.is_empty(), "README shows {command}");
-    example
+/// Runs every command that a page shows, in a directory with the product files of the page, and looks whether its answer is the one
+/// shown, if any is; three dots stand for lines left out.
+fn holds(page: &str, text: &str, dir: &std::path::Path) -> usize {
+    let mut commands = 0;
+    for block in text.split("```").skip(1).step_by(2) {
+        if let Some(file) = block.strip_prefix("toml\n# ") {
+            let (name, content) = file.split_once('\n').expect("a name and a file");
+            std::fs::write(dir.join(name), content).unwrap();
+        }
+        let Some(shown) = block.strip_prefix("text\n$ ") else { continue };
+        for example in shown.split("\n$ ") {
+            let (command, shown) = example.split_once('\n').unwrap_or((example.trim_end(), ""));
+            let said = crate::clatter(words(command, dir)).stdout.replace(&format!("{}/", dir.display()), "");
+            let mut rest = said.as_str();
+            for (number, piece) in shown.split("...\n").enumerate() {
+                let at = if number == 0 { rest.starts_with(piece).then_some(0) } else { rest.find(piece) };
+                let at = at.unwrap_or_else(|| panic!("{page} shows after {command}\n{piece}\nnot\n{said}"));
+                rest = &rest[at + piece.len()..];
+            }
+            assert!(
+                shown.is_empty() || rest.is_empty() || shown.ends_with("...\n"),
+                "{page} does not show the end of {command}:\n{rest}"
+            );
+            commands += 1;
+        }
+    }
+    commands
+}
+
+/// The arguments of a command, with `'…'` around spaces; files are those of the directory.
+fn words(command: &str, dir: &std::path::Path) -> Vec<String> {
+    let pieces = command.strip_prefix("clatter ").expect("a command of clatter").split('\'').enumerate();
+    let kept = pieces.map(|(n, piece)| if n % 2 == 0 { piece.replace(' ', "\n") } else { piece.to_owned() });
+    let in_dir = |word: &str| {
+        let (option, file) = word.rsplit_once('=').map_or(("", word), |(option, file)| (option, file));
+        let equals = if option.is_empty() { "" } else { "=" };
+        let is_file = file.ends_with(".toml") || file.ends_with(".csv");
+        if is_file { format!("{option}{equals}{}", dir.join(file).display()) } else { word.to_owned() }
+    };
+    kept.collect::<String>().split('\n').map(in_dir).collect()
 }
 
 #[test]
 fn the_examples_of_readme_are_what_the_command_says() {
     let dir = tempfile::tempdir().unwrap();
-    let file = dir.path().join("handheld.toml").display().to_string();
-    assert_eq!(crate::clatter(["init", &file]).stderr, "");
-    for (command, outcome) in [
-        ("clatter impacts --q=0.5 --e=0.3", crate::clatter(["impacts", "--q=0.5", "--e=0.3"])),
-        ("clatter assess handheld.toml", crate::clatter(["assess", &file])),
-    ] {
-        let (shown, said) = (example(command), outcome.stdout);
-        assert!(said.starts_with(shown), "README shows\n{shown}\nnot\n{said}");
+    assert_eq!(holds("README", include_str!("../../README.md"), dir.path()), 3);
+}
+
+#[test]
+fn the_examples_of_the_tutorials_are_what_the_command_says() {
+    let (root, dir) = (std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(".."), tempfile::tempdir().unwrap());
+    for file in ["reports/examples/phone.toml", "docs/drop.csv"] {
+        let file = root.join(file);
+        std::fs::copy(&file, dir.path().join(file.file_name().unwrap())).unwrap();
+    }
+    let read = |page: &str| std::fs::read_to_string(root.join("docs").join(page)).unwrap();
+    let index = read("README.md");
+    let pages: Vec<&str> = index.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert_eq!(pages.len(), 6);
+    for page in pages {
+        assert_eq!(holds(page, &read(page), dir.path()) > 0, page != "theory.md", "{page}");
     }
 }

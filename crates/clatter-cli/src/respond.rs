@@ -353,7 +353,7 @@ impl Args {
 
     /// An input: what was typed as it was, what a search found to six digits.
     fn shortly(&self, x: f64) -> f64 {
-        if self.worst.is_some() { format!("{x:.5e}").parse().unwrap_or(x) } else { x }
+        if self.worst.is_some() { six(x) } else { x }
     }
 
     /// A question that has no answer; of a natural frequency with the option that gives it.
@@ -382,4 +382,9 @@ impl Args {
             None => Ok(None),
         }
     }
+}
+
+/// To six digits.
+fn six(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
 }

@@ -57,7 +57,10 @@ mod tests {
     #[test]
     fn what_is_refused_when_built_is_refused_when_read() {
         let start = serde_json::from_str::<Start>(r#"{"velocity":[1.0,-1.0],"height_gap":1.0}"#).unwrap_err();
-        assert!(start.to_string().starts_with("starting velocities [1.0, -1.0]: end a must approach the ground"), "{start}");
+        assert!(
+            start.to_string().starts_with("starting velocities [1.0, -1.0]: end a must approach the ground"),
+            "{start}"
+        );
         let e = serde_json::from_str::<Restitution>("1.5").unwrap_err();
         assert!(e.to_string().contains("1.5"), "{e}");
     }

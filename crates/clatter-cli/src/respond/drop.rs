@@ -94,7 +94,7 @@ impl Drop<'_> {
         let (length, e) = (shown.length.given(length_m.0), given(e.0));
         match &self.answer.part {
             Some(Peaks { omega, damping, .. }) => {
-                let zeta = given(self.args.shortly(neat(damping.0)));
+                let zeta = given(super::six(damping.0));
                 let of_file = self.setup.part.as_ref().and_then(|part| part.suspension).map(|(frequency, _)| frequency);
                 let of_file = of_file.filter(|_| self.args.omega.is_none());
                 let frequency = match self.args.frequency.or(of_file) {

@@ -116,7 +116,7 @@ impl Drop<'_> {
                     Some(Quantity { si, unit }) => Show { unit, name: "Hz" }.given(si),
                     None => format!("W = {} rad/s", given(part.omega())),
                 };
-                let zeta = given(self.args.shortly(neat(part.damping().get())));
+                let zeta = given(super::six(part.damping().get()));
                 writeln!(out, "Component at {plate}; {frequency}, damping ratio {zeta}")?;
             }
             None => writeln!(out, "Place {plate}; a part there is mounted rigidly")?,

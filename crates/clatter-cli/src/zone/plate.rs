@@ -57,7 +57,9 @@ fn table(question: &Question, answer: &Answer, out: &mut dyn Write) -> io::Resul
     writeln!(out, "\n{:>12} {:>10}   corners of the safe zone", "threshold", "safe")?;
     writeln!(out, "{:>12} {:>10}   half-lengths,half-widths", "v0", "of the area")?;
     for zone in &answer.zones {
-        let places: Vec<_> = zone.polygon.iter().map(|[x, y]| format!("{:.4},{:.4}", x.0 + 0.0, y.0 + 0.0)).collect();
+        // No place is at −0.0000.
+        let shown = |x: f64| (1e4 * x).round() / 1e4 + 0.0;
+        let places: Vec<_> = zone.polygon.iter().map(|[x, y]| format!("{:.4},{:.4}", shown(x.0), shown(y.0))).collect();
         let meaning = match zone.extent {
             Extent::None => "none: every place sees more".to_owned(),
             Extent::Part => places.join("  "),
