@@ -12,9 +12,10 @@ use crate::flight::Law;
 use crate::hunt::{Worst, hunt};
 use crate::product::{Kind, Product};
 use crate::random::{KINDS, Random, product};
+use crate::spatial;
 
 /// A finding above what was told counts beyond this, the error of the integration here.
-const SLACK: f64 = 1e-3;
+pub(crate) const SLACK: f64 = 1e-3;
 
 /// What was counted.
 #[derive(Debug, Default)]
@@ -32,11 +33,11 @@ struct Counts {
 }
 
 /// One limit as it was told.
-struct Claimed {
-    verdict: String,
-    demand: f64,
-    allowed: f64,
-    uncertainty: f64,
+pub(crate) struct Claimed {
+    pub(crate) verdict: String,
+    pub(crate) demand: f64,
+    pub(crate) allowed: f64,
+    pub(crate) uncertainty: f64,
     reason: String,
 }
 
@@ -51,9 +52,12 @@ pub fn compare(
     drops: usize,
     out: &mut dyn Write,
 ) -> Result<(), String> {
+    if ["plate", "box"].contains(&kind) {
+        return spatial::compare(clatter, kind, seeds, drops, out);
+    }
     let kinds: Vec<&str> = KINDS.into_iter().filter(|&name| kind == "all" || kind == name).collect();
     if kinds.is_empty() {
-        return Err(format!("--kind={kind}: one of {}", KINDS.join(", ")));
+        return Err(format!("--kind={kind}: one of {}, plate, box", KINDS.join(", ")));
     }
     let mut reasons = BTreeMap::new();
     for kind in kinds {
@@ -84,22 +88,7 @@ pub fn compare(
 /// Compares one product: a first assessment tells the demands, a second has limits somewhat above them.
 fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: &mut Counts) -> Result<String, String> {
     let first = assess(clatter, text)?;
-    let mut random = Random::new(seed + 77);
-    let mut limited = String::new();
-    let mut part = -1;
-    for line in text.lines() {
-        part += i32::from(line == "[[component]]");
-        let limit = first.iter().find(|((name, kind), _)| {
-            *name == format!("part {part}") && line.starts_with(&format!("{} = ", key(kind)))
-        });
-        match limit {
-            Some(((_, kind), told)) if told.demand > 0.0 => {
-                let allowed = told.demand * (1.0 + random.within(0.0, 0.3));
-                limited += &format!("{} = \"{allowed:.6e} {}\"\n", key(kind), unit(kind));
-            }
-            _ => limited += &format!("{line}\n"),
-        }
-    }
+    let limited = with_room(text, &first, &mut Random::new(seed + 77));
     let told = assess(clatter, &limited)?;
     let product = Product::read(&limited)?;
     let mut lines = String::new();
@@ -149,6 +138,26 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
     Ok(lines)
 }
 
+/// The same file with limits up to 30 % above the demands that were told.
+pub(crate) fn with_room(text: &str, told: &BTreeMap<(String, String), Claimed>, random: &mut Random) -> String {
+    let mut limited = String::new();
+    let mut part = -1;
+    for line in text.lines() {
+        part += i32::from(line == "[[component]]");
+        let limit = told.iter().find(|((name, kind), _)| {
+            *name == format!("part {part}") && line.starts_with(&format!("{} = ", key(kind)))
+        });
+        match limit {
+            Some(((_, kind), told)) if told.demand > 0.0 => {
+                let allowed = told.demand * (1.0 + random.within(0.0, 0.3));
+                limited += &format!("{} = \"{allowed:.6e} {}\"\n", key(kind), unit(kind));
+            }
+            _ => limited += &format!("{line}\n"),
+        }
+    }
+    limited
+}
+
 fn key(kind: &str) -> String {
     let name = kind.replace('-', "_");
     if kind == "rattle-space" { name } else { name + "_limit" }
@@ -165,7 +174,7 @@ fn unit(kind: &str) -> &str {
 }
 
 /// Every limit by its part and kind.
-fn assess(clatter: &Path, text: &str) -> Result<BTreeMap<(String, String), Claimed>, String> {
+pub(crate) fn assess(clatter: &Path, text: &str) -> Result<BTreeMap<(String, String), Claimed>, String> {
     let file: PathBuf = std::env::temp_dir().join(format!("clatter-brute-{}.toml", std::process::id()));
     std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
     let output = Command::new(clatter).arg("assess").arg("--format=json").arg(&file).output();
@@ -233,10 +242,21 @@ pub fn repeat(worst: &Worst) -> Vec<String> {
     args
 }
 
-fn answer(clatter: &Path, args: &[String], kind: Kind) -> Option<f64> {
+pub(crate) fn answer(clatter: &Path, args: &[String], kind: Kind) -> Option<f64> {
     let output = Command::new(clatter).args(args).arg("--format=json").stderr(Stdio::null()).output().ok()?;
     let answer: Value = serde_json::from_slice(&output.stdout).ok()?;
-    let suspended = args.iter().any(|arg| arg.starts_with("--omega"));
+    let omega = args.iter().find_map(|arg| arg.strip_prefix("--omega=")?.parse::<f64>().ok());
+    let suspended = omega.is_some();
+    // A box has its part, or else the place.
+    if args.iter().any(|arg| arg.starts_with("--thickness-m")) {
+        let part = |key: &str| answer["part"][key].as_f64();
+        return match (kind, omega) {
+            (Kind::Acceleration, Some(omega)) => Some(part("peak_absolute_acceleration_over_omega")? * omega),
+            (Kind::RattleSpace, Some(omega)) => Some(part("omega_peak_relative_displacement")? / omega),
+            (Kind::Acceleration, None) => answer["acceleration"]["value_m_s2"].as_f64(),
+            _ => None,
+        };
+    }
     let value = |key: &str| answer["answers"][key]["value"].as_f64();
     match kind {
         Kind::Acceleration if suspended => value("part_acceleration"),

@@ -1,13 +1,7 @@
 //! One drop of a bar, integrated in small steps: exact geometry, gravity, forces at the two ends.
 
-/// Force of a contact over its depth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Law {
-    /// Loads on one line and unloads on a steeper one; leaves a dent.
-    Hysteretic,
-    /// Spring and dashpot that never pull.
-    Dashpot,
-}
+pub use crate::ground::Law;
+use crate::ground::{Contact, Ground, LEAST_RESTITUTION, Phase};
 
 /// A bar at the moment when its lower end touches the ground, all of it falling at one speed; SI units.
 #[derive(Debug, Clone, Copy)]
@@ -91,12 +85,6 @@ pub struct Flight {
 /// Height of the center of mass, angle, and their rates.
 type State = [f64; 4];
 
-/// Restitution below which the unloading line of the hysteretic law is too steep to be stepped.
-const LEAST_RESTITUTION: f64 = 0.01;
-/// Steps of time in radians of the fastest oscillation.
-const FINE: f64 = 0.08;
-/// The same while nothing but the weight is carried.
-const COARSE: f64 = 0.5;
 /// Steps of free flight in radians that the bar turns.
 const TURN: f64 = 0.1;
 /// A drop that needs more is left.
@@ -104,61 +92,23 @@ const MOST_STEPS: usize = 1_000_000;
 /// Rebound speed below which an end that strikes at an instant hops on, as a share of the speed of the drop.
 const HOP: f64 = 1e-4;
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-enum Phase {
-    #[default]
-    Free,
-    /// Loading on the virgin line; the only phase of a dashpot.
-    Load,
-    /// Below the virgin line.
-    Unload,
-}
-
-#[derive(Debug, Clone, Copy, Default)]
-struct Contact {
-    phase: Phase,
-    /// Height of the ground under this end: 0, or below it where it was parted in its dent.
-    ground: f64,
-    stiffness: f64,
-    dashpot: f64,
-    /// Depth where the unloading line begins, and where it meets zero.
-    deepest: f64,
-    zero: f64,
-}
-
 struct Bar {
     drop: Drop,
     /// The ends from the center of mass.
     ends: [f64; 2],
     inertia: f64,
-    e: f64,
-    /// Frequency and damping rate of a lone contact.
-    omega: f64,
-    damping: f64,
+    ground: Ground,
     contacts: [Contact; 2],
 }
 
 impl Bar {
     fn new(drop: &Drop) -> Self {
         let half = drop.length / 2.0;
-        let (omega, damping, e) = match drop.contact {
-            Some((Law::Hysteretic, time)) => {
-                let e = drop.e.max(LEAST_RESTITUTION);
-                (std::f64::consts::FRAC_PI_2 * (1.0 + e) / time, 0.0, e)
-            }
-            Some((Law::Dashpot, time)) => {
-                let (omega, zeta) = dashpot(drop.e.max(LEAST_RESTITUTION));
-                (omega / time, zeta * omega / time, drop.e)
-            }
-            None => (0.0, 0.0, drop.e),
-        };
         Self {
             drop: *drop,
             ends: [-half - drop.center, half - drop.center],
             inertia: drop.gyration * drop.gyration,
-            e,
-            omega,
-            damping,
+            ground: Ground::new(drop.contact, drop.e),
             contacts: [Contact::default(); 2],
         }
     }
@@ -166,10 +116,6 @@ impl Bar {
     fn start(&self) -> State {
         let angle = if self.drop.b_first { -self.drop.tilt } else { self.drop.tilt };
         [-self.ends[usize::from(self.drop.b_first)] * angle.sin(), angle, -self.drop.speed, 0.0]
-    }
-
-    fn hysteretic(&self) -> bool {
-        matches!(self.drop.contact, Some((Law::Hysteretic, _)))
     }
 
     fn height(&self, end: usize, s: &State) -> f64 {
@@ -187,13 +133,7 @@ impl Bar {
 
     /// Force per mass, on the line of the present phase.
     fn force(&self, end: usize, s: &State) -> f64 {
-        let c = &self.contacts[end];
-        let depth = c.ground - self.height(end, s);
-        match c.phase {
-            Phase::Free => 0.0,
-            Phase::Load => c.stiffness * depth - c.dashpot * self.velocity(end, s),
-            Phase::Unload => c.stiffness / (self.e * self.e) * (depth - c.zero),
-        }
+        self.contacts[end].force(&self.ground, self.height(end, s), self.velocity(end, s))
     }
 
     /// Felt acceleration of the center of mass and angular acceleration.
@@ -219,90 +159,26 @@ impl Bar {
 
     /// Positive within a phase, negative when it is over.
     fn room(&self, end: usize, s: &State) -> f64 {
-        let c = &self.contacts[end];
-        let height = self.height(end, s);
-        match c.phase {
-            Phase::Free if c.dashpot > 0.0 => {
-                // Parted below the ground: presses again when spring and dashpot together push.
-                (c.stiffness * height + c.dashpot * self.velocity(end, s)).min(-height)
-            }
-            Phase::Free if c.ground < 0.0 => (height - c.ground).min(-height),
-            Phase::Free => height,
-            Phase::Load if self.hysteretic() => -self.velocity(end, s),
-            Phase::Load => self.force(end, s),
-            Phase::Unload => (c.ground - height - c.zero).min(c.deepest - (c.ground - height)),
-        }
+        self.contacts[end].room(&self.ground, self.height(end, s), self.velocity(end, s))
     }
 
     /// The phase of an end is over: the next one begins. Tells whether it is a touch.
     fn advance(&mut self, end: usize, s: &State) -> bool {
         let (height, mobility) = (self.height(end, s), self.mobility(end, s));
-        let (omega, damping, e, hysteretic) = (self.omega, self.damping, self.e, self.hysteretic());
-        let c = &mut self.contacts[end];
-        match c.phase {
-            Phase::Free if height >= 0.0 && (c.ground < 0.0 || c.dashpot > 0.0) => (c.ground, c.dashpot) = (0.0, 0.0),
-            Phase::Free => {
-                c.phase = Phase::Load;
-                if c.dashpot == 0.0 {
-                    (c.stiffness, c.dashpot) = (omega * omega / mobility, 2.0 * damping / mobility);
-                }
-                return true;
-            }
-            Phase::Load if hysteretic => {
-                c.deepest = c.ground - height;
-                c.zero = c.deepest * (1.0 - e * e);
-                c.phase = Phase::Unload;
-            }
-            Phase::Load => c.phase = Phase::Free,
-            Phase::Unload if c.ground - height < c.zero => {
-                c.phase = Phase::Free;
-                c.ground = height;
-            }
-            Phase::Unload => c.phase = Phase::Load,
-        }
-        false
+        self.contacts[end].advance(&self.ground, height, mobility)
     }
 
     fn energy(&self, s: &State) -> f64 {
-        let stored = |end: usize| {
-            let c = &self.contacts[end];
-            let force = self.force(end, s);
-            match c.phase {
-                // The spring of a dashpot keeps what it has until its end is up.
-                _ if c.dashpot > 0.0 => c.stiffness * self.height(end, s).powi(2) / 2.0,
-                Phase::Free => 0.0,
-                _ => force * force * self.e * self.e / (2.0 * c.stiffness),
-            }
-        };
+        let stored = |end: usize| self.contacts[end].stored(&self.ground, self.height(end, s), self.velocity(end, s));
         let kinetic = 0.5 * (s[2] * s[2] + self.inertia * s[3] * s[3]);
         kinetic + self.drop.gravity * s[0] + stored(0) + stored(1)
     }
 
     /// A step of time that resolves the fastest oscillation of what presses.
     fn fine(&self, s: &State) -> f64 {
-        let (mut square, mut rate) = (0.0, 0.0);
-        for end in 0..2 {
-            let (c, mobility) = (&self.contacts[end], self.mobility(end, s));
-            match c.phase {
-                Phase::Free => {}
-                Phase::Load => {
-                    square += c.stiffness * mobility;
-                    rate += c.dashpot * mobility;
-                }
-                Phase::Unload => square += c.stiffness * mobility / (self.e * self.e),
-            }
-        }
-        let little = 10.0 * self.drop.gravity;
-        let weak = |end: usize| match (self.contacts[end].phase, &self.contacts[end]) {
-            (Phase::Free, _) => true,
-            (Phase::Load, c) => {
-                let (depth, velocity) = (self.height(end, s), self.velocity(end, s));
-                c.dashpot > 0.0 && c.stiffness * depth.abs() + c.dashpot * velocity.abs() < little
-            }
-            (Phase::Unload, c) => c.stiffness * c.deepest < little,
-        };
-        let radians = if weak(0) && weak(1) { COARSE } else { FINE };
-        radians / f64::sqrt(square).max(rate).max(self.omega / 4.0)
+        let each =
+            [0, 1].map(|end| (self.contacts[end], self.height(end, s), self.velocity(end, s), self.mobility(end, s)));
+        self.ground.fine(&each, self.drop.gravity)
     }
 
     /// Time until an end comes to the ground, in free flight: steps that cannot reach beyond it.
@@ -344,29 +220,10 @@ impl Bar {
     /// How long both ends have to press without an event to be at rest: twice the slower oscillation on the steep lines.
     fn patience(&self, s: &State) -> f64 {
         let mobility = self.mobility(0, s).min(self.mobility(1, s));
-        let slow = self.omega / self.e.max(LEAST_RESTITUTION) * (2.0 * (mobility - 1.0).min(1.0) / mobility).sqrt();
+        let slow = self.ground.omega / self.ground.e.max(LEAST_RESTITUTION)
+            * (2.0 * (mobility - 1.0).min(1.0) / mobility).sqrt();
         (2.0 * std::f64::consts::TAU / slow).max(4.0 * self.drop.contact.map_or(0.0, |(_, time)| time))
     }
-}
-
-/// Frequency and damping ratio of spring and dashpot that touch for a time of 1 and part, where they would pull, with
-/// restitution e.
-fn dashpot(e: f64) -> (f64, f64) {
-    // Time to the end of the push, in units of 1/ω; the restitution is then exp(−ζ ω t).
-    let time = |zeta: f64| {
-        let d = (1.0 - zeta * zeta).abs();
-        match zeta {
-            z if d < 1e-9 => 2.0 * z,
-            z if z < 1.0 => 2.0 * z.acos() / d.sqrt(),
-            z => 2.0 * z.acosh() / d.sqrt(),
-        }
-    };
-    let (mut low, mut high) = (0.0_f64, 1e6_f64);
-    for _ in 0..200 {
-        let mid = if high > 2.0 { (low.max(1e-3) * high).sqrt() } else { f64::midpoint(low, high) };
-        if (-mid * time(mid)).exp() > e { low = mid } else { high = mid }
-    }
-    (time(low), low)
 }
 
 /// Follows a drop.
@@ -382,9 +239,8 @@ fn contacts(drop: &Drop, until: Until) -> Flight {
     let mut s = bar.start();
     let (mut time, mut last_event, mut approach) = (0.0, 0.0, [f64::INFINITY; 2]);
     while time < until.time && flight.steps.len() < MOST_STEPS {
-        let above = |c: &Contact| c.phase == Phase::Free && c.ground == 0.0 && c.dashpot == 0.0;
         let mut over = [false; 2];
-        if bar.contacts.iter().all(above) {
+        if bar.contacts.iter().all(Contact::is_up) {
             let (wait, end) = bar.fall(&s, until.time - time);
             if time + wait >= until.time {
                 s = fly(&bar, &mut flight, &s, time, until.time - time);

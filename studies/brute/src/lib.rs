@@ -10,7 +10,8 @@
 //! `hunt` prints the worst value of each limit with its drop, `random` a product file as a designer would write one,
 //! `compare` what such files make `clatter assess` tell beside what was found. Each drop is integrated in small steps
 //! ([`flight`]): equations of motion at any angle, a law of force at each end, bisection where a phase ends. Parts and
-//! shocks are taken from the stored history ([`part`]).
+//! shocks are taken from the stored history ([`part`]). Plates and boxes of all directions and attitudes are followed as boxes in
+//! space ([`solid`]), `--kind=plate` and `--kind=box` ([`spatial`]).
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 // Numbers are counted, and counts are small.
@@ -24,7 +25,10 @@
 
 pub mod compare;
 pub mod flight;
+mod ground;
 pub mod hunt;
 pub mod part;
 pub mod product;
 pub mod random;
+pub mod solid;
+pub mod spatial;

@@ -5,3 +5,4 @@
 mod hunt;
 mod laws;
 mod oracle;
+mod solid;

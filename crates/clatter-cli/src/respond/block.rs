@@ -10,6 +10,7 @@ use crate::block::{Axis, Setup};
 use crate::drop_args::BesideBlock;
 use crate::inputs::Format;
 use crate::numbers::{figures, given};
+use crate::quantities::neat;
 use crate::{Failure, Streams};
 
 impl Args {
@@ -66,7 +67,7 @@ impl Args {
 
 fn table(answer: &Answer, setup: &Setup, out: &mut dyn Write) -> io::Result<()> {
     setup.heading(out)?;
-    let [x, y, z] = answer.at_m.map(|x| given(1e3 * x.0));
+    let [x, y, z] = answer.at_m.map(|x| given(neat(1e3 * x.0)));
     let axis = if answer.axis == "any" { "in magnitude".to_owned() } else { format!("along {}", answer.axis) };
     writeln!(out, "Place at {x}, {y}, {z} mm from the middle, {axis}")?;
     writeln!(out)?;

@@ -1,0 +1,362 @@
+//! One drop of a box in space, integrated in small steps in axes of the world: full rotation, gravity, forces at the eight corners.
+
+use crate::flight::{Flight, Step, Until};
+use crate::ground::{Contact, Ground, Law, Phase};
+
+/// A vector.
+pub type Vector = [f64; 3];
+type Matrix = [Vector; 3];
+
+/// A box at the moment when its lowest corner touches the ground, all of it falling at one speed; SI units. Its axes run along
+/// length, width and thickness.
+#[derive(Debug, Clone, Copy)]
+pub struct Solid {
+    /// Length, width and thickness.
+    pub sides: Vector,
+    /// Center of mass from the middle.
+    pub center: Vector,
+    /// Radii of gyration about the three axes.
+    pub radii: Vector,
+    /// Restitution of the corners.
+    pub e: f64,
+    /// Law and time of a lone contact.
+    pub contact: (Law, f64),
+    /// Speed.
+    pub speed: f64,
+    /// The vertical in axes of the box.
+    pub upward: Vector,
+    /// Gravity.
+    pub gravity: f64,
+}
+
+/// What the box felt in a step: at begin, middle and end, in its own axes, that of the center of mass and what a meter along each axis
+/// adds.
+#[derive(Debug, Clone, Copy)]
+struct Moment {
+    time: f64,
+    length: f64,
+    flying: bool,
+    felt: [(Vector, Matrix); 3],
+}
+
+/// A drop that was followed.
+#[derive(Debug, Clone)]
+pub struct Course {
+    moments: Vec<Moment>,
+    /// When it was left.
+    pub end: f64,
+    at_rest: bool,
+    gravity: f64,
+    /// The vertical in axes of the box as it was left.
+    upward: Vector,
+    /// Corners in the order of their first touches.
+    pub order: Vec<usize>,
+    /// Largest gain of energy, as a share of that of the drop: none but for the error of the integration.
+    pub gain: f64,
+}
+
+/// Height and velocity of the center of mass, then the attitude (its rows: axes of the world in those of the box), then the angular
+/// momentum in axes of the world.
+type State = [f64; 14];
+
+/// Steps of free flight in radians that the box turns.
+const TURN: f64 = 0.05;
+/// A drop that needs more is left.
+const MOST_STEPS: usize = 400_000;
+/// A corner is down from this height on.
+const DOWN: f64 = 1e-12;
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(a: Vector) -> Vector {
+    let size = dot(a, a).sqrt();
+    a.map(|x| x / size)
+}
+
+/// In axes of the world.
+fn out(r: &Matrix, body: Vector) -> Vector {
+    r.map(|row| dot(row, body))
+}
+
+/// In axes of the box.
+fn back(r: &Matrix, world: Vector) -> Vector {
+    std::array::from_fn(|j| r[0][j] * world[0] + r[1][j] * world[1] + r[2][j] * world[2])
+}
+
+struct Body {
+    solid: Solid,
+    corners: [Vector; 8],
+    ground: Ground,
+    contacts: [Contact; 8],
+}
+
+impl Body {
+    fn new(solid: &Solid) -> Self {
+        let corner = |k: usize| -> Vector {
+            std::array::from_fn(|i| {
+                let sign = if k >> i & 1 == 1 { 0.5 } else { -0.5 };
+                sign * solid.sides[i] - solid.center[i]
+            })
+        };
+        Self {
+            solid: *solid,
+            corners: std::array::from_fn(corner),
+            ground: Ground::new(Some(solid.contact), solid.e),
+            contacts: [Contact::default(); 8],
+        }
+    }
+
+    fn start(&self) -> State {
+        let up = unit(self.solid.upward);
+        let mut first = [0.0; 3];
+        first[(0..3).min_by(|&i, &j| up[i].abs().total_cmp(&up[j].abs())).unwrap_or(0)] = 1.0;
+        let x = unit(cross(first, up));
+        let y = cross(up, x);
+        let lowest = self.corners.iter().map(|&c| dot(up, c)).fold(f64::INFINITY, f64::min);
+        let mut s = [0.0; 14];
+        (s[0], s[1]) = (-lowest, -self.solid.speed);
+        for (i, x) in x.into_iter().chain(y).chain(up).enumerate() {
+            s[2 + i] = x;
+        }
+        s
+    }
+
+    fn attitude(s: &State) -> Matrix {
+        [[s[2], s[3], s[4]], [s[5], s[6], s[7]], [s[8], s[9], s[10]]]
+    }
+
+    /// Attitude and angular velocity in axes of the world.
+    fn turning(&self, s: &State) -> (Matrix, Vector) {
+        let r = Self::attitude(s);
+        let spin = back(&r, [s[11], s[12], s[13]]);
+        (r, out(&r, std::array::from_fn(|i| spin[i] / self.solid.radii[i].powi(2))))
+    }
+
+    /// What a torque in axes of the world turns.
+    fn turned(&self, r: &Matrix, torque: Vector) -> Vector {
+        let own = back(r, torque);
+        out(r, std::array::from_fn(|i| own[i] / self.solid.radii[i].powi(2)))
+    }
+
+    /// Height, velocity and mobility of a corner.
+    fn corner(&self, k: usize, s: &State) -> (f64, f64, f64) {
+        let (r, w) = self.turning(s);
+        let arm = out(&r, self.corners[k]);
+        let lever = [arm[1], -arm[0], 0.0];
+        (s[0] + arm[2], s[1] + dot(w, lever), 1.0 + dot(lever, self.turned(&r, lever)))
+    }
+
+    fn force(&self, k: usize, s: &State) -> f64 {
+        let c = &self.contacts[k];
+        if c.phase == Phase::Free {
+            return 0.0;
+        }
+        let (height, velocity, _) = self.corner(k, s);
+        c.force(&self.ground, height, velocity)
+    }
+
+    /// Force of the ground on the mass, and its torque about the center of mass.
+    fn pushed(&self, s: &State) -> (f64, Vector) {
+        let r = Self::attitude(s);
+        let (mut push, mut torque) = (0.0, [0.0; 3]);
+        for k in 0..8 {
+            let force = self.force(k, s);
+            if force != 0.0 {
+                let arm = out(&r, self.corners[k]);
+                push += force;
+                torque[0] += force * arm[1];
+                torque[1] -= force * arm[0];
+            }
+        }
+        (push, torque)
+    }
+
+    fn rate(&self, s: &State) -> State {
+        let ((r, w), (push, torque)) = (self.turning(s), self.pushed(s));
+        let mut rate = [0.0; 14];
+        (rate[0], rate[1]) = (s[1], push - self.solid.gravity);
+        for j in 0..3 {
+            let turned = cross(w, [r[0][j], r[1][j], r[2][j]]);
+            for i in 0..3 {
+                rate[2 + 3 * i + j] = turned[i];
+            }
+        }
+        rate[11..].copy_from_slice(&torque);
+        rate
+    }
+
+    /// A step of Runge and Kutta.
+    fn step(&self, s: &State, h: f64) -> State {
+        let along = |rate: &State, h: f64| -> State { std::array::from_fn(|i| s[i] + h * rate[i]) };
+        let k1 = self.rate(s);
+        let k2 = self.rate(&along(&k1, h / 2.0));
+        let k3 = self.rate(&along(&k2, h / 2.0));
+        let k4 = self.rate(&along(&k3, h));
+        let mut next = std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+        Self::squared(&mut next);
+        next
+    }
+
+    /// The rows of the attitude made a rotation again.
+    fn squared(s: &mut State) {
+        let r = Self::attitude(s);
+        let x = unit(r[0]);
+        let z = unit(cross(x, r[1]));
+        for (i, x) in x.into_iter().chain(cross(z, x)).chain(z).enumerate() {
+            s[2 + i] = x;
+        }
+    }
+
+    /// What is felt: of the center of mass, and for a meter along each axis of the box (its columns).
+    fn felt(&self, s: &State) -> (Vector, Matrix) {
+        let ((r, w), (push, torque)) = (self.turning(s), self.pushed(s));
+        let spun = cross(w, [s[11], s[12], s[13]]);
+        let bend = self.turned(&r, std::array::from_fn(|i| torque[i] - spun[i]));
+        let lift = std::array::from_fn(|j| {
+            let axis = [r[0][j], r[1][j], r[2][j]];
+            let (by_bend, by_turn) = (cross(bend, axis), cross(w, cross(w, axis)));
+            back(&r, std::array::from_fn(|i| by_bend[i] + by_turn[i]))
+        });
+        (back(&r, [0.0, 0.0, push]), lift)
+    }
+
+    fn energy(&self, s: &State) -> f64 {
+        let (_, w) = self.turning(s);
+        let stored = |k: usize| {
+            let (height, velocity, _) = self.corner(k, s);
+            self.contacts[k].stored(&self.ground, height, velocity)
+        };
+        let kinetic = 0.5 * (s[1] * s[1] + dot(w, [s[11], s[12], s[13]]));
+        kinetic + self.solid.gravity * s[0] + (0..8).map(stored).sum::<f64>()
+    }
+
+    /// A time in which no corner can come to the ground, in free flight.
+    fn clear(&self, s: &State) -> f64 {
+        let fastest = dot([s[11], s[12], s[13]], [s[11], s[12], s[13]]).sqrt()
+            / self.solid.radii.iter().fold(f64::INFINITY, |a, b| a.min(*b)).powi(2);
+        let one = |k: usize| {
+            let (height, velocity, _) = self.corner(k, s);
+            if velocity < 0.0 && height <= DOWN {
+                return 0.0;
+            }
+            let reach = dot(self.corners[k], self.corners[k]).sqrt();
+            // Turning changes the velocity of a corner by the squared rate at most, and that of the axis by as much again.
+            let bend = self.solid.gravity + 2.0 * reach * fastest * fastest;
+            let root = (velocity * velocity + 2.0 * bend * height.max(0.0)).sqrt();
+            if velocity > 0.0 { (velocity + root) / bend } else { 2.0 * height.max(0.0) / (root - velocity) }
+        };
+        (0..8).map(one).fold(TURN / fastest, f64::min)
+    }
+}
+
+/// Follows a drop.
+#[must_use]
+pub fn follow(solid: &Solid, until: Until) -> Course {
+    let mut body = Body::new(solid);
+    let mut s = body.start();
+    let (mut moments, mut order) = (Vec::new(), Vec::new());
+    let (mut time, mut gain, mut at_rest) = (0.0, 0.0_f64, false);
+    let whole = 0.5 * solid.speed * solid.speed;
+    let mut least = body.energy(&s);
+    while time < until.time && moments.len() < MOST_STEPS {
+        let mut over = [false; 8];
+        let flying = body.contacts.iter().all(Contact::is_up);
+        let (h, next) = if flying {
+            let clear = body.clear(&s);
+            over = std::array::from_fn(|k| {
+                let (height, velocity, _) = body.corner(k, &s);
+                height <= DOWN && velocity < 0.0
+            });
+            if over.contains(&true) {
+                (0.0, s)
+            } else {
+                let h = clear.max(1e-12).min(until.time - time);
+                (h, body.step(&s, h))
+            }
+        } else {
+            let points: Vec<_> = (0..8)
+                .map(|k| {
+                    let (height, velocity, mobility) = body.corner(k, &s);
+                    (body.contacts[k], height, velocity, mobility)
+                })
+                .collect();
+            let room = |k: usize, s: &State| {
+                let (height, velocity, _) = body.corner(k, s);
+                body.contacts[k].room(&body.ground, height, velocity)
+            };
+            let mut h = body.ground.fine(&points, solid.gravity).min(until.time - time);
+            let mut next = body.step(&s, h);
+            if (0..8).any(|k| room(k, &next) < 0.0) {
+                let (mut low, mut high) = (0.0, h);
+                for _ in 0..44 {
+                    h = f64::midpoint(low, high);
+                    let next = body.step(&s, h);
+                    if (0..8).any(|k| room(k, &next) < 0.0) { high = h } else { low = h }
+                }
+                h = high;
+                next = body.step(&s, h);
+                over = std::array::from_fn(|k| room(k, &next) < 0.0);
+            }
+            (h, next)
+        };
+        if h > 0.0 {
+            let (from, to) = (body.rate(&s), body.rate(&next));
+            let middle: State = std::array::from_fn(|i| f64::midpoint(s[i], next[i]) + h / 8.0 * (from[i] - to[i]));
+            let felt = [&s, &middle, &next].map(|s| body.felt(s));
+            moments.push(Moment { time, length: h, flying, felt });
+        }
+        (s, time) = (next, time + h);
+        for k in (0..8).filter(|&k| over[k]) {
+            let (height, _, mobility) = body.corner(k, &s);
+            if body.contacts[k].advance(&body.ground, height, mobility) && !order.contains(&k) {
+                order.push(k);
+            }
+        }
+        least = least.min(body.energy(&s));
+        gain = gain.max((body.energy(&s) - least) / whole);
+        let slow = until.quiet * solid.speed;
+        let (_, w) = body.turning(&s);
+        let still = s[1] * s[1] + dot(w, [s[11], s[12], s[13]]) < slow * slow;
+        if still && body.contacts.iter().filter(|c| c.phase != Phase::Free).count() > 2 {
+            at_rest = true;
+            break;
+        }
+    }
+    let upward = Body::attitude(&s)[2];
+    Course { moments, end: time, at_rest, gravity: solid.gravity, upward, order, gain }
+}
+
+impl Course {
+    /// What a place from the center of mass felt along an axis of the box, or of any by its size.
+    #[must_use]
+    pub fn at(&self, place: Vector, axis: Option<usize>) -> Flight {
+        let seen = |(center, lift): &(Vector, Matrix)| {
+            let felt: Vector = std::array::from_fn(|i| {
+                center[i] + place[0] * lift[0][i] + place[1] * lift[1][i] + place[2] * lift[2][i]
+            });
+            axis.map_or_else(|| dot(felt, felt).sqrt(), |axis| felt[axis])
+        };
+        let step = |moment: &Moment| Step {
+            time: moment.time,
+            length: moment.length,
+            flying: moment.flying,
+            push: [0, 1, 2].map(|j| seen(&moment.felt[j])),
+            lift: [0.0; 3],
+            turn: [0.0; 3],
+        };
+        let along = axis.map_or(1.0, |axis| self.upward[axis]);
+        Flight {
+            steps: self.moments.iter().map(step).collect(),
+            end: self.end,
+            at_rest: self.at_rest,
+            gravity: self.gravity * along,
+            ..Flight::default()
+        }
+    }
+}

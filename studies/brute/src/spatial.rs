@@ -1,0 +1,337 @@
+//! Random plates and boxes as products, and what `clatter assess` tells of them beside what random drops ask for.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+use std::io::Write;
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+use crate::compare::{SLACK, answer, assess, with_room};
+use crate::flight::Until;
+use crate::ground::Law;
+use crate::hunt::values;
+use crate::product::Kind;
+use crate::random::Random;
+use crate::solid::{Solid, Vector, follow};
+
+/// Drops are followed so far.
+const UNTIL: Until = Until { time: 0.3, quiet: 2e-2 };
+/// Restitution, contact time, speed, tilt, direction, natural frequency, damping, from 0 to 1.
+type Sample = [f64; 7];
+type Range = [f64; 2];
+
+/// A part: where it is from the center of mass, the axis that it moves along (any of a hard one), and its suspension.
+struct Part {
+    place: Vector,
+    axis: Option<usize>,
+    suspension: Option<(Range, Range)>,
+    kinds: Vec<Kind>,
+}
+
+/// A plate that falls at any tilt of a range, or a box that is turned off what it lands on.
+struct Product {
+    solid: Solid,
+    law: Law,
+    e: Range,
+    time: Range,
+    speed: Range,
+    /// Of a plate off flat; of a box off its attitude.
+    tilt: Range,
+    direction: Range,
+    /// The vertical of a box on its face, edge or corner.
+    upward: Vector,
+    parts: Vec<Part>,
+    text: String,
+}
+
+fn at(range: Range, share: f64) -> f64 {
+    range[0] + (range[1] - range[0]) * share
+}
+
+fn round(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
+}
+
+impl Product {
+    /// A random product and its file, its limits far above any demand.
+    fn new(kind: &str, seed: u64) -> Self {
+        let r = &mut Random::new(seed.wrapping_mul(64).wrapping_add(u64::from(kind == "box")));
+        let is_box = kind == "box";
+        let length = round(r.log(0.08, 0.3));
+        let width = round(length * r.within(0.3, 1.0));
+        let thickness = round(length * if is_box { r.within(0.06, 0.4) } else { r.within(0.03, 0.1) });
+        let [kx, ky] = [length, width].map(|side| round(side * r.within(0.22, 0.36)));
+        let kz = thickness / 12_f64.sqrt();
+        let off = r.chance(0.5);
+        let center = [length, width].map(|side| if off { round(side * r.within(-0.08, 0.08)) } else { 0.0 });
+        let e = round(r.within(0.05, 0.5));
+        let e = [e, if r.chance(0.5) { round(e * r.within(1.05, 1.3)) } else { e }];
+        let law = if r.chance(0.3) { Law::Dashpot } else { Law::Hysteretic };
+        let time = round(r.log(0.2, 2.0)) * 1e-3;
+        let height = round(r.within(0.4, 1.5));
+        let named = if law == Law::Dashpot { "dashpot" } else { "hysteretic" };
+        let mut text = format!(
+            "[product]\nname = \"{kind} {seed}\"\nlength = \"{length} m\"\nwidth = \"{width} m\"\nthickness = \"{thickness} m\"\n\
+             radius_of_gyration = [\"{kx} m\", \"{ky} m\"]\ncenter_of_mass = [\"{} m\", \"{} m\"]\nrestitution = [{}, {}]\n\
+             contact_time = \"{time} s\"\ncontact_law = \"{named}\"\n[drop]\nheight = \"{height} m\"\n",
+            center[0], center[1], e[0], e[1]
+        );
+        let (mut direction, mut upward) = ([0.0, TAU], [0.0, 0.0, 1.0]);
+        let tilt: Range;
+        if is_box {
+            let faces = 1 + (r.unit() * 3.0) as usize;
+            let names = [["end-a", "end-b"], ["front", "back"], ["bottom", "top"]];
+            let mut axes = [0, 1, 2];
+            axes.rotate_left((r.unit() * 3.0) as usize);
+            let mut down = [0.0; 3];
+            let mut said = Vec::new();
+            for &axis in &axes[..faces] {
+                let side = usize::from(r.chance(0.5));
+                let sign = if side == 1 { 0.5 } else { -0.5 };
+                down[axis] = sign * [length, width, thickness][axis] - [center[0], center[1], 0.0][axis];
+                said.push(names[axis][side]);
+            }
+            upward = down.map(|x| -x);
+            let tolerance = [round(r.within(0.2, 2.5)), round(r.within(0.5, 5.0))][usize::from(faces > 1)];
+            tilt = [0.0, tolerance.to_radians()];
+            let key = ["face", "edge", "corner"][faces - 1];
+            let _ = writeln!(text, "{key} = \"{}\"\nattitude_tolerance = \"{tolerance} deg\"", said.join(" "));
+        } else {
+            let from = if r.chance(0.5) { 0.0 } else { round(r.within(0.2, 2.0)) };
+            let to = round(r.within(3.0, 12.0));
+            tilt = [from, to].map(f64::to_radians);
+            let _ = writeln!(text, "tilt = [\"{from} deg\", \"{to} deg\"]");
+            if r.chance(0.4) {
+                let from = round(r.within(0.0, 300.0));
+                direction = [from, from + 40.0].map(f64::to_radians);
+                let _ = writeln!(text, "direction = [\"{from} deg\", \"{} deg\"]", from + 40.0);
+            }
+        }
+        let solid = Solid {
+            sides: [length, width, thickness],
+            center: [center[0], center[1], 0.0],
+            radii: [ky.hypot(kz), kx.hypot(kz), kx.hypot(ky)],
+            e: e[0],
+            contact: (law, time),
+            speed: 0.0,
+            upward,
+            gravity: 9.806_65,
+        };
+        let speed = [(2.0 * solid.gravity * height).sqrt(); 2];
+        let parts = (0..2).map(|n| part(r, n, &solid, is_box, &mut text)).collect();
+        Self { solid, law, e, time: [time; 2], speed, tilt, direction, upward, parts, text }
+    }
+
+    fn drop(&self, sample: &Sample) -> Solid {
+        let (angle, direction) = (at(self.tilt, sample[3]), at(self.direction, sample[4]));
+        // Two axes across the vertical; of a plate the length and the width, so that it rises towards the direction.
+        let up = self.upward.map(|x| x / self.upward.iter().map(|x| x * x).sum::<f64>().sqrt());
+        let first = if up[2] > 1.0 - 1e-12 { [1.0, 0.0, 0.0] } else { across(up) };
+        let second = [
+            up[1] * first[2] - up[2] * first[1],
+            up[2] * first[0] - up[0] * first[2],
+            up[0] * first[1] - up[1] * first[0],
+        ];
+        let off = |i: usize| direction.cos() * first[i] + direction.sin() * second[i];
+        Solid {
+            e: at(self.e, sample[0]),
+            contact: (self.law, at(self.time, sample[1])),
+            speed: at(self.speed, sample[2]),
+            upward: std::array::from_fn(|i| angle.cos() * up[i] + angle.sin() * off(i)),
+            ..self.solid
+        }
+    }
+}
+
+/// An axis across another.
+fn across(up: Vector) -> Vector {
+    let axis = (0..3).min_by(|&i, &j| up[i].abs().total_cmp(&up[j].abs())).unwrap_or(0);
+    let mut first = up.map(|x| -x * up[axis]);
+    first[axis] += 1.0;
+    let size = first.iter().map(|x| x * x).sum::<f64>().sqrt();
+    first.map(|x| x / size)
+}
+
+fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String) -> Part {
+    let [x, y] = [0, 1].map(|i| round(solid.sides[i] * r.within(-0.45, 0.45)));
+    let z = if is_box { round(solid.sides[2] * r.within(-0.4, 0.4)) } else { 0.0 };
+    let _ = writeln!(text, "[[component]]\nname = \"part {n}\"\nposition = [\"{x} m\", \"{y} m\"]");
+    let axis = if is_box { (r.unit() * 3.0) as usize } else { 2 };
+    let mut part = Part {
+        place: [x - solid.center[0], y - solid.center[1], z],
+        axis: Some(axis),
+        suspension: None,
+        kinds: vec![Kind::Acceleration],
+    };
+    let is_hard = r.chance(0.3);
+    let any = is_box && is_hard && r.chance(0.3);
+    if is_box {
+        let _ = writeln!(text, "height = \"{z} m\"\naxis = \"{}\"", if any { "any" } else { ["x", "y", "z"][axis] });
+    }
+    if any {
+        part.axis = None;
+    }
+    if is_hard {
+        text.push_str("mount = \"hard\"\nacceleration_limit = \"9e6 gn\"\n");
+        if !is_box {
+            text.push_str("velocity_change_limit = \"900 m/s\"\n");
+            part.kinds.push(Kind::VelocityChange);
+        }
+    } else {
+        let frequency = round(r.log(20.0, 2000.0));
+        let frequency = [frequency, if r.chance(0.5) { round(1.2 * frequency) } else { frequency }];
+        let zeta = round(r.log(0.02, 0.3));
+        let _ = writeln!(
+            text,
+            "natural_frequency = [\"{} Hz\", \"{} Hz\"]\ndamping_ratio = {zeta}\nacceleration_limit = \"9e6 gn\"\nrattle_space = \"90 m\"",
+            frequency[0], frequency[1]
+        );
+        part.kinds.push(Kind::RattleSpace);
+        part.suspension = Some((frequency.map(|f| f * TAU), [zeta; 2]));
+    }
+    part
+}
+
+/// The largest value of each limit among random drops, half of them close to the worst so far.
+fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f64, Sample)> {
+    let limits = product.parts.iter().enumerate().flat_map(|(n, part)| part.kinds.iter().map(move |&kind| (n, kind)));
+    let mut best: Vec<(usize, Kind, f64, Sample)> = limits.map(|(n, kind)| (n, kind, -1.0, [0.5; 7])).collect();
+    let mut reach = 0.1;
+    for k in 0..drops {
+        let mut sample: Sample = std::array::from_fn(|_| match r.unit() {
+            u if u < 0.15 => 0.0,
+            u if u > 0.85 => 1.0,
+            _ => r.unit(),
+        });
+        // The direction goes round.
+        sample[4] = r.unit();
+        if r.chance(0.3) {
+            sample[3] *= sample[3];
+        }
+        if k > drops / 2 {
+            let (_, _, _, near) = best[k % best.len()];
+            let few = r.chance(0.5);
+            sample = near.map(|x| if few && r.chance(0.6) { x } else { (x + reach * r.normal()).clamp(0.0, 1.0) });
+            reach = (reach * 0.995_f64).max(2e-3);
+        }
+        let course = follow(&product.drop(&sample), UNTIL);
+        for (n, part) in product.parts.iter().enumerate() {
+            let felt = course.at(part.place, part.axis);
+            let suspension = part.suspension.map(|(omega, zeta)| (at(omega, sample[5]), at(zeta, sample[6])));
+            for (kind, peak) in part.kinds.iter().zip(values(&part.kinds, &felt, 0.0, suspension)) {
+                let of = best.iter_mut().find(|of| of.0 == n && of.1 == *kind);
+                if let Some(of) = of.filter(|of| peak.value > of.2) {
+                    (of.2, of.3) = (peak.value, sample);
+                }
+            }
+        }
+    }
+    best
+}
+
+/// The arguments by which clatter answers the very drop.
+fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
+    let drop = product.drop(sample);
+    let list = |values: Vector| values.map(|x| x.to_string()).join(",");
+    let [x, y, z] = drop.upward;
+    // The rotation that brings the vertical of the box upright.
+    let turn = if z > -1.0 + 1e-9 { [1.0 + z, y, -x, 0.0] } else { [0.0, 1.0, 0.0, 0.0] };
+    let size = turn.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
+    let place: Vector = std::array::from_fn(|i| part.place[i] + drop.center[i]);
+    let mut args = vec![
+        "respond".to_owned(),
+        "--model=compliant".to_owned(),
+        format!("--length-m={}", drop.sides[0]),
+        format!("--width-m={}", drop.sides[1]),
+        format!("--thickness-m={}", drop.sides[2]),
+        format!("--gyration-m={}", list(drop.radii)),
+        format!("--center-of-mass-m={}", list(drop.center)),
+        format!("--orientation={}", turn.map(|x| (x / size).to_string()).join(",")),
+        format!("--e={}", drop.e),
+        format!("--speed-m-s={}", drop.speed),
+        format!("--contact-time-s={}", drop.contact.1),
+        format!("--contact-law={}", if drop.contact.0 == Law::Dashpot { "dashpot" } else { "hysteretic" }),
+        format!("--at-m={}", list(place)),
+        format!("--axis={}", part.axis.map_or("any", |axis| ["x", "y", "z"][axis])),
+    ];
+    if let Some((omega, zeta)) = part.suspension {
+        args.extend([format!("--omega={}", at(omega, sample[5])), format!("--damping={}", at(zeta, sample[6]))]);
+    }
+    args
+}
+
+/// Compares products of a kind, `plate` or `box`.
+///
+/// # Errors
+/// Where the command does not run or writes fail.
+pub fn compare(
+    clatter: &Path,
+    kind: &str,
+    seeds: RangeInclusive<u64>,
+    drops: usize,
+    out: &mut dyn Write,
+) -> Result<(), String> {
+    let (mut limits, mut above, mut passed, mut broken, mut undecided, mut reached) = (0, 0, 0, 0, 0, 0);
+    for seed in seeds {
+        let product = Product::new(kind, seed);
+        let r = &mut Random::new(seed + 177);
+        let text = with_room(&product.text, &assess(clatter, &product.text)?, r);
+        let told = assess(clatter, &text)?;
+        for (n, kind_of, found, sample) in hunt(&product, drops, r) {
+            let name = (format!("part {n}"), kind_of.name().to_owned());
+            let Some(claimed) = told.get(&name) else { return Err(format!("{kind} {seed}: {name:?} is not told")) };
+            limits += 1;
+            undecided += usize::from(claimed.verdict == "undecided");
+            reached += usize::from(found > 0.95 * claimed.demand);
+            passed += usize::from(found > 1.02 * claimed.demand);
+            let most = claimed.demand * (1.0 + claimed.uncertainty);
+            let is_broken = claimed.verdict == "safe" && found > claimed.allowed * (1.0 + SLACK);
+            broken += usize::from(is_broken);
+            let is_above = found > most * (1.0 + SLACK) || claimed.demand.is_nan();
+            above += usize::from(is_above);
+            let mut line = format!(
+                "{kind} {seed}: part {n} {}: {found:.5e}, told {:.5e} + {:.1} % {}, allowed {:.5e}",
+                kind_of.name(),
+                claimed.demand,
+                100.0 * claimed.uncertainty,
+                claimed.verdict,
+                claimed.allowed
+            );
+            if is_above || is_broken || found > 1.02 * claimed.demand {
+                let args = repeat(&product, &product.parts[n], &sample);
+                let same = answer(clatter, &args, kind_of);
+                let _ = write!(
+                    line,
+                    "{}; the same drop by clatter {}\n  tilt {:.4} deg, direction {:.3} deg\n  clatter {}",
+                    if is_broken {
+                        ", NOT SAFE"
+                    } else if is_above {
+                        ", ABOVE"
+                    } else {
+                        ""
+                    },
+                    same.map_or("none".to_owned(), |same| format!(
+                        "{same:.5e} ({:+.2} %)",
+                        100.0 * (same / found - 1.0)
+                    )),
+                    at(product.tilt, sample[3]) * 180.0 / PI,
+                    at(product.direction, sample[4]) * 180.0 / PI,
+                    args.join(" ")
+                );
+            }
+            writeln!(out, "{line}").and_then(|()| out.flush()).map_err(|error| error.to_string())?;
+        }
+    }
+    writeln!(
+        out,
+        "== {kind}: {limits} limits; for {reached} a drop reaches 95 % of what was told, {passed} are passed by 2 %, {above} by more than \
+         their uncertainty, {broken} were told safe and are exceeded; {undecided} undecided"
+    )
+    .map_err(|error| error.to_string())
+}
+
+/// A random product file of a kind, `plate` or `box`.
+#[must_use]
+pub fn product(kind: &str, seed: u64) -> String {
+    Product::new(kind, seed).text
+}
