@@ -1,7 +1,5 @@
 //! From a product to its verdict.
 
-use std::f64::consts::PI;
-
 use crate::bound::bound;
 use crate::drop::{Model, Posture, SingleDrop};
 use crate::engine::answer;
@@ -10,7 +8,7 @@ use crate::reason::{Doubt, Note, Reason};
 use crate::search::{Candidate, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, Drop, Error, Landing, LandingAssessment, Law, Limit,
-    LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Spread, Unit, Verdict, Width, WorstCase,
+    LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Spread, Unit, Verdict, WorstCase,
 };
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
@@ -19,10 +17,8 @@ pub(crate) const COVERAGE: f64 = 0.02;
 /// what was found by 5 % at most.
 const COVERAGE_OF_BOXES: f64 = 0.1;
 
-/// A plate whose file does not tell its thickness is taken as so thick over its length where real tilt counts; and any at least as
-/// thick as lets corners sink in, over what they do in a lone contact.
+/// A plate whose file does not tell its thickness is taken as so thick over its length where real tilt counts.
 pub(crate) const THIN: f64 = 0.05;
-const DEEP: f64 = 8.0;
 
 /// A drop that asks for more than is of use.
 #[derive(Debug, Clone, Copy)]
@@ -258,7 +254,7 @@ impl ProductFile {
             of.notes.push(Note::Model { asked, fullest, off: off / utilization });
         }
         if let (Some(width), false, None) = (&self.product.width, worst.stopped, ranges.posture) {
-            let thickness_m = self.thickness_as_block(width);
+            let thickness_m = width.thickness_m.unwrap_or(THIN * self.product.body.length_m());
             match ranges.as_block(task, &asked, &worst.near, thickness_m) {
                 Ok(most) => {
                     of.most += (most - utilization).max(0.0);
@@ -290,13 +286,6 @@ impl ProductFile {
         of.flat = flat.map(|flat| flat.answer.value);
         of.asked = Some(asked);
         Ok(of)
-    }
-
-    /// The thickness of a plate where it is followed as a box.
-    fn thickness_as_block(&self, width: &Width) -> f64 {
-        let [_, fastest] = self.drop.speeds_m_s();
-        let depth_m = self.product.contact_time_s.map_or(0.0, |time| fastest * time.hi() / PI);
-        width.thickness_m.unwrap_or(THIN * self.product.body.length_m()).max(DEEP * depth_m)
     }
 
     /// What the worst drop would ask if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the same

@@ -259,11 +259,14 @@ impl SingleDrop {
         let [a, b] = self.body.arms_m();
         [x - 0.5 * (a - b), y - self.across.map_or(0.0, |across| across.width.center_m())]
     }
-    /// The same drop of a box of this thickness, its center of mass midway and its axes those of the sides.
+    /// The same drop of a box of this thickness, its center of mass midway and its axes those of the sides. One that stands for a plate
+    /// goes on upward, so that what lands are the corners of its bottom, however far they sink in.
     pub(crate) fn block_drop(&self, across: &Across, thickness_m: f64) -> Result<BlockDrop, Error> {
         let ([a, b], width) = (self.body.arms_m(), &across.width);
         let radii = self.radii_of_box(width, &Posture { upward: [0.0, 0.0, 1.0], thickness_m });
-        let block = Block::new([a + b, width.m(), thickness_m], [0.5 * (a - b), width.center_m(), 0.0], radii)?;
+        let height_m = if across.posture.is_some() { thickness_m } else { thickness_m.max(a + b).max(width.m()) };
+        let center_m = [0.5 * (a - b), width.center_m(), 0.5 * (thickness_m - height_m)];
+        let block = Block::new([a + b, width.m(), height_m], center_m, radii)?;
         let (speed, gravity) = (self.speed_m_s, self.gravity_m_s2);
         Ok(match &across.posture {
             Some(posture) => BlockDrop::upright(block, across.upward_of(posture, self.tilt_rad), speed, gravity)?,

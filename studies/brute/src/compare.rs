@@ -249,7 +249,7 @@ pub(crate) fn answer(clatter: &Path, args: &[String], kind: Kind) -> Option<f64>
     let suspended = omega.is_some();
     // A box has its part, or else the place.
     if args.iter().any(|arg| arg.starts_with("--thickness-m")) {
-        let part = |key: &str| answer["part"][key].as_f64();
+        let part = |key: &str| answer[key].as_f64();
         return match (kind, omega) {
             (Kind::Acceleration, Some(omega)) => Some(part("peak_absolute_acceleration_over_omega")? * omega),
             (Kind::RattleSpace, Some(omega)) => Some(part("omega_peak_relative_displacement")? / omega),
