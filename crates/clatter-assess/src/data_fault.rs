@@ -246,9 +246,9 @@ impl DataFault {
             Self::Attitude { field, value } => [
                 format!("`{field}` cannot be {value:?}"),
                 match *field {
-                    "face" => "expected one of end-a, end-b, front, back, bottom, top",
-                    "edge" => "expected two faces that meet, such as \"bottom front\"",
-                    _ => "expected three faces that meet, such as \"bottom front end-a\"",
+                    "face" => "expected one of end-a, end-b, front, back, bottom, top, or all",
+                    "edge" => "expected two faces that meet, such as \"bottom front\", or \"all\"",
+                    _ => "expected three faces that meet, such as \"bottom front end-a\", or \"all\"",
                 }
                 .to_owned(),
             ],

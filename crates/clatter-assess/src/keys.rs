@@ -16,6 +16,8 @@ pub(crate) struct Key {
 #[derive(Debug)]
 pub(crate) enum Kind {
     Text,
+    /// A text or a list of them.
+    Texts,
     /// One of these words.
     Choice(&'static [&'static str]),
     /// A value within bounds, both included; the bounds are written as the value would be.
@@ -40,7 +42,7 @@ const fn key(name: &'static str, required: bool, kind: Kind, doc: &'static str) 
     Key { name, kind, required, doc }
 }
 
-use Kind::{Choice, Quantity, Sides, Spread, Table, Tables, Text};
+use Kind::{Choice, Quantity, Sides, Spread, Table, Tables, Text, Texts};
 
 /// Bounds that several keys share.
 const PLACES: [&str; 2] = ["-100 m", "100 m"];
@@ -155,15 +157,20 @@ pub(crate) static DROP: &[Key] = &[
     key(
         "face",
         false,
-        Text,
-        "Of a box, one with a thickness: the face it lands on: end-a, end-b, front, back, bottom or top.",
+        Texts,
+        "Of a box, one with a thickness: the face it lands on: end-a, end-b, front, back, bottom or top; a list of them drop by drop, or \"all\".",
     ),
-    key("edge", false, Text, "Of a box: two faces that meet in the edge it lands on, such as \"bottom front\"."),
+    key(
+        "edge",
+        false,
+        Texts,
+        "Of a box: two faces that meet in the edge it lands on, such as \"bottom front\"; a list of them, or \"all\".",
+    ),
     key(
         "corner",
         false,
-        Text,
-        "Of a box: three faces that meet in the corner it lands on, such as \"bottom front end-a\".",
+        Texts,
+        "Of a box: three faces that meet in the corner it lands on, such as \"bottom front end-a\"; a list of them, or \"all\".",
     ),
     key(
         "standard",

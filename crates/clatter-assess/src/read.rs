@@ -152,7 +152,7 @@ impl Reader {
                 let how = match *key.kind.of_side() {
                     Kind::Table(_) => format!("[{}]", key.name),
                     Kind::Tables(_) => format!("[[{}]]", key.name),
-                    Kind::Text => format!("{} = \"…\"", key.name),
+                    Kind::Text | Kind::Texts => format!("{} = \"…\"", key.name),
                     Kind::Choice(words) => format!("{} = {:?}", key.name, words[0]),
                     Kind::Quantity(d, _) | Kind::Spread(d, _) => format!("{} = {}", key.name, written(d)),
                     Kind::Sides(_) => unreachable!("of one side"),
@@ -175,6 +175,20 @@ impl Reader {
             return None;
         };
         Some(At { value: text.to_owned(), span: value.span() })
+    }
+
+    /// A text, or each of a list.
+    fn texts(&mut self, section: &Section<'_>, name: &str) -> Vec<At<String>> {
+        let Some((_, value)) = Self::get(section, name) else { return Vec::new() };
+        let list = value.get_ref().as_array().filter(|list| !list.is_empty());
+        let mut texts = Vec::new();
+        for value in list.map_or(vec![value], |list| list.iter().collect()) {
+            match value.get_ref().as_str() {
+                Some(text) => texts.push(At { value: text.to_owned(), span: value.span() }),
+                None => self.wrong_type(value, name, "text in quotes, or a list of it"),
+            }
+        }
+        texts
     }
 
     /// A word among those of the key.
@@ -258,9 +272,11 @@ impl Reader {
         let is_standard = drop.as_ref().is_some_and(|drop| drop.table.contains_key("standard"));
         let mut landings = drop.as_ref().map(|section| self.landings(section, product.as_ref())).unwrap_or_default();
         let mut drop = drop.and_then(|section| self.drop(&section));
-        if let (Some(drop), [first, ..]) = (&mut drop, &mut landings[..]) {
-            // A standard has its own height; else the one that it lands on falls as the drop says.
-            if is_standard { drop.fall = first.fall } else { first.fall = drop.fall }
+        // A standard has heights of its own; else every drop falls as the file says.
+        match (&mut drop, landings.first()) {
+            (Some(drop), Some(first)) if is_standard => drop.fall = first.fall,
+            (Some(drop), _) => landings.iter_mut().for_each(|landing| landing.fall = drop.fall),
+            (None, _) => {}
         }
         let mut components = Vec::new();
         let sections = self.tables(root, "component");

@@ -38,6 +38,10 @@ fn table(keys: &[Key]) -> Value {
 fn kind(of: &Kind) -> Value {
     match of {
         Kind::Text => json!({ "type": "string" }),
+        Kind::Texts => {
+            let one = json!({ "type": "string" });
+            json!({ "anyOf": [one, { "type": "array", "items": one, "minItems": 1 }] })
+        }
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Quantity(dimension, bounds) => with_examples(quantity(dimension, *bounds), dimension),
         Kind::Spread(dimension, bounds) => {

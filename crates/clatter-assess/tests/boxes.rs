@@ -82,6 +82,22 @@ fn a_standard_is_its_drops_one_by_one() {
     }
 }
 
+/// Drops are listed by hand as well, and all of a kind by a word.
+#[test]
+fn a_list_of_drops_is_each_of_them() {
+    let listed = on("face", "bottom").replace("\"bottom\"", "[\"bottom\", \"end-b\"]\ncorner = \"top back end-a\"");
+    let landings = file(&listed).assess().expect("an assessment").landings;
+    let names: Vec<String> = landings.iter().map(|landing| landing.landing.to_string()).collect();
+    assert_eq!(names, ["face bottom", "face end-b", "corner top back end-a"]);
+    let alone = file(&on("face", "end-b")).assess().expect("an assessment");
+    let demands = alone.components.iter().flat_map(|component| &component.limits).map(|limit| limit.demand);
+    let demands: Vec<_> = demands.collect();
+    assert_eq!(demands, landings[1].limits.iter().map(|limit| limit.demand).collect::<Vec<_>>());
+    for (key, count) in [("face", 6), ("edge", 12), ("corner", 8)] {
+        assert_eq!(file(&on(key, "all")).landings.len(), count);
+    }
+}
+
 /// Within 2 degrees of its bottom a box is the plate of the same masses, but for real tilt.
 #[test]
 fn a_box_on_its_bottom_is_a_plate() {
@@ -216,6 +232,10 @@ fn faults_of_boxes_are_told() {
         (face.replace("\"bottom\"", "\"underside\""), "`face` cannot be \"underside\""),
         (face.replace("face = \"bottom\"", "edge = \"bottom top\""), "`edge` cannot be \"bottom top\""),
         (face.replace("face = \"bottom\"", "edge = \"bottom\""), "expected two faces that meet"),
+        (face.replace("\"bottom\"", "[\"top\", \"under\"]"), "`face` cannot be \"under\""),
+        (face.replace("\"bottom\"", "[\"top\", 2]"), "expected text in quotes, or a list of it"),
+        (face.replace("\"bottom\"", "[]"), "expected text in quotes, or a list of it"),
+        (face.replace("\"bottom\"", &format!("[{}]", "\"top\",".repeat(101))), "[drop] has 101 drops"),
         (face.replace("face = \"bottom\"", "tilt = \"1 deg\"\nface = \"bottom\""), "more than one of `tilt`, `face`"),
         (face.replace("face = \"bottom\"\nattitude_tolerance = \"2 deg\"", ""), "[drop] has no `tilt`"),
         (HANDHELD.replace("MIL-STD-810H/516.8-IV", "ISTA 3A"), "the drops of \"ISTA 3A\" are not built in"),

@@ -10,6 +10,9 @@ use crate::{Attitude, DataFault, Drop, Fall, First, Landing, Product, Spread};
 /// Keys of what a box lands on: by so many faces at once, and by a standard.
 pub(super) const LANDS_ON: [&str; 4] = ["face", "edge", "corner", "standard"];
 
+/// Drops of a file that are listed by hand: each takes a tenth of a second.
+const MOST_DROPS: usize = 100;
+
 impl Reader {
     /// What a box lands on; none where a fault was told.
     pub(super) fn landings(&mut self, section: &Section<'_>, product: Option<&Product>) -> Vec<Landing> {
@@ -20,11 +23,23 @@ impl Reader {
         }
         let mut landings = Vec::new();
         for (faces, name) in (1..).zip(&LANDS_ON[..3]) {
-            let Some(text) = self.text(section, name) else { continue };
-            match Attitude::on(&text.value).filter(|attitude| attitude.faces() == faces) {
-                Some(attitude) => landings.push((attitude, 1.0, None)),
-                None => self.data(text.span, &DataFault::Attitude { field: name, value: shown(&text.value) }, "this"),
+            for text in self.texts(section, name) {
+                let one = Attitude::on(&text.value).filter(|attitude| attitude.faces() == faces);
+                let these = if text.value == "all" { Attitude::all(faces) } else { one.into_iter().collect() };
+                if these.is_empty() {
+                    self.data(text.span, &DataFault::Attitude { field: name, value: shown(&text.value) }, "this");
+                }
+                landings.extend(these.into_iter().map(|attitude| (attitude, 1.0, None)));
             }
+        }
+        if landings.len() > MOST_DROPS {
+            let message = format!("{} has {} drops", section.title, landings.len());
+            self.fault(
+                section.span.clone(),
+                message,
+                format!("at most {MOST_DROPS}"),
+                "put the others into another file",
+            );
         }
         if let (Some(keyword), Some(product)) = (self.text(section, "standard"), product) {
             let sides = [Some(product.body.length_m()), product.width.map(|width| width.m())];
@@ -58,7 +73,10 @@ impl Reader {
         }
         let gravity = self.quantity(section, "gravity");
         self.exactly_one(section, &["height", "speed"], !section.table.contains_key("standard"));
-        self.exactly_one(section, &["tilt", "face", "edge", "corner", "standard"], false);
+        for name in &LANDS_ON[..3] {
+            self.exactly_one(section, &["tilt", name, "standard"], false);
+        }
+        self.exactly_one(section, &["tilt", "standard"], false);
         self.exactly_one(section, &["standard", "height"], false);
         self.exactly_one(section, &["standard", "speed"], false);
         let wrong =
