@@ -3,6 +3,7 @@
 pub(crate) mod bars;
 mod claims;
 pub(crate) mod directions;
+mod products;
 pub(crate) mod ties;
 
 use clatter::design::DESIGNS;
@@ -71,7 +72,7 @@ pub(crate) struct Data {
 /// # Errors
 /// None in practice: all plates are valid.
 pub fn plate_numbers() -> Result<String, Error> {
-    pretty(&Data::compute()?.numbers())
+    pretty(&Data::compute()?.numbers()?)
 }
 
 impl Data {
@@ -110,7 +111,7 @@ impl Data {
             ("plate-counts.svg", plates::counts(&self.counts)?),
             ("plate-ties.svg", plates::over_direction(&self.ties)?),
             ("plate-gaps.svg", plates::over_gap(&self.ties, self.bar())?),
-            ("plate.json", pretty(&self.numbers())?),
+            ("plate.json", pretty(&self.numbers()?)?),
             ("plate-claims.json", pretty(&claims)?),
             ("plate-claims.csv", claims.csv()),
         ])
@@ -123,7 +124,7 @@ impl Data {
     }
 
     /// Every number that the page says.
-    fn numbers(&self) -> Value {
+    fn numbers(&self) -> Result<Value, Error> {
         let percent = |share: f64| decimals(100.0 * share, 1);
         let row = |plate: &BarsAndPlate| {
             json!({
@@ -151,7 +152,8 @@ impl Data {
             json!({ "least": decimals(least, 2), "ratio": decimals(ratio, 2), "larger": more, "smaller": less })
         };
         let alike = self.over_inertia.iter().flatten().map(|plate| plate.corner / plate.diagonal - 1.0);
-        json!({
+        let products = products::rows()?;
+        Ok(json!({
             "e": E, "strikes": STRIKES,
             "uniform": self.over_e.iter().filter(|p| [0.1, 0.2, 0.3, 0.5, 0.7].contains(&p.e)).map(row).collect::<Vec<_>>(),
             "designs": designs.skip(1).collect::<Vec<_>>(),
@@ -163,7 +165,9 @@ impl Data {
             "counts": self.count_numbers(),
             "endless": self.endless.map(|e| json!({ "closed": decimals(e.closed, 6), "measured": decimals(e.measured, 6) })),
             "ties": self.tie_numbers(),
-        })
+            "bar_off": decimals(100.0 * products::most_off(&products), 0),
+            "products": products.iter().map(products::Row::json).collect::<Vec<_>>(),
+        }))
     }
 
     /// A measured figure of the claims by its name, with two decimals.

@@ -1,0 +1,116 @@
+//! The worked products as bars, as plates in any direction of tilt, and as boxes that land on their bottom.
+
+use clatter_assess::{Attitude, Landing, Law, LimitKind, ProductFile, Spread, Verdict, Width};
+use clatter_flight::ContactLaw;
+use serde_json::{Value, json};
+
+use crate::Error;
+use crate::files::decimals;
+
+/// A worked product with what makes a plate and a box of it.
+struct Product {
+    text: &'static str,
+    width_m: f64,
+    thickness_m: f64,
+    /// Contacts of a product whose file names no time.
+    contact_s: f64,
+}
+
+const PRODUCTS: [Product; 3] = [
+    Product {
+        text: include_str!("../../../reports/examples/phone.toml"),
+        width_m: 0.072,
+        thickness_m: 0.008,
+        contact_s: 4e-4,
+    },
+    Product {
+        text: include_str!("../../../reports/examples/handheld-terminal.toml"),
+        width_m: 0.085,
+        thickness_m: 0.035,
+        contact_s: 1e-3,
+    },
+    Product {
+        text: include_str!("../../../reports/examples/laptop.toml"),
+        width_m: 0.23,
+        thickness_m: 0.018,
+        contact_s: 1e-3,
+    },
+];
+
+/// A limit of a part: its demand as a bar, as a plate and as a box over what is allowed, with what other drops may exceed it by.
+pub(crate) struct Row {
+    product: String,
+    part: String,
+    limit: LimitKind,
+    demands: [f64; 3],
+    uncertainties: [f64; 3],
+    verdicts: [Verdict; 3],
+}
+
+impl Row {
+    /// In percent.
+    pub(crate) fn json(&self) -> Value {
+        json!({
+            "product": self.product,
+            "part": self.part,
+            "limit": self.limit.name().replace('-', " "),
+            "demands": self.demands.map(|share| decimals(100.0 * share, 0)),
+            "uncertainties": self.uncertainties.map(|share| decimals(100.0 * share, 0)),
+            "verdicts": self.verdicts.map(Verdict::name),
+        })
+    }
+}
+
+/// What the demand of a bar differs from that of the plate by at most, of limits that are not about turning.
+pub(crate) fn most_off(rows: &[Row]) -> f64 {
+    let moves = rows.iter().filter(|row| row.limit != LimitKind::AngularVelocityChange);
+    moves.map(|row| (row.demands[1] / row.demands[0] - 1.0).abs()).fold(0.0, f64::max)
+}
+
+/// Every limit of every product.
+pub(crate) fn rows() -> Result<Vec<Row>, Error> {
+    let mut rows = Vec::new();
+    for product in &PRODUCTS {
+        let files = product.files()?;
+        let [bar, plate, lying] = [files[0].assess()?, files[1].assess()?, files[2].assess()?];
+        for ((bar, plate), lying) in bar.components.iter().zip(&plate.components).zip(&lying.components) {
+            for ((one, two), three) in bar.limits.iter().zip(&plate.limits).zip(&lying.limits) {
+                let limits = [one, two, three];
+                rows.push(Row {
+                    product: files[0].product.name.clone(),
+                    part: bar.name.clone(),
+                    limit: one.limit,
+                    demands: limits.map(|limit| limit.demand.map_or(f64::NAN, |demand| demand / limit.allowed)),
+                    uncertainties: limits.map(|limit| limit.uncertainty),
+                    verdicts: limits.map(|limit| limit.verdict),
+                });
+            }
+        }
+    }
+    Ok(rows)
+}
+
+impl Product {
+    /// The same ranges as a bar, a plate and a box: from flat up to the largest tilt of the file.
+    fn files(&self) -> Result<[ProductFile; 3], Error> {
+        let mut bar =
+            ProductFile::read(self.text, "a worked product").map_err(|faults| Error::Data(faults.to_string()))?;
+        bar.product.contact_time_s.get_or_insert(Spread::value(self.contact_s)?);
+        bar.product.contact_law = Some(ContactLaw::Hysteretic);
+        let most = bar.drop.tilt_rad.hi();
+        bar.drop.tilt_rad = Spread::new(0.0, most, Law::Range)?;
+        let mut plate = bar.clone();
+        plate.product.width = Some(Width {
+            edges_m: [0.5 * self.width_m; 2],
+            // Spread over the width as over the length.
+            gyration_m: self.width_m * bar.product.body.gyration_m() / bar.product.body.length_m(),
+            product_of_inertia_m2: 0.0,
+            thickness_m: Some(self.thickness_m),
+        });
+        let mut lying = plate.clone();
+        let attitude = Attitude::on("bottom").unwrap_or_else(|| unreachable!("a face"));
+        lying.landings = vec![Landing { attitude, source: None, tolerance_rad: most, fall: bar.drop.fall }];
+        lying.drop.tilt_rad = Spread::value(0.0)?;
+        Ok([bar, plate, lying])
+    }
+}
