@@ -235,6 +235,9 @@ impl ProductFile {
         let coverage = if ranges.posture.is_some() { COVERAGE_OF_BOXES } else { COVERAGE };
         let mut of =
             Judged { most: utilization * (1.0 + coverage) + found.off_by / found.allowed, ..Judged::new(bound) };
+        if self.product.width.is_none() && task.limit.kind == LimitKind::AngularVelocityChange {
+            of.notes.push(Note::Rolls);
+        }
         if found.off_by.is_infinite() && !worst.stopped {
             of.notes.push(Note::NoError);
         } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {

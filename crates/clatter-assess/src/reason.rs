@@ -109,6 +109,8 @@ pub enum Note {
     Error(f64),
     /// Rebounds may ask for up to this share, by their energy.
     Rebounds(f64),
+    /// A bar does not roll about its length, where most products turn fastest.
+    Rolls,
     /// What real tilt adds, by a box with full rotation in drops next to the worst one.
     Tilt {
         /// What the box asks for at most, less what the plate of small tilt does, as a share of it; negative where it asks for less.
@@ -130,6 +132,9 @@ pub enum Note {
 impl Display for Note {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
+            Self::Rolls => f.write_str(
+                "a bar does not roll about its length, which narrow products do several times as fast: a `width` tells how fast",
+            ),
             Self::NoError => f.write_str("how far off it is is not known: drops next to the worst are not answered"),
             Self::Error(share) => write!(
                 f,
