@@ -38,6 +38,7 @@ fn table(keys: &[Key]) -> Value {
 fn kind(of: &Kind) -> Value {
     match of {
         Kind::Text => json!({ "type": "string" }),
+        Kind::Flag => json!({ "type": "boolean" }),
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Quantity(dimension, bounds) => with_examples(quantity(dimension, *bounds), dimension),
         Kind::Spread(dimension, bounds) => {

@@ -83,6 +83,24 @@ impl Input {
             _ => None,
         }
     }
+    /// Whether it is what a column holds.
+    pub(super) fn is_in(self, column: Column) -> bool {
+        match self {
+            Self::First => column == Column::First,
+            Self::Direction => column == Column::DirectionDeg,
+            Self::Height | Self::Speed => column == Column::SpeedMS,
+            Self::Tilt => column == Column::TiltDeg,
+            Self::Restitution => column == Column::Restitution,
+            Self::ContactTime => column == Column::ContactTimeS,
+            Self::Gyration => column == Column::GyrationM,
+            Self::Frequency(i) => column == Column::FrequencyHz(i),
+            Self::Damping(i) => column == Column::DampingRatio(i),
+            Self::Position(i) => column == Column::PositionM(i),
+            Self::Across(i) => column == Column::AcrossM(i),
+            Self::Limit(i, kind) => column == Column::Limit(i, kind),
+            Self::CriticalAcceleration(i) => column == Column::CriticalAccelerationMS2(i),
+        }
+    }
     /// Which of the uniform numbers of a sample it is drawn from, whatever else is drawn. There is room for other inputs and kinds of
     /// limits, so that they move no number of these.
     fn number(self) -> u32 {

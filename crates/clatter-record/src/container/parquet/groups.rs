@@ -30,7 +30,7 @@ impl<R: Read + Seek> RowGroups<R> {
     /// # Errors
     /// [`Error::File`] where it is cut short, damaged, or has groups of more than 2²⁰ rows.
     pub fn new(mut input: R) -> Result<Self, Error> {
-        let length = input.seek(SeekFrom::End(0)).map_err(unreadable)?;
+        let length = input.seek(SeekFrom::End(0)).map_err(damaged)?;
         let end = bytes_at(&mut input, length, length.saturating_sub(END), END.min(length))?;
         let told = end.first_chunk().map_or(0, |told| u64::from(u32::from_le_bytes(*told)));
         // The start is as far back as the end tells; whether both make sense is for the reader of the metadata.
@@ -44,7 +44,7 @@ impl<R: Read + Seek> RowGroups<R> {
             })
         });
         let rows = rows.collect::<Result<_, _>>()?;
-        Ok(Self { input, length, names, rows, metadata })
+        Ok(Self { input, length, metadata, names, rows })
     }
 
     /// The columns by name, in the order of the file.
@@ -93,17 +93,13 @@ impl<R: Read + Seek> RowGroups<R> {
     }
 }
 
-fn unreadable(error: std::io::Error) -> Error {
-    refuse(format!("Parquet file: {error}"))
-}
-
 /// So many bytes of a file from one on; memory is taken for what is there alone.
 fn bytes_at<R: Read + Seek>(input: &mut R, length: u64, start: u64, size: u64) -> Result<Vec<u8>, Error> {
     if start.checked_add(size).is_none_or(|end| end > length) {
         return Err(damaged("a column lies beyond the file; the file is damaged"));
     }
-    input.seek(SeekFrom::Start(start)).map_err(unreadable)?;
+    input.seek(SeekFrom::Start(start)).map_err(damaged)?;
     let mut bytes = Vec::new();
-    input.take(size).read_to_end(&mut bytes).map_err(unreadable)?;
+    input.take(size).read_to_end(&mut bytes).map_err(damaged)?;
     Ok(bytes)
 }

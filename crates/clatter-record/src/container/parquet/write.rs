@@ -234,9 +234,9 @@ fn levels(values: &[f64]) -> Vec<u8> {
     }
     bytes.push(head.to_le_bytes()[0]);
     if all {
-        bytes.push(1)
+        bytes.push(1);
     } else {
-        bytes.extend(packed(values, |value| !value.is_nan()))
+        bytes.extend(packed(values, |value| !value.is_nan()));
     }
     bytes
 }
