@@ -21,28 +21,28 @@ use crate::{Exit, Failure, Streams, input, text};
 
 /// Draw a part of a study that is larger than one machine, and merge all parts
 ///
-/// A plan names a product file and how many drops of it are drawn as by 'clatter scatter', all by the model with the most physics; with
-/// a grid, of each of the products that differ from it in the values there:
+/// A plan names a product file and how many drops of it are drawn as by 'clatter scatter', each answered by the model with the most
+/// physics; with a grid, of each of the products that have other values there. With search = true in place of samples, the worst drop of
+/// each product is searched as by 'clatter assess'.
 ///
-///   product = "handheld.toml"
-///   samples = 1e6
-///   seed = 1
-///   [grid]
-///   product.restitution = [0.2, [0.3, 0.4]]
-///   component."scan engine".natural_frequency = "60 Hz:80 Hz:5"
-///
-/// With 'search = true' in place of samples the worst drop of each product is searched as by 'clatter assess'.
-///
-/// A drop depends on the plan and its number alone: --shard=I/N draws the I-th of N parts, anywhere, in any order. Its rows go to a Parquet
-/// file, in SI, with plan, product, seed and version in it. The file is there once it is whole: a run that was killed is run again. One that
-/// is there already is left as it is; --force makes it again. 'clatter study merge' takes all parts and gives the same answer to the last
-/// bit, whatever N is.
+/// A drop depends on the plan and its number alone: --shard=I/N draws the I-th of N parts, on any machine and in any order. Its rows go to
+/// a Parquet file, in SI, with plan, product, seed and version in it. The file is there once it is whole; a run that was killed is run
+/// again, and a part that is there already is left as it is unless --force is given. 'clatter study merge' takes all parts and gives the
+/// same answer to the last bit, whatever N is.
 #[derive(Debug, clap::Args)]
 #[command(
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     disable_help_subcommand = true,
     after_help = "\
+A plan:
+  product = \"handheld.toml\"
+  samples = 1e6
+  seed = 7
+  [grid]
+  product.restitution = [0.2, [0.3, 0.4]]
+  component.camera.natural_frequency = \"80 Hz:120 Hz:5\"
+
 Examples:
   clatter study plan.toml -o whole.parquet
   clatter study plan.toml --shard=2/7 -o part2.parquet   on any machine

@@ -24,7 +24,7 @@ pub struct Answer<'a> {
 /// A product of the study, and what was told of it.
 #[derive(Debug, Clone)]
 pub struct Member {
-    /// Its values of the grid, as a product file has them.
+    /// Its values of the grid, as a product file has them, without quotes.
     pub values: Vec<String>,
     /// The product.
     pub file: ProductFile,

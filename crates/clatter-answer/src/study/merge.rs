@@ -77,8 +77,7 @@ impl<'a> Merge<'a> {
 
     fn end(&mut self) {
         if let Some((file, recount)) = self.counting.take() {
-            let values = self.study.family.values(self.members.len() as u64);
-            let values = values.into_iter().map(str::to_owned).collect();
+            let values = self.values(self.members.len() as u64);
             self.members.push(Member { values, file, told: Told::Drawn(Box::new(recount.finish())) });
         }
     }
@@ -99,9 +98,15 @@ impl<'a> Merge<'a> {
             }
         }
         let file = self.study.family.member(self.next)?;
-        let values = self.study.family.values(self.next).into_iter().map(str::to_owned).collect();
+        let values = self.values(self.next);
         self.members.push(Member { values, file, told: Told::Searched(limits) });
         Ok(())
+    }
+
+    /// The values of a product, without quotes.
+    fn values(&self, member: u64) -> Vec<String> {
+        let values = self.study.family.values(member);
+        values.into_iter().map(|value| value.trim_matches(['"', '\'']).to_owned()).collect()
     }
 
     /// How many rows were taken in.

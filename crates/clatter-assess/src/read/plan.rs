@@ -177,18 +177,21 @@ impl Reader {
         self.check(&section);
         let product = self.text(&section, "product").map(|product| product.value);
         let search = match Self::get(&section, "search") {
-            None => false,
-            Some((_, value)) => value.get_ref().as_bool().unwrap_or_else(|| {
-                self.wrong_type(value, "search", "true or false");
-                false
-            }),
+            None => Some(false),
+            Some((_, value)) => {
+                let search = value.get_ref().as_bool();
+                if search.is_none() {
+                    self.wrong_type(value, "search", "true or false");
+                }
+                search
+            }
         };
         let [samples, seed] = ["samples", "seed"].map(|name| self.whole(&section, name));
         match (search, section.table.get_key_value("samples")) {
-            (true, Some((key, _))) => {
+            (Some(true), Some((key, _))) => {
                 self.fault(key.span(), "a search draws no `samples`", "beside `search`", "leave one of them out");
             }
-            (false, None) => {
+            (Some(false), None) => {
                 let help = "add samples = 1e5: how many drops of each product";
                 self.fault(section.span.clone(), "the plan has no `samples`", "in this table", help);
             }
@@ -208,6 +211,7 @@ impl Reader {
             self.fault(key.span(), "the grid has too many products", label, "give fewer values");
         }
         let [samples, seed] = [samples.unwrap_or(0), seed.unwrap_or(1)];
+        let search = search?;
         Some(Plan { product: product?, samples, seed, search, grid, text: text.to_owned(), origin: origin.to_owned() })
     }
 

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::sample::Sample;
 use super::tally::Block;
 use super::{BLOCK, Column, SampleDemand, Sampler, Scatter};
-use crate::{Limit, LimitKind};
+use crate::LimitKind;
 
 /// What a sample asks of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,18 +42,7 @@ impl Sampler {
     /// What a sample of the product may be described by: all that the product has, whether it varies or not.
     #[must_use]
     pub fn quantities(&self) -> Vec<Column> {
-        use Column as C;
-        let shared = [C::First, C::DirectionDeg, C::SpeedMS, C::TiltDeg, C::Restitution, C::ContactTimeS, C::GyrationM];
-        let mut all = shared.to_vec();
-        for (i, component) in self.components.iter().enumerate() {
-            all.extend([C::FrequencyHz(i), C::DampingRatio(i), C::PositionM(i), C::AcrossM(i)]);
-            all.extend(Limit::of(component).iter().map(|limit| C::Limit(i, limit.kind)));
-            all.push(C::CriticalAccelerationMS2(i));
-        }
-        let left_out = if self.inputs.has_cheap() { C::DirectionDeg } else { C::First };
-        all.retain(|column| *column != left_out);
-        let values = self.drawn(0, &all);
-        all.into_iter().zip(values).filter(|(_, value)| value.is_finite()).map(|(column, _)| column).collect()
+        self.inputs.quantities()
     }
 
     /// Whether it differs from sample to sample.
@@ -86,6 +75,11 @@ impl Sampler {
             let (mut sample, mut full) = (self.inputs.blank(), Vec::new());
             let row = |k| {
                 self.answer(k, None, true, &mut sample, &mut Vec::new(), &mut full);
+                if full.iter().all(Result::is_err) {
+                    // What could not be drawn is not to be that of the sample before.
+                    sample = self.inputs.blank();
+                    let _ = self.inputs.draw(self.settings.seed, k, &mut sample);
+                }
                 let values = columns.iter().map(|column| in_si(&sample, *column)).collect();
                 (values, full.iter().map(|asked| asked.as_ref().ok().map(Asked::new)).collect())
             };
@@ -129,16 +123,19 @@ impl Recount {
     /// Takes in what the next sample asks of each part.
     pub fn take(&mut self, asked: &[Option<Asked>]) {
         let (sampler, k) = (&self.sampler, self.next);
-        let reason = self.total.reason.as_ref().or(self.block.reason.as_ref());
-        let mut full = Vec::new();
-        if asked.iter().any(Option::is_none) && reason.is_none() {
+        let _ = sampler.inputs.draw(sampler.settings.seed, k, &mut self.sample); // its numbers stand, whatever is refused
+        let mut again = Vec::new();
+        let known = self.total.reason.as_ref().or(self.block.reason.as_ref());
+        if known.is_none() && asked.iter().any(Option::is_none) {
             // Why it has no answer was not kept, and is found once more.
-            sampler.answer(k, None, true, &mut self.sample, &mut Vec::new(), &mut full);
-        } else {
-            let _ = sampler.inputs.draw(sampler.settings.seed, k, &mut self.sample); // its numbers stand, whatever is refused
-            let missing = || reason.cloned().unwrap_or(crate::Error::Unfinished);
-            full.extend(asked.iter().map(|asked| asked.map(|asked| asked.demand()).ok_or_else(missing)));
+            sampler.answer(k, None, true, &mut self.sample, &mut Vec::new(), &mut again);
         }
+        let reason = |i: usize| {
+            let own = again.get(i).and_then(|asked: &Result<_, crate::Error>| asked.as_ref().err());
+            own.or(known).cloned().unwrap_or(crate::Error::Unfinished)
+        };
+        let each = asked.iter().enumerate();
+        let full: Vec<_> = each.map(|(i, asked)| asked.map(|asked| asked.demand()).ok_or_else(|| reason(i))).collect();
         self.block.take(k, &[], &full, &sampler.inputs, &self.sample.uniforms);
         self.next += 1;
         if self.next.is_multiple_of(BLOCK) {

@@ -388,6 +388,25 @@ impl Inputs {
         Ok(())
     }
 
+    /// What a sample may be described by: all that the product has, whether it varies or not.
+    pub(super) fn quantities(&self) -> Vec<Column> {
+        let is_plate = self.direction.is_some();
+        let falls = if is_plate { Column::DirectionDeg } else { Column::First };
+        let mut all = vec![falls, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
+        all.extend(self.contact_time.map(|_| Column::ContactTimeS));
+        all.push(Column::GyrationM);
+        for (i, part) in self.parts.iter().enumerate() {
+            all.extend(part.mount.map(|_| [Column::FrequencyHz(i), Column::DampingRatio(i)]).into_iter().flatten());
+            all.push(Column::PositionM(i));
+            all.extend(is_plate.then_some(Column::AcrossM(i)));
+            for (kind, _, critical) in &part.limits {
+                all.push(Column::Limit(i, *kind));
+                all.extend(critical.map(|_| Column::CriticalAccelerationMS2(i)));
+            }
+        }
+        all
+    }
+
     /// What a row of values holds.
     pub(super) fn columns(&self) -> Vec<Column> {
         let falls = if self.direction.is_some() { Column::DirectionDeg } else { Column::First };

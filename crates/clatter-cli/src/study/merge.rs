@@ -58,6 +58,9 @@ impl Args {
         let plan =
             Plan::read(plan, &format!("the plan in {first}")).map_err(|faults| Failure::Product(faults.to_string()))?;
         let study = Study::new(plan, product, &format!("the product in {first}"))?;
+        if self.target.is_some() && study.plan().search {
+            return Err(Failure::Usage("'--target' is of drops that are drawn, and the plan is a search"));
+        }
         let mut answer = self.merged(&parts, &study)?;
         answer.target = self.target;
         let out = &mut *streams.out;

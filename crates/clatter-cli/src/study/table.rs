@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use clatter_answer::scatter;
 use clatter_answer::study::{Answer, Member, SearchedLimit, Told};
-use clatter_assess::Verdict;
 use clatter_assess::scatter::ComponentScatter;
+use clatter_assess::{GridAxis, Verdict};
 
 use crate::columns::Table;
 use crate::numbers::{digits, figures, given};
@@ -41,30 +41,30 @@ pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
         writeln!(out, "Target of {} % {word}", given(100.0 * target))?;
     }
     writeln!(out)?;
-    let mut heads: Vec<String> = plan.grid.iter().map(|axis| shown(&axis.name(), WIDEST)).collect();
+    let sure = format!("{} % from", given(100.0 * answer.confidence));
     let (names, units) = if plan.search {
-        (vec!["part", "limit", "verdict", "allowed", "demand", "margin"], vec![""; 6])
+        (["part", "limit", "verdict", "demand", "margin", ""], [""; 6])
     } else {
-        let sure = given(100.0 * answer.confidence);
-        let interval = format!("{sure} % from");
-        heads.extend(["part", "survives", "at least", &interval, "to", "utilization", "largest"].map(str::to_owned));
-        (Vec::new(), vec!["", "%", "%", "%", "%", "mean", ""])
+        (["part", "survives", "at least", &sure, "to", "largest"], ["", "%", "%", "%", "%", "utilization"])
     };
-    heads.extend(names.into_iter().map(str::to_owned));
+    // The key of a quantity stands below its table.
+    let axis = |axis: &GridAxis| axis.path.split_last().map(|(key, table)| [table.join("."), key.clone()]);
+    let heads = plan
+        .grid
+        .iter()
+        .filter_map(axis)
+        .chain(std::iter::zip(names, units).map(|(name, unit)| [name, unit].map(str::to_owned)));
+    let heads: Vec<[String; 2]> = heads.collect();
+    let mut rows: Vec<Vec<String>> = [0, 1].map(|k| heads.iter().map(|head| shown(&head[k], WIDEST)).collect()).into();
     let keys = plan.grid.len() + 1;
-    let mut rows = vec![heads];
-    if !plan.search {
-        rows.push(plan.grid.iter().map(|_| "").chain(units).map(str::to_owned).collect());
-    }
-    let headings = rows.len();
     for member in &answer.members {
-        let values = member.values.iter().map(|value| shown(value.trim_matches('"'), WIDEST));
+        let values = member.values.iter().map(|value| shown(value, WIDEST));
         for cells in cells(member) {
             rows.push(values.clone().chain(cells).collect());
         }
     }
     let texts = if plan.search { keys + 2 } else { keys };
-    Table { keys, headings, texts, last_is_text: false, least: 8, rows }.write(out)
+    Table { keys, headings: 2, texts, last_is_text: false, least: 8, rows }.write(out)
 }
 
 /// A row for each part, or of a search for each limit.
@@ -79,8 +79,7 @@ fn survival(component: &ComponentScatter) -> Vec<String> {
     let survival = component.survival;
     let of = |used: f64| if component.worst_sample.is_some() { figures(used) } else { "-".to_owned() };
     let shares = [survival.estimate, survival.at_least, survival.lo, survival.hi].map(hundredths);
-    let used = [component.mean_utilization, component.largest_utilization].map(of);
-    std::iter::once(shown(&component.name, WIDEST)).chain(shares).chain(used).collect()
+    std::iter::once(shown(&component.name, WIDEST)).chain(shares).chain([of(component.largest_utilization)]).collect()
 }
 
 fn verdict(member: &Member, limit: &SearchedLimit) -> Vec<String> {
@@ -94,7 +93,6 @@ fn verdict(member: &Member, limit: &SearchedLimit) -> Vec<String> {
         shown(&component.name, WIDEST),
         limit.limit.name().to_owned(),
         if limit.verdict == Verdict::Unsafe { "UNSAFE" } else { limit.verdict.name() }.to_owned(),
-        value(limit.allowed),
         value(limit.demand),
         limit.margin.map_or_else(|| "-".to_owned(), words::margin),
     ]
@@ -114,7 +112,7 @@ pub(super) fn csv(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
         let mut begin = String::new();
         if several {
             begin.extend([i.to_string().as_str(), ","]);
-            begin.extend(member.values.iter().map(|value| format!("{},", field(value.trim_matches('"')))));
+            begin.extend(member.values.iter().map(|value| format!("{},", field(value))));
         }
         match &member.told {
             Told::Drawn(scatter) => of_one::rows(scatter, &begin, out)?,
