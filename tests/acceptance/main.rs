@@ -31,6 +31,7 @@ mod respond;
 mod scatter;
 mod simulate;
 mod spectrum;
+mod study;
 mod tables;
 mod threads;
 mod torn;

@@ -115,7 +115,7 @@ fn help_teaches_the_two_numbers_and_the_units() {
 
 #[test]
 fn help_of_every_command_has_an_example_that_runs() {
-    for command in ["impacts", "zone", "map", "respond", "spectrum", "simulate", "report", "completions"] {
+    for command in ["impacts", "zone", "map", "respond", "spectrum", "simulate", "study", "report", "completions"] {
         for flag in ["-h", "--help"] {
             let help = shown([command, flag]);
             assert!(help.contains("Example"), "{help}");

@@ -41,6 +41,7 @@ pub mod respond;
 pub mod scatter;
 pub mod simulate;
 pub mod spectrum;
+pub mod study;
 pub mod zone;
 
 use clatter::End;

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 
 #[path = "../examples/answers.rs"]
 mod answers;
+mod study;
 
 /// The same input gives the same bytes on every machine. The answers were written by the example, as its text says; the gate runs this
 /// test natively and as WebAssembly.

@@ -18,6 +18,8 @@ pub(crate) enum Kind {
     Text,
     /// A text or a list of them.
     Texts,
+    /// true or false.
+    Flag,
     /// One of these words.
     Choice(&'static [&'static str]),
     /// A value within bounds, both included; the bounds are written as the value would be.
@@ -42,7 +44,7 @@ const fn key(name: &'static str, required: bool, kind: Kind, doc: &'static str) 
     Key { name, kind, required, doc }
 }
 
-use Kind::{Choice, Quantity, Sides, Spread, Table, Tables, Text, Texts};
+use Kind::{Choice, Flag, Quantity, Sides, Spread, Table, Tables, Text, Texts};
 
 /// Bounds that several keys share.
 const PLACES: [&str; 2] = ["-100 m", "100 m"];
@@ -328,6 +330,25 @@ pub(crate) static RECORD: &[Key] = &[
         Quantity(&units::TIME, ["1e-9 s", "1 s"]),
         "Standard deviation of the times of strikes; unless given, their scatter tells it.",
     ),
+];
+
+/// A plan of a study.
+pub(crate) static PLAN: &[Key] = &[
+    key("product", true, Text, "The product file, from where the plan is."),
+    key(
+        "samples",
+        false,
+        Quantity(&units::NUMBER, ["1", "1e12"]),
+        "How many drops of each product are drawn; needed but for a search.",
+    ),
+    key(
+        "seed",
+        false,
+        Quantity(&units::NUMBER, ["0", "9007199254740992"]),
+        "Another seed draws other drops; 1 unless given.",
+    ),
+    key("search", false, Flag, "true: the worst drop of each product is searched, and none are drawn."),
+    key("grid", false, Table(&[]), "Quantities of the product file that vary, by table and key, each over its values."),
 ];
 
 /// The key of a table by its name.

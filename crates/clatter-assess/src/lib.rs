@@ -95,7 +95,7 @@ pub use fault::{Fault, Faults};
 pub use portrait::{Changes, CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
 pub use product::{Drop, Fall, First, Landing, Product, ProductFile, RecordFile, Width};
 pub use quantity::{Limit, LimitKind, Unit};
-pub use read::LARGEST_FILE;
+pub use read::{Family, GridAxis, LARGEST_FILE, Plan};
 pub use reason::{Doubt, Note, Reason};
 pub use repeat::repeat;
 pub use schema::schema;

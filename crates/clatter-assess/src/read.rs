@@ -3,6 +3,7 @@
 mod body;
 mod drops;
 mod parts;
+mod plan;
 mod quantities;
 
 use std::collections::HashMap;
@@ -17,6 +18,8 @@ use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::{DataFault, ProductFile};
 use drops::LANDS_ON;
 use quantities::written;
+
+pub use plan::{Axis as GridAxis, Family, Plan};
 
 /// A file of more bytes is refused unread.
 pub const LARGEST_FILE: usize = 1 << 20;
@@ -153,6 +156,7 @@ impl Reader {
                     Kind::Table(_) => format!("[{}]", key.name),
                     Kind::Tables(_) => format!("[[{}]]", key.name),
                     Kind::Text | Kind::Texts => format!("{} = \"…\"", key.name),
+                    Kind::Flag => format!("{} = true", key.name),
                     Kind::Choice(words) => format!("{} = {:?}", key.name, words[0]),
                     Kind::Quantity(d, _) | Kind::Spread(d, _) => format!("{} = {}", key.name, written(d)),
                     Kind::Sides(_) => unreachable!("of one side"),

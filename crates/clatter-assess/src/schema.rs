@@ -42,6 +42,7 @@ fn kind(of: &Kind) -> Value {
             let one = json!({ "type": "string" });
             json!({ "anyOf": [one, { "type": "array", "items": one, "minItems": 1 }] })
         }
+        Kind::Flag => json!({ "type": "boolean" }),
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Quantity(dimension, bounds) => with_examples(quantity(dimension, *bounds), dimension),
         Kind::Spread(dimension, bounds) => {

@@ -242,7 +242,7 @@ pub(crate) fn pattern(unit: &Unit) -> String {
 const LONGEST: usize = 64;
 
 /// The longest beginning that is a number, and the rest without the blanks before it.
-fn split(text: &str) -> Option<(f64, &str)> {
+pub(crate) fn split(text: &str) -> Option<(f64, &str)> {
     let numeric = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     let mut end = text.find(|c| !numeric(c)).unwrap_or(text.len());
     loop {

@@ -13,6 +13,7 @@ mod independent;
 mod late;
 mod limits;
 mod mutations;
+mod plan;
 mod plate_commands;
 mod plates;
 mod portrait;

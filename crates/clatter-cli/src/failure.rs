@@ -53,6 +53,8 @@ pub(crate) enum Failure {
     Stream { path: PathBuf, stream: &'static str },
     #[error("a map of {points} points takes more than --memory allows: allowed are {most} points")]
     Large { points: u128, most: u128 },
+    #[error("{} is there already, and is not this shard: choose another name, or give --force", text::path(.0))]
+    OtherPart(PathBuf),
     #[error("{} is to be written twice: choose another name for one output", text::path(.0))]
     Twice(PathBuf),
     #[error("cannot read {}: {}", text::path(.path), text::visible(&.reason.to_string()))]
@@ -68,6 +70,17 @@ pub(crate) enum Failure {
     Report(#[from] ReportError),
     #[error(transparent)]
     Study(#[from] clatter_studies::Error),
+}
+
+impl From<clatter_answer::study::Error> for Failure {
+    fn from(error: clatter_answer::study::Error) -> Self {
+        use clatter_answer::study::Error;
+        match error {
+            Error::Faults(faults) => Self::Product(faults.to_string()),
+            Error::Scatter(error) => Self::Scatter(error),
+            other => Self::Wrong(other.to_string()),
+        }
+    }
 }
 
 impl Failure {

@@ -6,7 +6,7 @@ use crate::{Command, columns};
 
 /// Tasks, each with the subcommands for it.
 const TASKS: [(&str, &[&str]); 4] = [
-    ("Assess a product", &["assess", "design", "scatter", "explain", "tradeoff", "init", "schema"]),
+    ("Assess a product", &["assess", "design", "scatter", "study", "explain", "tradeoff", "init", "schema"]),
     ("Follow one drop", &["simulate", "respond", "impacts", "zone", "atlas", "map"]),
     ("Use what was measured", &["record", "spectrum", "fit"]),
     ("Print, and help", &["report", "completions", "help"]),

@@ -50,6 +50,7 @@ mod scatter;
 mod schema;
 mod simulate;
 mod spectrum;
+mod study;
 mod text;
 mod tradeoff;
 mod words;
@@ -161,6 +162,7 @@ enum Command {
     Spectrum(Box<spectrum::Args>),
     Design(design::Args),
     Scatter(scatter::Args),
+    Study(study::Args),
     Assess(assess::Args),
     Explain(explain::Args),
     Tradeoff(tradeoff::Args),
@@ -178,7 +180,7 @@ impl Cli {
         let less = self.command.less();
         let asks = matches!(self.command, Command::Assess(_) | Command::Scatter(_) | Command::Design(_));
         self.budget.watch(less, asks, streams.interactive);
-        let exit = self.command.run(streams)?;
+        let exit = self.command.run(self.force, streams)?;
         if budget::was_cut() {
             streams
                 .note("warning", format_args!("--time-limit is over: the answer is of what was done by then; {less}"));
@@ -196,15 +198,17 @@ impl Command {
             Self::Record(_) => "a shorter record and fewer channels take less",
             Self::Respond(_) | Self::Spectrum(_) => "shorter lists and fewer natural frequencies take less",
             Self::Scatter(_) => "fewer samples take less",
+            Self::Study(_) => "more and smaller shards take less",
             Self::Fit(_) => "shorter records take less",
             Self::Report(_) => "one report at a time takes less",
             _ => "narrower ranges and fewer components take less",
         }
     }
 
-    fn run(self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
+    fn run(self, force: bool, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         match self {
             Self::Scatter(args) => return args.run(streams),
+            Self::Study(args) => return args.run(force, streams),
             Self::Assess(args) => return args.run(streams),
             Self::Spectrum(args) => return args.run(streams),
             Self::Impacts(args) => args.run(streams),
@@ -235,6 +239,7 @@ impl Command {
             Self::Spectrum(args) => args.files(),
             Self::Design(args) => args.files(),
             Self::Scatter(args) => args.files(),
+            Self::Study(args) => args.files(),
             Self::Assess(args) => args.files(),
             Self::Tradeoff(args) => args.files(),
             Self::Fit(args) => args.files(),

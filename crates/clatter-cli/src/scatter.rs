@@ -1,6 +1,6 @@
 //! `clatter scatter`: how likely each part of a product survives, and what that hangs on.
 
-mod table;
+pub(crate) mod table;
 
 use std::convert::Infallible;
 use std::io::{self, BufWriter, Write};
@@ -96,12 +96,12 @@ fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("'{}' is not a seed: a whole number from 0 to {}", visible(text), u64::MAX))
 }
 
-fn confidence(text: &str) -> Result<f64, String> {
+pub(crate) fn confidence(text: &str) -> Result<f64, String> {
     let good = text.parse::<f64>().ok().filter(|p| *p > 0.0 && *p < 1.0);
     good.ok_or_else(|| format!("'{}' is not a confidence: between 0 and 1, such as 0.95", visible(text)))
 }
 
-fn target(text: &str) -> Result<f64, String> {
+pub(crate) fn target(text: &str) -> Result<f64, String> {
     let share = inputs::share(text)?;
     let good = share > 0.0 && share < 1.0;
     if good { Ok(share) } else { Err(format!("target {share:?} is not between 0 and 1, such as 0.999 or 99.9%")) }

@@ -50,9 +50,9 @@ pub use axis::TimeAxis;
 pub use baseline::{Baseline, PRE_SHOCK_SHARE, Removed, remove_baseline};
 pub use between::BAND;
 pub use butterworth::{Pass, butterworth};
-pub use container::{Kind, read};
 #[cfg(feature = "parquet")]
-pub use container::{Series, write_parquet};
+pub use container::{Field, FieldKind, RowGroupWriter, RowGroups, Series, write_parquet};
+pub use container::{Kind, read};
 pub use error::{Bad, Error};
 pub use finding::{At, Finding};
 pub use integrate::{Motion, integrate};

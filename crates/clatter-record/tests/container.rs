@@ -4,7 +4,7 @@
 
 use clatter_record::{Column, Error, Kind, Table, Values, read};
 #[cfg(feature = "parquet")]
-use clatter_record::{Series, write_parquet};
+use clatter_record::{Field, FieldKind, RowGroupWriter, RowGroups, Series, write_parquet};
 use std::fs;
 use std::path::PathBuf;
 
@@ -345,6 +345,78 @@ fn written_parquet_comes_back_to_the_bit() {
     assert_eq!(bits(&time.values), bits(&Values::Float(long.clone())));
     let twice = Series { name: "a", unit: "g", values: &[1.0] };
     assert!(write_parquet(&[twice, twice]).expect_err("two of a name").to_string().contains("\"a [g]\""));
+}
+
+#[cfg(feature = "parquet")]
+fn in_groups(groups: &[Vec<Vec<f64>>]) -> Vec<u8> {
+    let kinds = [FieldKind::Float, FieldKind::FloatOrNone, FieldKind::Whole, FieldKind::Flag];
+    let field = |(i, kind): (usize, &FieldKind)| Field { name: format!("c{i}"), unit: "m/s2".to_owned(), kind: *kind };
+    let mut writer = RowGroupWriter::new(Vec::new(), kinds.iter().enumerate().map(field).collect()).unwrap();
+    for group in groups {
+        writer.write(&group.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
+    }
+    writer.finish(&[("plan", "samples = 3"), ("empty", "")]).unwrap()
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn row_groups_come_back_to_the_bit_one_by_one() {
+    let numbers = |rows: usize| ODD.iter().cycle().take(rows).copied().collect::<Vec<_>>();
+    let group = |rows: usize| {
+        let count = |i: usize| i as f64;
+        let gaps = (0..rows).map(|i| if i % 3 == 1 { f64::NAN } else { count(i).sqrt() }).collect();
+        let whole = (0..rows).map(|i| 2_f64.powi(53) - count(i)).collect();
+        vec![numbers(rows), gaps, whole, (0..rows).map(|i| count(i % 5 % 2)).collect()]
+    };
+    // Groups without a gap, whole bytes and not, more than a page.
+    let mut groups = vec![group(1), group(16), group(19), group((1 << 17) + 3)];
+    groups[1][1] = vec![0.5; 16];
+    let file = in_groups(&groups);
+    let mut found = RowGroups::new(std::io::Cursor::new(&file)).unwrap();
+    assert_eq!(found.names(), ["c0", "c1", "c2", "c3"]);
+    assert_eq!((found.note("plan"), found.note("empty"), found.note("seed")), (Some("samples = 3"), Some(""), None));
+    assert_eq!(found.rows(), [1, 16, 19, (1 << 17) + 3]);
+    for (i, group) in groups.iter().enumerate() {
+        for (k, values) in group.iter().enumerate() {
+            let read = found.read(i, k).unwrap();
+            let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || k == 1 && a.is_nan() && b.is_nan();
+            assert!(read.len() == values.len() && read.iter().zip(values).all(|(a, b)| same(*a, *b)), "{i}, {k}");
+        }
+    }
+    // The reader of records takes the columns of numbers.
+    let table = read(Kind::of(&file).unwrap(), &file, 1 << 22).unwrap();
+    assert_eq!(table.columns.iter().map(|column| column.unit.as_deref()).collect::<Vec<_>>(), [Some("m/s2"); 3]);
+}
+
+/// A byte that is not as it was written is told wherever numbers stand, and no file is taken that ends too early.
+#[cfg(feature = "parquet")]
+#[test]
+fn torn_row_groups_are_refused() {
+    let file = in_groups(&[vec![vec![0.1, 0.2], vec![f64::NAN, 1.0], vec![3.0, 4.0], vec![0.0, 1.0]]]);
+    let all = |file: &[u8]| {
+        let mut groups = RowGroups::new(std::io::Cursor::new(file))?;
+        let columns = groups.names().len();
+        (0..groups.rows().len()).try_for_each(|group| (0..columns).try_for_each(|k| groups.read(group, k).map(drop)))
+    };
+    assert_eq!(all(&file), Ok(()));
+    for length in 0..file.len() {
+        assert!(all(&file[..length]).is_err(), "{length} of {} bytes", file.len());
+    }
+    let numbers = [0.1_f64, 0.2, 1.0].map(f64::to_le_bytes);
+    for number in numbers {
+        let at = file.windows(8).position(|bytes| bytes == number).unwrap();
+        for k in at..at + 8 {
+            let mut torn = file.clone();
+            torn[k] ^= 4;
+            assert!(all(&torn).unwrap_err().to_string().contains("not as it was written"), "byte {k}");
+        }
+    }
+    // Anywhere else there may be a note or a name; nothing panics.
+    for k in 0..file.len() {
+        let mut torn = file.clone();
+        torn[k] ^= 0x81;
+        let _ = all(&torn);
+    }
 }
 
 #[test]

@@ -28,6 +28,7 @@ mod extremes;
 mod full;
 mod levels;
 mod philox;
+mod rows;
 mod sample;
 mod tally;
 
@@ -42,6 +43,7 @@ pub use binomial::{Probability, clopper_pearson};
 pub use drivers::Share;
 pub use extremes::{Extremes, extremes};
 pub use levels::Pilot;
+pub use rows::{Asked, Recount};
 pub use sample::Input;
 
 /// Why nothing can be drawn.
@@ -302,12 +304,18 @@ impl Sampler {
                 }
             }
         }
+        let samples = done(total.all.samples).max(1);
+        Ok(self.summary(total, samples, pilot))
+    }
+
+    /// What came of all blocks, for the intervals of so many samples.
+    fn summary(&self, total: Block, samples: u64, pilot: Option<Pilot>) -> Scatter {
         let Block { tallies, all, reason, .. } = total;
-        let settings = Settings { samples: done(all.samples).max(1), ..self.settings };
+        let settings = Settings { samples, ..self.settings };
         let each = self.components.iter().zip(tallies.iter().zip(&self.inputs.of_part));
         let components: Vec<_> =
             each.map(|(component, (tally, own))| tally.summary(component, &self.inputs, own, &settings)).collect();
-        Ok(Scatter {
+        Scatter {
             settings,
             model: self.fullest,
             drawn: all.samples,
@@ -319,7 +327,7 @@ impl Sampler {
             unanswered: round(float(all.unanswered) * float(settings.samples) / float(all.both.max(1))),
             reason,
             components,
-        })
+        }
     }
 
     /// The cheap model beside the full one, on samples of its own, and how to go on from there; none where few are asked for, and of a

@@ -83,6 +83,24 @@ impl Input {
             _ => None,
         }
     }
+    /// Whether it is what a column holds.
+    pub(super) fn is_in(self, column: Column) -> bool {
+        match self {
+            Self::First => column == Column::First,
+            Self::Direction => column == Column::DirectionDeg,
+            Self::Height | Self::Speed => column == Column::SpeedMS,
+            Self::Tilt => column == Column::TiltDeg,
+            Self::Restitution => column == Column::Restitution,
+            Self::ContactTime => column == Column::ContactTimeS,
+            Self::Gyration => column == Column::GyrationM,
+            Self::Frequency(i) => column == Column::FrequencyHz(i),
+            Self::Damping(i) => column == Column::DampingRatio(i),
+            Self::Position(i) => column == Column::PositionM(i),
+            Self::Across(i) => column == Column::AcrossM(i),
+            Self::Limit(i, kind) => column == Column::Limit(i, kind),
+            Self::CriticalAcceleration(i) => column == Column::CriticalAccelerationMS2(i),
+        }
+    }
     /// Which of the uniform numbers of a sample it is drawn from, whatever else is drawn. There is room for other inputs and kinds of
     /// limits, so that they move no number of these.
     fn number(self) -> u32 {
@@ -368,6 +386,25 @@ impl Inputs {
         }
         drop.flat = drop.lands_as_one(self.merge_s);
         Ok(())
+    }
+
+    /// What a sample may be described by: all that the product has, whether it varies or not.
+    pub(super) fn quantities(&self) -> Vec<Column> {
+        let is_plate = self.direction.is_some();
+        let falls = if is_plate { Column::DirectionDeg } else { Column::First };
+        let mut all = vec![falls, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
+        all.extend(self.contact_time.map(|_| Column::ContactTimeS));
+        all.push(Column::GyrationM);
+        for (i, part) in self.parts.iter().enumerate() {
+            all.extend(part.mount.map(|_| [Column::FrequencyHz(i), Column::DampingRatio(i)]).into_iter().flatten());
+            all.push(Column::PositionM(i));
+            all.extend(is_plate.then_some(Column::AcrossM(i)));
+            for (kind, _, critical) in &part.limits {
+                all.push(Column::Limit(i, *kind));
+                all.extend(critical.map(|_| Column::CriticalAccelerationMS2(i)));
+            }
+        }
+        all
     }
 
     /// What a row of values holds.

@@ -44,11 +44,11 @@ fn way(driver: &Driver) -> &'static str {
 }
 
 /// A probability as a number of a hundred.
-fn hundredths(p: f64) -> String {
+pub(crate) fn hundredths(p: f64) -> String {
     if p >= 1.0 { "100".to_owned() } else { figures(100.0 * p) }
 }
 
-pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
+pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
     let Answer { file, scatter, target, .. } = answer;
     let Settings { samples, seed, confidence, .. } = scatter.settings;
     let (product, sure) = (shown(&file.product.name, 60), given(100.0 * confidence));
@@ -140,10 +140,16 @@ fn parts(scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
 }
 
 pub(super) fn csv(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "name,samples,failed,survival,interval_lo,interval_hi,at_least,mean_utilization,largest_utilization,open,unanswered"
-    )?;
+    writeln!(out, "{HEADS}")?;
+    rows(scatter, "", out)
+}
+
+/// Heads of the rows of CSV.
+pub(crate) const HEADS: &str = "name,samples,failed,survival,interval_lo,interval_hi,at_least,mean_utilization,\
+                                largest_utilization,open,unanswered";
+
+/// A row of CSV for each part, each behind the same beginning.
+pub(crate) fn rows(scatter: &Scatter, begin: &str, out: &mut dyn Write) -> io::Result<()> {
     let samples = scatter.settings.samples;
     for component in &scatter.components {
         let ComponentScatter { name, failures, survival, open, unanswered, .. } = component;
@@ -152,7 +158,7 @@ pub(super) fn csv(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
             Some(_) => format!("{},{}", digits(component.mean_utilization), digits(component.largest_utilization)),
             None => ",".to_owned(),
         };
-        writeln!(out, "{},{samples},{failures},{numbers},{used},{open},{unanswered}", field(name))?;
+        writeln!(out, "{begin}{},{samples},{failures},{numbers},{used},{open},{unanswered}", field(name))?;
     }
     Ok(())
 }

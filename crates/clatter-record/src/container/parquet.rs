@@ -4,10 +4,12 @@
 //! here, within bounds, and unpacked by codecs that are Rust alone.
 
 mod encoding;
+mod groups;
 mod pages;
 mod write;
 
-pub use write::{Series, write};
+pub use groups::RowGroups;
+pub use write::{Field, FieldKind, RowGroupWriter, Series, write};
 
 use super::number::Number;
 use super::{Room, arrow, column, joined, nulls, refuse};
@@ -41,8 +43,8 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
             let rows =
                 usize::try_from(rows).map_err(|_| refuse(format!("Parquet file: {rows} is no number of rows")))?;
             room.take(rows)?;
-            let rows =
-                pages::read(bytes, chunk, pages::Shape { rows, width: stored.width(), levels: leaf.levels }, &name)?;
+            let shape = pages::Shape { rows, width: stored.width(), bits: false, levels: leaf.levels };
+            let rows = pages::read(bytes, chunk, shape, &name)?;
             values = joined(values, stored.values(&rows, &name)?);
         }
         let unit = if stored.is_time() { Some("ns".to_owned()) } else { units.get(&name).cloned() };

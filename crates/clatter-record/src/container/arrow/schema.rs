@@ -2,6 +2,7 @@
 
 use super::damaged;
 use crate::container::number::Number;
+use crate::container::parquet::{Field as WrittenField, FieldKind};
 use crate::container::{column, refuse};
 use crate::{Column, Error, Values};
 use polars_arrow_format::ipc::{self, Endianness, FieldRef, Precision, SchemaRef, TimeUnit, TypeRef, UnionMode};
@@ -161,18 +162,24 @@ pub(in crate::container) fn units(message: &[u8]) -> Result<Vec<(String, String)
     Ok(units)
 }
 
-/// The message of a schema of floats: a name and a unit for each.
-pub(in crate::container) fn schema_message(columns: &[(String, &str)]) -> Vec<u8> {
-    let fields = columns.iter().map(|(name, unit)| {
-        let unit = ipc::KeyValue { key: Some("unit".to_owned()), value: Some((*unit).to_owned()) };
-        let double = ipc::FloatingPoint { precision: Precision::Double };
+/// The message of a schema: name, type and unit of each column.
+pub(in crate::container) fn schema_message(fields: &[WrittenField]) -> Vec<u8> {
+    let fields = fields.iter().map(|field| {
+        let unit = ipc::KeyValue { key: Some("unit".to_owned()), value: Some(field.unit.clone()) };
+        let type_ = match field.kind {
+            FieldKind::Float | FieldKind::FloatOrNone => {
+                ipc::Type::FloatingPoint(Box::new(ipc::FloatingPoint { precision: Precision::Double }))
+            }
+            FieldKind::Whole => ipc::Type::Int(Box::new(ipc::Int { bit_width: 64, is_signed: true })),
+            FieldKind::Flag => ipc::Type::Bool(Box::new(ipc::Bool {})),
+        };
         ipc::Field {
-            name: Some(name.clone()),
-            nullable: false,
-            type_: Some(ipc::Type::FloatingPoint(Box::new(double))),
+            name: Some(field.name.clone()),
+            nullable: field.kind == FieldKind::FloatOrNone,
+            type_: Some(type_),
             dictionary: None,
             children: Some(Vec::new()),
-            custom_metadata: Some(vec![unit]),
+            custom_metadata: (!field.unit.is_empty()).then(|| vec![unit]),
         }
     });
     let schema = ipc::Schema {

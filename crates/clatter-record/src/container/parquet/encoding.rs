@@ -56,6 +56,12 @@ pub(super) fn split_streams(bytes: &[u8], width: usize, count: usize) -> Option<
     Some((0..count * width).map(|i| bytes[i % width * count + i / width]).collect())
 }
 
+/// Flags, eight a byte, the first in the last bit; each a byte of its own.
+pub(super) fn plain_bits(bytes: &[u8], count: usize) -> Option<Vec<u8>> {
+    let bytes = bytes.get(..count.div_ceil(8))?;
+    Some((0..count).map(|i| bytes[i / 8] >> (i % 8) & 1).collect())
+}
+
 /// Differences, in blocks of so many bits each.
 pub(super) fn delta(mut bytes: &[u8], width: usize, count: usize) -> Option<Vec<u8>> {
     let bytes = &mut bytes;

@@ -1,6 +1,6 @@
 //! The pages of one column in one row group: unpacked, and its numbers as plain bytes.
 
-use super::encoding::{Dictionary, delta, hybrid, split_streams};
+use super::encoding::{Dictionary, delta, hybrid, plain_bits, split_streams};
 use super::refuse;
 use crate::Error;
 use crate::container::codec;
@@ -14,6 +14,8 @@ pub(super) struct Shape {
     pub(super) rows: usize,
     /// Bytes of a number.
     pub(super) width: usize,
+    /// Whether a plain page has eight of them in a byte, as of flags.
+    pub(super) bits: bool,
     /// Levels of a value that is there.
     pub(super) levels: u32,
 }
@@ -31,6 +33,13 @@ pub(super) fn read(bytes: &[u8], chunk: &ColumnMetaData, shape: Shape, name: &st
     Chunk { told: chunk, shape, dictionary: None, rows: Rows::default(), left: shape.rows }
         .read(bytes)
         .map_err(|fault| refuse(format!("Parquet file: column {name:?} {fault}")))
+}
+
+/// The checksum of a page, as zlib's.
+pub(super) fn checksum(page: &[u8]) -> u32 {
+    let mut sum = flate2::Crc::new();
+    sum.update(page);
+    sum.sum()
 }
 
 /// A fault of a column: what follows its name in a message.
@@ -63,6 +72,9 @@ impl Chunk<'_> {
             let head = head.map_err(|error| format!("has a damaged page: {error}"))?;
             let length = usize::try_from(head.compressed_page_size).map_err(|_| CUT)?;
             let page = rest.split_off(..length).ok_or(CUT)?;
+            if head.crc.is_some_and(|crc| crc.cast_unsigned() != checksum(page)) {
+                return Err("has a page that is not as it was written; the file is damaged".to_owned());
+            }
             match (head.type_, &head) {
                 (PageType::DICTIONARY_PAGE, PageHeader { dictionary_page_header: Some(_), .. }) => {
                     self.dictionary = Some(self.unpacked(page)?.into_owned());
@@ -134,6 +146,7 @@ impl Chunk<'_> {
             there = self.rows.valid[first..].iter().filter(|valid| **valid).count();
         }
         let plain: Cow<'_, [u8]> = match encoding {
+            Encoding::PLAIN if self.shape.bits => plain_bits(values, there).ok_or(CUT)?.into(),
             Encoding::PLAIN => values.get(..there * width).ok_or(CUT)?.into(),
             Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY => {
                 let numbers =

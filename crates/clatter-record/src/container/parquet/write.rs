@@ -1,5 +1,6 @@
-//! Parquet files of doubles.
+//! Parquet files of numbers, without compression.
 
+use super::pages::checksum;
 use super::{ARROW_SCHEMA, MAGIC, damaged};
 use crate::Error;
 use crate::container::{arrow, equal_length, refuse};
@@ -10,6 +11,7 @@ use polars_parquet_format::{
     ColumnChunk, ColumnMetaData, CompressionCodec, DataPageHeader, Encoding, FieldRepetitionType, FileMetaData,
     KeyValue, PageHeader, PageType, RowGroup, SchemaElement, Type,
 };
+use std::io::{self, Write};
 
 /// Numbers of a page: 1 MiB, as the documentation of the format recommends.
 const PAGE: usize = 1 << 17;
@@ -23,6 +25,30 @@ pub struct Series<'a> {
     pub unit: &'a str,
     /// Its numbers.
     pub values: &'a [f64],
+}
+
+/// A column of a file of row groups.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Field {
+    /// Its name.
+    pub name: String,
+    /// Its unit, such as `m/s2`; empty where it has none.
+    pub unit: String,
+    /// What its numbers are.
+    pub kind: FieldKind,
+}
+
+/// What the numbers of a column are, and so how they are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FieldKind {
+    /// Any numbers.
+    Float,
+    /// Numbers of which some are missing: NaN.
+    FloatOrNone,
+    /// Whole numbers up to 2⁵³.
+    Whole,
+    /// 0 or 1: no or yes.
+    Flag,
 }
 
 /// The bytes of a Parquet file with these columns, as `name [unit]`; the unit stands in the metadata of each as well, as
@@ -48,63 +74,193 @@ pub struct Series<'a> {
 /// ```
 pub fn write(columns: &[Series<'_>]) -> Result<Vec<u8>, Error> {
     let values: Vec<&[f64]> = columns.iter().map(|column| column.values).collect();
-    let rows = equal_length(&values)?;
-    let named: Vec<(String, &str)> =
-        columns.iter().map(|column| (format!("{} [{}]", column.name, column.unit), column.unit)).collect();
-    let mut names: Vec<&str> = named.iter().map(|column| column.0.as_str()).collect();
+    equal_length(&values)?;
+    let field = |column: &Series<'_>| Field {
+        name: format!("{} [{}]", column.name, column.unit),
+        unit: column.unit.to_owned(),
+        kind: FieldKind::Float,
+    };
+    let fields: Vec<Field> = columns.iter().map(field).collect();
+    let mut names: Vec<&str> = fields.iter().map(|field| field.name.as_str()).collect();
     names.sort_unstable();
     if let Some([name, ..]) = names.windows(2).find(|pair| pair[0] == pair[1]) {
         return Err(refuse(format!("two columns are named {name:?}; each needs a name of its own")));
     }
-    let count = |number: usize| i64::try_from(number).map_err(damaged);
-    let mut file = MAGIC.to_vec();
-    let mut chunks = Vec::new();
-    for ((name, _), values) in named.iter().zip(values) {
-        let start = file.len();
-        values.chunks(PAGE).try_for_each(|values| page(&mut file, values))?;
-        let size = count(file.len() - start)?;
-        chunks.push(chunk(name, [count(rows)?, count(start)?, size]));
-    }
-    let bytes = count(file.len() - MAGIC.len())?;
-    let group = RowGroup {
-        columns: chunks,
-        total_byte_size: bytes,
-        num_rows: count(rows)?,
-        sorting_columns: None,
-        file_offset: Some(count(MAGIC.len())?),
-        total_compressed_size: Some(bytes),
-        ordinal: Some(0),
-    };
-    let arrow = KeyValue::new(ARROW_SCHEMA.to_owned(), STANDARD.encode(arrow::schema_message(&named)));
-    let mut schema = vec![element("schema", Some(i32::try_from(named.len()).map_err(damaged)?))];
-    schema.extend(named.iter().map(|(name, _)| element(name, None)));
-    let metadata =
-        FileMetaData::new(2, schema, count(rows)?, vec![group], vec![arrow], "clatter".to_owned(), None, None, None);
-    let start = file.len();
-    metadata.write_to_out_protocol(&mut TCompactOutputProtocol::new(&mut file)).map_err(damaged)?;
-    let length = u32::try_from(file.len() - start).map_err(damaged)?;
-    file.extend_from_slice(&length.to_le_bytes());
-    file.extend_from_slice(MAGIC);
+    let mut file = Vec::new();
+    let mut writer = RowGroupWriter::begin(&mut file, fields, false).map_err(damaged)?;
+    writer.write(&values).map_err(damaged)?;
+    writer.finish(&[]).map_err(damaged)?;
     Ok(file)
 }
 
+/// Writes a Parquet file row group by row group: no more of it is in memory than one of them.
+///
+/// Numbers are stored to the bit and pages have checksums. What is written is read again by [`RowGroups`](super::RowGroups).
+///
+/// # Examples
+/// ```
+/// use clatter_record::{Field, FieldKind, RowGroupWriter, RowGroups};
+/// let field = |name: &str, unit: &str, kind| Field { name: name.to_owned(), unit: unit.to_owned(), kind };
+/// let fields = vec![field("tilt_rad", "rad", FieldKind::Float), field("held", "", FieldKind::Flag)];
+/// let mut writer = RowGroupWriter::new(Vec::new(), fields)?;
+/// writer.write(&[&[0.01, 0.02], &[1.0, 0.0]])?;
+/// writer.write(&[&[0.03], &[1.0]])?;
+/// let file = writer.finish(&[("seed", "7")])?;
+/// let mut groups = RowGroups::new(std::io::Cursor::new(file))?;
+/// assert_eq!((groups.rows(), groups.note("seed")), (&[2, 1][..], Some("7")));
+/// assert_eq!(groups.read(1, 0)?, [0.03]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct RowGroupWriter<W> {
+    out: W,
+    /// Bytes written.
+    at: i64,
+    fields: Vec<Field>,
+    has_checksums: bool,
+    groups: Vec<RowGroup>,
+    rows: i64,
+}
+
+impl<W: Write> RowGroupWriter<W> {
+    /// Begins a file with these columns.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn new(out: W, fields: Vec<Field>) -> io::Result<Self> {
+        Self::begin(out, fields, true)
+    }
+
+    fn begin(mut out: W, fields: Vec<Field>, has_checksums: bool) -> io::Result<Self> {
+        out.write_all(MAGIC)?;
+        Ok(Self { out, at: whole(MAGIC.len())?, fields, has_checksums, groups: Vec::new(), rows: 0 })
+    }
+
+    /// Writes a group of rows, column by column.
+    ///
+    /// # Errors
+    /// What the writer says, or where the columns are not those of the file or differ in length.
+    pub fn write(&mut self, columns: &[&[f64]]) -> io::Result<()> {
+        let rows = equal_length(columns).map_err(io::Error::other)?;
+        if columns.len() != self.fields.len() {
+            return Err(io::Error::other(format!("{} columns of {}", columns.len(), self.fields.len())));
+        }
+        let (rows, begin) = (whole(rows)?, self.at);
+        let mut chunks = Vec::with_capacity(columns.len());
+        for (i, values) in columns.iter().enumerate() {
+            let start = self.at;
+            for values in values.chunks(PAGE) {
+                let page = page(self.fields[i].kind, values, self.has_checksums)?;
+                self.out.write_all(&page)?;
+                self.at += whole(page.len())?;
+            }
+            chunks.push(chunk(&self.fields[i], [rows, start, self.at - start]));
+        }
+        let bytes = self.at - begin;
+        self.groups.push(RowGroup {
+            columns: chunks,
+            total_byte_size: bytes,
+            num_rows: rows,
+            sorting_columns: None,
+            file_offset: Some(begin),
+            total_compressed_size: Some(bytes),
+            ordinal: i16::try_from(self.groups.len()).ok(),
+        });
+        self.rows += rows;
+        Ok(())
+    }
+
+    /// Ends the file, with notes about it by their names.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn finish(mut self, notes: &[(&str, &str)]) -> io::Result<W> {
+        let arrow = STANDARD.encode(arrow::schema_message(&self.fields));
+        let mut entries = vec![KeyValue::new(ARROW_SCHEMA.to_owned(), arrow)];
+        entries.extend(notes.iter().map(|(name, note)| KeyValue::new((*name).to_owned(), (*note).to_owned())));
+        let count = i32::try_from(self.fields.len()).map_err(io::Error::other)?;
+        let mut schema = vec![root(count)];
+        schema.extend(self.fields.iter().map(element));
+        let program = "clatter".to_owned();
+        let metadata = FileMetaData::new(2, schema, self.rows, self.groups, entries, program, None, None, None);
+        let mut end = Vec::new();
+        metadata.write_to_out_protocol(&mut TCompactOutputProtocol::new(&mut end)).map_err(io::Error::other)?;
+        let length = u32::try_from(end.len()).map_err(io::Error::other)?;
+        end.extend_from_slice(&length.to_le_bytes());
+        end.extend_from_slice(MAGIC);
+        self.out.write_all(&end)?;
+        Ok(self.out)
+    }
+}
+
+fn whole(number: usize) -> io::Result<i64> {
+    i64::try_from(number).map_err(io::Error::other)
+}
+
 /// A page: its head, then the numbers.
-fn page(file: &mut Vec<u8>, values: &[f64]) -> Result<(), Error> {
-    let size = i32::try_from(8 * values.len()).map_err(damaged)?;
-    let count = i32::try_from(values.len()).map_err(damaged)?;
+fn page(kind: FieldKind, values: &[f64], has_checksum: bool) -> io::Result<Vec<u8>> {
+    let mut body = Vec::with_capacity(8 * values.len());
+    match kind {
+        FieldKind::Float => body.extend(values.iter().flat_map(|value| value.to_le_bytes())),
+        FieldKind::FloatOrNone => {
+            let there = levels(values);
+            body.extend(u32::try_from(there.len()).map_err(io::Error::other)?.to_le_bytes());
+            body.extend(there);
+            body.extend(values.iter().filter(|value| !value.is_nan()).flat_map(|value| value.to_le_bytes()));
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "whole and within 2^53")]
+        FieldKind::Whole => body.extend(values.iter().flat_map(|value| (*value as i64).to_le_bytes())),
+        FieldKind::Flag => body.extend(packed(values, |value| value != 0.0)),
+    }
+    let size = i32::try_from(body.len()).map_err(io::Error::other)?;
+    let count = i32::try_from(values.len()).map_err(io::Error::other)?;
     let data = DataPageHeader::new(count, Encoding::PLAIN, Encoding::RLE, Encoding::RLE, None);
-    let head = PageHeader::new(PageType::DATA_PAGE, size, size, None, data, None, None, None);
-    head.write_to_out_protocol(&mut TCompactOutputProtocol::new(&mut *file)).map_err(damaged)?;
-    file.extend(values.iter().flat_map(|value| value.to_le_bytes()));
-    Ok(())
+    let sum = has_checksum.then(|| checksum(&body).cast_signed());
+    let head = PageHeader::new(PageType::DATA_PAGE, size, size, sum, data, None, None, None);
+    let mut page = Vec::with_capacity(64 + body.len());
+    head.write_to_out_protocol(&mut TCompactOutputProtocol::new(&mut page)).map_err(io::Error::other)?;
+    page.append(&mut body);
+    Ok(page)
+}
+
+/// Which numbers are there: one run where all are, else groups of eight.
+fn levels(values: &[f64]) -> Vec<u8> {
+    let all = !values.iter().any(|value| value.is_nan());
+    let mut head = if all { 2 * values.len() } else { 2 * values.len().div_ceil(8) + 1 };
+    let mut bytes = Vec::new();
+    while head >= 0x80 {
+        bytes.push(head.to_le_bytes()[0] | 0x80);
+        head >>= 7;
+    }
+    bytes.push(head.to_le_bytes()[0]);
+    if all {
+        bytes.push(1);
+    } else {
+        bytes.extend(packed(values, |value| !value.is_nan()));
+    }
+    bytes
+}
+
+/// Flags, eight a byte, the first in the last bit.
+fn packed(values: &[f64], flag: impl Fn(f64) -> bool) -> impl Iterator<Item = u8> {
+    values.chunks(8).map(move |eight| eight.iter().rev().fold(0, |bits, value| bits << 1 | u8::from(flag(*value))))
+}
+
+fn stored(kind: FieldKind) -> Type {
+    match kind {
+        FieldKind::Float | FieldKind::FloatOrNone => Type::DOUBLE,
+        FieldKind::Whole => Type::INT64,
+        FieldKind::Flag => Type::BOOLEAN,
+    }
 }
 
 /// Where the pages of a column are.
-fn chunk(name: &str, [rows, start, size]: [i64; 3]) -> ColumnChunk {
+fn chunk(field: &Field, [rows, start, size]: [i64; 3]) -> ColumnChunk {
+    let with_levels = field.kind == FieldKind::FloatOrNone;
     let metadata = ColumnMetaData {
-        type_: Type::DOUBLE,
-        encodings: vec![Encoding::PLAIN],
-        path_in_schema: vec![name.to_owned()],
+        type_: stored(field.kind),
+        encodings: if with_levels { vec![Encoding::PLAIN, Encoding::RLE] } else { vec![Encoding::PLAIN] },
+        path_in_schema: vec![field.name.clone()],
         codec: CompressionCodec::UNCOMPRESSED,
         num_values: rows,
         total_uncompressed_size: size,
@@ -132,15 +288,25 @@ fn chunk(name: &str, [rows, start, size]: [i64; 3]) -> ColumnChunk {
     }
 }
 
-/// The root of the schema, with so many children, or a column of doubles.
-fn element(name: &str, children: Option<i32>) -> SchemaElement {
-    let leaf = children.is_none();
+/// The root of the schema, with so many children.
+fn root(children: i32) -> SchemaElement {
+    let field = Field { name: "schema".to_owned(), unit: String::new(), kind: FieldKind::Float };
+    SchemaElement { type_: None, repetition_type: None, num_children: Some(children), ..element(&field) }
+}
+
+/// A column in the schema.
+fn element(field: &Field) -> SchemaElement {
+    let may_be_missing = field.kind == FieldKind::FloatOrNone;
     SchemaElement {
-        type_: leaf.then_some(Type::DOUBLE),
+        type_: Some(stored(field.kind)),
         type_length: None,
-        repetition_type: leaf.then_some(FieldRepetitionType::REQUIRED),
-        name: name.to_owned(),
-        num_children: children,
+        repetition_type: Some(if may_be_missing {
+            FieldRepetitionType::OPTIONAL
+        } else {
+            FieldRepetitionType::REQUIRED
+        }),
+        name: field.name.clone(),
+        num_children: None,
         converted_type: None,
         scale: None,
         precision: None,

@@ -1,0 +1,156 @@
+//! The answer of a study, and its JSON.
+
+use clatter_assess::scatter::Scatter;
+use clatter_assess::{LimitKind, ProductFile, Unit, Verdict};
+use serde::{Serialize, Serializer};
+
+use super::Study;
+use crate::{Json, scatter};
+
+/// What came of all rows of a study.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Answer<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// Of all intervals.
+    pub confidence: f64,
+    /// The share of drops that all parts of each product are to survive.
+    pub target: Option<f64>,
+    /// Its products, in the order of the grid.
+    pub members: Vec<Member>,
+}
+
+/// A product of the study, and what was told of it.
+#[derive(Debug, Clone)]
+pub struct Member {
+    /// Its values of the grid, as a product file has them, without quotes.
+    pub values: Vec<String>,
+    /// The product.
+    pub file: ProductFile,
+    /// What came of it.
+    pub told: Told,
+}
+
+/// What came of a product.
+#[derive(Debug, Clone)]
+pub enum Told {
+    /// Its drops.
+    Drawn(Box<Scatter>),
+    /// Its limits in their worst drops.
+    Searched(Vec<SearchedLimit>),
+}
+
+/// A limit in the worst drop that was found, in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SearchedLimit {
+    /// The part, by its index in the file.
+    pub component: usize,
+    /// Which limit.
+    pub limit: LimitKind,
+    /// What the file allows; none of a damage boundary.
+    pub allowed: Option<f64>,
+    /// What the worst drop asks; none where none was answered, and of a damage boundary.
+    pub demand: Option<f64>,
+    /// What no drop passes, by energy.
+    pub bound: Option<f64>,
+    /// Allowed over demand, less 1.
+    pub margin: Option<f64>,
+    /// Whether it holds.
+    pub verdict: Verdict,
+}
+
+impl Member {
+    /// Whether it holds: each limit is safe, and the interval of the survival lies above the target, if there is one.
+    #[must_use]
+    pub fn holds(&self, target: Option<f64>) -> bool {
+        match &self.told {
+            Told::Drawn(scatter) => target.is_none_or(|share| scatter.survival.lo >= share),
+            Told::Searched(limits) => limits.iter().all(|limit| limit.verdict == Verdict::Safe),
+        }
+    }
+}
+
+impl Answer<'_> {
+    /// Whether all of its products hold.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.members.iter().all(|member| member.holds(self.target))
+    }
+}
+
+#[derive(Serialize)]
+struct AnswerJson<'a> {
+    study: &'static str,
+    product: &'a str,
+    /// Names of what varies.
+    grid: Vec<String>,
+    members: Vec<MemberJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct MemberJson<'a> {
+    values: &'a [String],
+    #[serde(flatten)]
+    told: ToldJson<'a>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ToldJson<'a> {
+    Drawn(Box<scatter::Answer<'a>>),
+    Searched { verdict: Verdict, limits: Vec<LimitJson<'a>> },
+}
+
+#[derive(Serialize)]
+struct LimitJson<'a> {
+    component: &'a str,
+    limit: &'static str,
+    unit: Unit,
+    allowed: Option<Json>,
+    demand: Option<Json>,
+    bound: Option<Json>,
+    margin: Option<Json>,
+    verdict: Verdict,
+}
+
+impl<'a> MemberJson<'a> {
+    fn new(member: &'a Member, target: Option<f64>) -> Self {
+        let told = match &member.told {
+            Told::Drawn(scatter) => {
+                let mut answer = scatter::Answer::new(&member.file, (**scatter).clone());
+                answer.target = target;
+                ToldJson::Drawn(Box::new(answer))
+            }
+            Told::Searched(limits) => {
+                let limit = |limit: &SearchedLimit| LimitJson {
+                    component: &member.file.components[limit.component].name,
+                    limit: limit.limit.name(),
+                    unit: limit.limit.unit(),
+                    allowed: limit.allowed.map(Json),
+                    demand: limit.demand.map(Json),
+                    bound: limit.bound.map(Json),
+                    margin: limit.margin.map(Json),
+                    verdict: limit.verdict,
+                };
+                let verdict = limits.iter().map(|limit| limit.verdict).max().unwrap_or(Verdict::Undecided);
+                ToldJson::Searched { verdict, limits: limits.iter().map(limit).collect() }
+            }
+        };
+        Self { values: &member.values, told }
+    }
+}
+
+impl Serialize for Answer<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let plan = self.study.plan();
+        let product = self.members.first().map_or("", |member| &*member.file.product.name);
+        AnswerJson {
+            study: if plan.search { "search" } else { "scatter" },
+            product,
+            grid: plan.grid.iter().map(clatter_assess::GridAxis::name).collect(),
+            members: self.members.iter().map(|member| MemberJson::new(member, self.target)).collect(),
+        }
+        .serialize(serializer)
+    }
+}

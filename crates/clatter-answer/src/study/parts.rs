@@ -1,0 +1,167 @@
+//! What the shards of a study say of themselves, and whether they are those of one plan, each once.
+
+use std::fmt;
+use std::ops::Range;
+
+use super::{Error, Study};
+
+/// A part of a study: one of so many of about equal size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which, from 1.
+    pub index: u64,
+    /// Of how many.
+    pub of: u64,
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.of)
+    }
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(index, of)| Some((index.parse().ok()?, of.parse().ok()?)));
+        let shard = numbers.map(|(index, of)| Self { index, of }).filter(|shard| (1..=shard.of).contains(&shard.index));
+        shard.ok_or_else(|| "a shard is I/N, the I-th of N, from 1/N to N/N".to_owned())
+    }
+}
+
+/// The version that draws and merges.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+const VERSION_NOTE: &str = "clatter.version";
+const PLAN: &str = "clatter.plan";
+const PRODUCT: &str = "clatter.product";
+const SEED: &str = "clatter.seed";
+const SHARD: &str = "clatter.shard";
+const ROWS: &str = "clatter.rows";
+
+impl Study {
+    /// What the file of a shard says of itself, by name: plan and product as they were read, the version, the seed, the shard and its
+    /// rows, of which the last one is left out.
+    ///
+    /// # Errors
+    /// [`Error::Shard`] where there is no such shard.
+    pub fn notes(&self, shard: Shard) -> Result<Vec<(&'static str, String)>, Error> {
+        let Range { start, end } = self.rows_of(shard)?;
+        Ok(vec![
+            (VERSION_NOTE, VERSION.to_owned()),
+            (PLAN, self.plan.text().to_owned()),
+            (PRODUCT, self.family.product().to_owned()),
+            (SEED, self.plan.seed.to_string()),
+            (SHARD, shard.to_string()),
+            (ROWS, format!("{start}:{end}")),
+        ])
+    }
+}
+
+/// Files that are to be the shards of one plan.
+#[derive(Debug, Default)]
+pub struct Parts {
+    /// Name, plan and product of the first.
+    first: Option<[String; 3]>,
+    list: Vec<(String, Shard, Range<u64>)>,
+}
+
+impl Parts {
+    /// Takes in a file by what it says of itself.
+    ///
+    /// # Errors
+    /// [`Error::Parts`] where it is no shard, or one of another version or plan than the first.
+    pub fn add<'a>(&mut self, name: &str, note: impl Fn(&str) -> Option<&'a str>) -> Result<(), Error> {
+        let no_part = |what| Error::Parts(format!("{name} is no part of a study: {what}"));
+        let told = |key: &'static str| note(key).ok_or_else(|| no_part(format!("it has no {key}")));
+        let version = told(VERSION_NOTE)?;
+        if version != VERSION {
+            let again = "merge it by that version, or make it again";
+            return Err(Error::Parts(format!(
+                "{name} is of clatter {version}, and this is clatter {VERSION}: {again}"
+            )));
+        }
+        let (plan, product) = (told(PLAN)?, told(PRODUCT)?);
+        let (shard, rows) = (told(SHARD)?.parse(), told(ROWS)?.split_once(':'));
+        let rows = rows.and_then(|(start, end)| Some(start.parse().ok()?..end.parse().ok()?));
+        let (Ok(shard), Some(rows)) = (shard, rows) else { return Err(no_part("its rows are none".to_owned())) };
+        let [first, its_plan, its_product] = self.first.get_or_insert_with(|| [name, plan, product].map(str::to_owned));
+        for (what, own, other) in [("plan", plan, &*its_plan), ("product", product, its_product)] {
+            if own != other {
+                let [there, here] = difference(other, own);
+                let message =
+                    format!("{name} is of another study than {first}: its {what} has {here} where that has {there}");
+                return Err(Error::Parts(message));
+            }
+        }
+        self.list.push((name.to_owned(), shard, rows));
+        Ok(())
+    }
+
+    /// Plan and product of all.
+    #[must_use]
+    pub fn plan_and_product(&self) -> Option<(&str, &str)> {
+        self.first.as_ref().map(|[_, plan, product]| (plan.as_str(), product.as_str()))
+    }
+
+    /// The files in the order of their rows, by their place in the list, with their rows.
+    ///
+    /// # Errors
+    /// [`Error::Parts`] where they are not all rows of the study, each once.
+    pub fn in_order(&self, study: &Study) -> Result<Vec<(usize, Range<u64>)>, Error> {
+        let mut order: Vec<usize> = (0..self.list.len()).collect();
+        order.sort_by_key(|i| (self.list[*i].2.start, self.list[*i].2.end));
+        let (mut next, mut last) = (0, None);
+        let mut missing = Vec::new();
+        for &i in &order {
+            let (name, shard, rows) = &self.list[i];
+            if study.rows_of(*shard).ok().as_ref() != Some(rows) {
+                return Err(Error::Parts(format!("{name} is damaged: shard {shard} has other rows than {rows:?}")));
+            }
+            if let (true, Some(last)) = (rows.start < next, last) {
+                let other: &(String, Shard, Range<u64>) = &self.list[last];
+                let message = match &other.0 {
+                    other if other == name => format!("{name} is there twice: merge each part once"),
+                    other => format!("{name} has rows that {other} has too: merge each part once"),
+                };
+                return Err(Error::Parts(message));
+            }
+            if rows.start > next {
+                missing.push(next..rows.start);
+            }
+            (next, last) = (rows.end, Some(i));
+        }
+        if next < study.rows() {
+            missing.push(next..study.rows());
+        }
+        if let Some(first) = missing.first() {
+            return Err(Error::Parts(self.lacks(study, first)));
+        }
+        Ok(order.into_iter().map(|i| (i, self.list[i].2.clone())).collect())
+    }
+
+    /// What is missing: rows, and the first shard that has them where all are of one size.
+    fn lacks(&self, study: &Study, rows: &Range<u64>) -> String {
+        let all = study.rows();
+        let mut of = self.list.iter().map(|(_, shard, _)| shard.of);
+        let one = of.next().filter(|first| of.all(|other| other == *first));
+        let begins = |of: u64| {
+            let before = (u128::from(rows.start) * u128::from(of)).div_ceil(u128::from(all));
+            let shard = Shard { index: u64::try_from(before).ok()? + 1, of };
+            study.rows_of(shard).is_ok_and(|found| found.start == rows.start).then_some(shard)
+        };
+        let again = one.and_then(begins).map_or_else(String::new, |shard| format!(": make shard {shard}"));
+        format!("no part has rows {} to {} of {all}{again}", rows.start, rows.end - 1)
+    }
+}
+
+/// The first line in which two texts differ, of each.
+fn difference(a: &str, b: &str) -> [String; 2] {
+    let (mut a, mut b) = (a.lines(), b.lines());
+    loop {
+        match (a.next(), b.next()) {
+            (Some(a), Some(b)) if a == b => {}
+            (None, None) => return [(); 2].map(|()| "other ends of lines".to_owned()),
+            (a, b) => return [a, b].map(|line| line.map_or("no more".to_owned(), |line| format!("`{}`", line.trim()))),
+        }
+    }
+}

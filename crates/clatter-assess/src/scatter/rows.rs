@@ -1,0 +1,153 @@
+//! Samples one by one, all by the full model: kept elsewhere, and counted again from what was kept.
+//!
+//! A sample depends on the seed and its number alone, so that samples may be drawn anywhere and in any order. Counted in order, they
+//! give what [`Sampler::run`] gives where it answers all of them by the full model, to the last bit.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::sample::Sample;
+use super::tally::Block;
+use super::{BLOCK, Column, SampleDemand, Sampler, Scatter};
+use crate::LimitKind;
+
+/// What a sample asks of a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked {
+    /// The largest demand over allowed of its limits.
+    pub utilization: f64,
+    /// Whether what it may be off by decides if the part survives.
+    pub open: bool,
+    /// Which limits do not hold, in the order of its [limits](crate::Limits::kinds).
+    pub exceeded: [bool; LimitKind::ALL.len()],
+}
+
+impl Asked {
+    fn new(asked: &SampleDemand) -> Self {
+        Self { utilization: asked.utilization, open: asked.is_open(), exceeded: asked.fails }
+    }
+
+    /// What a count needs of it: on which side of 1 the utilization and its ends are.
+    fn demand(&self) -> SampleDemand {
+        let within = if self.open { [0.0, f64::INFINITY] } else { [self.utilization; 2] };
+        SampleDemand { utilization: self.utilization, within, fails: self.exceeded }
+    }
+}
+
+/// Samples that one thread draws in one go.
+const PIECE: u64 = 256;
+
+impl Sampler {
+    /// What a sample of the product may be described by: all that the product has, whether it varies or not.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<Column> {
+        self.inputs.quantities()
+    }
+
+    /// Whether it differs from sample to sample.
+    #[must_use]
+    pub fn varies(&self, column: Column) -> bool {
+        self.inputs.varied.iter().any(|input| input.is_in(column))
+    }
+
+    /// These quantities of a sample in SI, angles in rad too.
+    #[must_use]
+    pub fn drawn(&self, sample: u64, columns: &[Column]) -> Vec<f64> {
+        let mut drawn = self.inputs.blank();
+        let _ = self.inputs.draw(self.settings.seed, sample, &mut drawn); // what it may not draw has no value
+        columns.iter().map(|column| in_si(&drawn, *column)).collect()
+    }
+
+    /// Draws samples by the full model on the threads of the current pool, and gives these quantities of each in SI, angles in rad too,
+    /// and what it asks of each part; none where it has no answer. `done` is told of so many more, by any thread.
+    #[must_use]
+    pub fn rows(
+        &self,
+        samples: Range<u64>,
+        columns: &[Column],
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Vec<(Vec<f64>, Vec<Option<Asked>>)> {
+        let pieces = (samples.end - samples.start).div_ceil(PIECE);
+        let piece = |i: u64| {
+            let from = samples.start + i * PIECE;
+            let until = samples.end.min(from + PIECE);
+            let (mut sample, mut full) = (self.inputs.blank(), Vec::new());
+            let row = |k| {
+                self.answer(k, None, true, &mut sample, &mut Vec::new(), &mut full);
+                if full.iter().all(Result::is_err) {
+                    // What could not be drawn is not to be that of the sample before.
+                    sample = self.inputs.blank();
+                    let _ = self.inputs.draw(self.settings.seed, k, &mut sample);
+                }
+                let values = columns.iter().map(|column| in_si(&sample, *column)).collect();
+                (values, full.iter().map(|asked| asked.as_ref().ok().map(Asked::new)).collect())
+            };
+            let rows: Vec<_> = (from..until).map(row).collect();
+            done(until - from);
+            rows
+        };
+        (0..pieces).into_par_iter().flat_map_iter(piece).collect()
+    }
+}
+
+/// A quantity of a sample in SI.
+fn in_si(sample: &Sample, column: Column) -> f64 {
+    match column {
+        Column::TiltDeg => sample.drop.tilt_rad,
+        Column::DirectionDeg => sample.drop.across.map_or(f64::NAN, |across| across.direction_rad),
+        other => sample.value(other),
+    }
+}
+
+/// Counts samples that were drawn before, in order.
+#[derive(Debug)]
+pub struct Recount {
+    sampler: Sampler,
+    sample: Sample,
+    near: Vec<f64>,
+    total: Block,
+    block: Block,
+    next: u64,
+}
+
+impl Recount {
+    /// Of samples of this sampler, from its first one on.
+    #[must_use]
+    pub fn new(sampler: Sampler) -> Self {
+        let near = sampler.near();
+        let block = || Block::new(&sampler.components, &sampler.inputs, &near);
+        Self { sample: sampler.inputs.blank(), total: block(), block: block(), near, next: 0, sampler }
+    }
+
+    /// Takes in what the next sample asks of each part.
+    pub fn take(&mut self, asked: &[Option<Asked>]) {
+        let (sampler, k) = (&self.sampler, self.next);
+        let _ = sampler.inputs.draw(sampler.settings.seed, k, &mut self.sample); // its numbers stand, whatever is refused
+        let mut again = Vec::new();
+        let known = self.total.reason.as_ref().or(self.block.reason.as_ref());
+        if known.is_none() && asked.iter().any(Option::is_none) {
+            // Why it has no answer was not kept, and is found once more.
+            sampler.answer(k, None, true, &mut self.sample, &mut Vec::new(), &mut again);
+        }
+        let reason = |i: usize| {
+            let own = again.get(i).and_then(|asked: &Result<_, crate::Error>| asked.as_ref().err());
+            own.or(known).cloned().unwrap_or(crate::Error::Unfinished)
+        };
+        let each = asked.iter().enumerate();
+        let full: Vec<_> = each.map(|(i, asked)| asked.map(|asked| asked.demand()).ok_or_else(|| reason(i))).collect();
+        self.block.take(k, &[], &full, &sampler.inputs, &self.sample.uniforms);
+        self.next += 1;
+        if self.next.is_multiple_of(BLOCK) {
+            self.total.merge(&self.block);
+            self.block = Block::new(&sampler.components, &sampler.inputs, &self.near);
+        }
+    }
+
+    /// What came of them.
+    #[must_use]
+    pub fn finish(mut self) -> Scatter {
+        self.total.merge(&self.block);
+        self.sampler.summary(self.total, self.next.max(1), None)
+    }
+}
