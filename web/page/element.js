@@ -37,11 +37,16 @@ function command(line, answer) {
 function copier(label, text, what) {
   const button = element('button', { type: 'button', 'aria-label': `Copy the ${what}` }, label);
   button.onclick = async () => {
-    await navigator.clipboard?.writeText(text).then(() => told('Copied'), () => told('Press Ctrl-C in the line'));
+    await navigator.clipboard?.writeText(text).then(
+      () => told('Copied'),
+      () => told('Press Ctrl-C in the line'),
+    );
   };
   const told = (word) => {
     button.textContent = word;
-    setTimeout(() => { button.textContent = label; }, 1500);
+    setTimeout(() => {
+      button.textContent = label;
+    }, 1500);
   };
   return button;
 }

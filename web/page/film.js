@@ -5,7 +5,15 @@ const LEAD = 0.7; // of the fall before the first touch and of the flight after 
 const STAGE = { width: 640, height: 250, ground: 200, left: 64, right: 576, tall: 160 };
 const STEMS = { height: 120, base: 104, top: 16 };
 
-const bar = { q: 0.5, e: 0.3, threshold: 1, flights: [], at: 0, playing: false, still: matchMedia('(prefers-reduced-motion: reduce)') };
+const bar = {
+  q: 0.5,
+  e: 0.3,
+  threshold: 1,
+  flights: [],
+  at: 0,
+  playing: false,
+  still: matchMedia('(prefers-reduced-motion: reduce)'),
+};
 
 // The flights between the strikes: heights of both ends are straight in time. A flight takes as long in the film as lets the eye follow.
 function flights(answer) {
@@ -16,14 +24,21 @@ function flights(answer) {
   const fly = (until, strike) => {
     const lasts = until - time;
     const seconds = strike && strike.number > 1 ? Math.min(1.4, Math.max(0.35, 0.9 * lasts)) : 1;
-    list.push({ begin, seconds, from: { time, a, b }, to: { time: until, a: a + va * lasts, b: b + vb * lasts }, strike: list.at(-1)?.ends });
+    list.push({
+      begin,
+      seconds,
+      from: { time, a, b },
+      to: { time: until, a: a + va * lasts, b: b + vb * lasts },
+      strike: list.at(-1)?.ends,
+    });
     list.at(-1).ends = strike;
     begin += seconds;
     [time, a, b] = [until, a + va * lasts, b + vb * lasts];
   };
   for (const impact of answer.impacts) {
     fly(impact.time, impact);
-    if (impact.end === 'a') a = 0; else b = 0; // exactly on the ground
+    if (impact.end === 'a') a = 0;
+    else b = 0; // exactly on the ground
     [va, vb] = [va + impact.delta_v[0], vb + impact.delta_v[1]];
   }
   fly(time + LEAD, undefined);
@@ -65,7 +80,10 @@ function show() {
     const shock = strike.delta_v[strike.end === 'a' ? 0 : 1];
     const x = strike.end === 'a' ? left : right;
     const fade = Math.max(0, 1 - since / 0.3);
-    burst.setAttribute('transform', `translate(${x} ${ground}) scale(${(0.5 + 0.5 * (1 - fade)) * Math.min(2, Math.max(0.4, shock))})`);
+    burst.setAttribute(
+      'transform',
+      `translate(${x} ${ground}) scale(${(0.5 + 0.5 * (1 - fade)) * Math.min(2, Math.max(0.4, shock))})`,
+    );
     burst.setAttribute('opacity', bar.playing || since === 0 ? Math.max(fade, since === 0 ? 1 : 0) : fade);
   }
   $('caption').textContent = strike
@@ -86,16 +104,21 @@ function stems() {
   const { left, right } = STAGE;
   const x = (n) => left + (n + 0.5) * Math.min(44, (right - left) / shocks.length);
   const y = (shock) => STEMS.base - (shock / most) * (STEMS.base - STEMS.top);
-  const of = (impact, n) => drawn('g', { 'data-number': impact.number, class: `stem ${impact.end}`, onclick: () => seek(bar.flights[n + 1].begin) },
-    drawn('title', {}, `Impact ${impact.number}, end ${impact.end}: ${digits(shocks[n])} v0`),
-    drawn('rect', { x: x(n) - 6, y: STEMS.top, width: 12, height: STEMS.base - STEMS.top, fill: 'transparent' }),
-    drawn('line', { x1: x(n), x2: x(n), y1: STEMS.base, y2: y(shocks[n]) }),
-    drawn('circle', { cx: x(n), cy: y(shocks[n]), r: 4 }));
+  const of = (impact, n) =>
+    drawn(
+      'g',
+      { 'data-number': impact.number, class: `stem ${impact.end}`, onclick: () => seek(bar.flights[n + 1].begin) },
+      drawn('title', {}, `Impact ${impact.number}, end ${impact.end}: ${digits(shocks[n])} v0`),
+      drawn('rect', { x: x(n) - 6, y: STEMS.top, width: 12, height: STEMS.base - STEMS.top, fill: 'transparent' }),
+      drawn('line', { x1: x(n), x2: x(n), y1: STEMS.base, y2: y(shocks[n]) }),
+      drawn('circle', { cx: x(n), cy: y(shocks[n]), r: 4 }),
+    );
   $('stems').replaceChildren(
     drawn('line', { class: 'axis', x1: left - 8, x2: right, y1: STEMS.base, y2: STEMS.base }),
     drawn('line', { class: 'limit', x1: left - 8, x2: right, y1: y(bar.threshold), y2: y(bar.threshold) }),
     drawn('text', { x: right, y: y(bar.threshold) - 5, 'text-anchor': 'end' }, `survived: ${digits(bar.threshold, 3)} v₀`),
-    ...impacts.map(of));
+    ...impacts.map(of),
+  );
 }
 
 function seek(at) {
@@ -142,7 +165,10 @@ async function bars() {
     const [q, e, threshold] = asking.wanted;
     asking.wanted = undefined;
     try {
-      const [impacts, zone] = await Promise.all([quick.ask({ ask: 'impacts', q, e, limit: MOST }), quick.ask({ ask: 'zone', q, e, threshold })]);
+      const [impacts, zone] = await Promise.all([
+        quick.ask({ ask: 'impacts', q, e, limit: MOST }),
+        quick.ask({ ask: 'zone', q, e, threshold }),
+      ]);
       if (!asking.wanted) barsTold(impacts, zone);
       problem($('bar-problem'));
     } catch (error) {
@@ -167,14 +193,19 @@ function barsTold(impacts, zone) {
     'Shock at the ends': `${digits(answer.peak.end)} v₀, at impact ${answer.peak.impact}`,
     'Shock at the center': `${digits(answer.peak.center)} v₀`,
     'Last impact at': `${digits(answer.duration)} h₀/v₀`,
-    [`Safe up to ${digits(threshold, 3)} v₀`]: { none: 'nowhere', whole: 'the whole bar' }[extent] ?? `the middle ${digits(100 * s, 3)} %`,
+    [`Safe up to ${digits(threshold, 3)} v₀`]:
+      { none: 'nowhere', whole: 'the whole bar' }[extent] ?? `the middle ${digits(100 * s, 3)} %`,
   };
-  $('bar-told').replaceChildren(...Object.entries(rows).flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+  $('bar-told').replaceChildren(
+    ...Object.entries(rows).flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]),
+  );
   $('bar-commands').replaceChildren(command(impacts.command, impacts.answer), command(zone.command, zone.answer));
   stems();
   if (same && bar.playing) seek(Math.min(bar.at, length()));
-  else if (!bar.still.matches) { bar.at = 0; play(); }
-  else seek(bar.flights[Math.min(2, bar.flights.length - 1)].begin);
+  else if (!bar.still.matches) {
+    bar.at = 0;
+    play();
+  } else seek(bar.flights[Math.min(2, bar.flights.length - 1)].begin);
   point();
 }
 
@@ -186,16 +217,21 @@ function point() {
 }
 
 async function plane() {
-  const told = await quick.ask({ ask: 'map' });
-  const { q, e, values } = JSON.parse(told.answer);
-  const canvas = element('canvas', { width: e.length, height: q.length });
-  const pixels = new ImageData(e.length, q.length);
-  const [light, dark] = [[242, 246, 250], [31, 78, 124]];
-  values.forEach((row, i) => row.forEach((value, k) => {
-    const share = Math.min(1, Math.max(0, Math.log(value) / Math.log(8))); // from v0 to 8 v0
-    const color = value === 'infinite' ? [239, 229, 211] : light.map((c, n) => c + share * (dark[n] - c));
-    pixels.data.set([...color, 255], 4 * ((q.length - 1 - i) * e.length + k));
-  }));
+  const { shown: rows } = await quick.ask({ ask: 'plane' });
+  const count = rows.length;
+  const canvas = element('canvas', { width: count, height: count });
+  const pixels = new ImageData(count, count);
+  const [light, dark] = [
+    [242, 246, 250],
+    [31, 78, 124],
+  ];
+  rows.forEach((row, i) =>
+    row.forEach((value, k) => {
+      const share = value === null ? 1 : Math.min(1, Math.max(0, Math.log(value) / Math.log(8))); // from v0 to 8 v0, or without bound
+      const color = light.map((c, n) => c + share * (dark[n] - c));
+      pixels.data.set([...color, 255], 4 * ((count - 1 - i) * count + k));
+    }),
+  );
   canvas.getContext('2d').putImageData(pixels, 0, 0);
   $('plane-map').setAttribute('href', canvas.toDataURL());
 }
@@ -224,9 +260,24 @@ function filmBegins() {
   $('play').onclick = () => (bar.playing ? pause() : play());
   $('back').onclick = () => step(-1);
   $('on').onclick = () => step(1);
-  $('scrub').oninput = ({ target }) => { pause(); seek(Number(target.value)); };
+  $('scrub').oninput = ({ target }) => {
+    pause();
+    seek(Number(target.value));
+  };
   $('stage').onkeydown = (event) => {
-    const keys = { ' ': () => $('play').click(), ArrowRight: () => step(1), ArrowLeft: () => step(-1), Home: () => { pause(); seek(0); }, End: () => { pause(); seek(length()); } };
+    const keys = {
+      ' ': () => $('play').click(),
+      ArrowRight: () => step(1),
+      ArrowLeft: () => step(-1),
+      Home: () => {
+        pause();
+        seek(0);
+      },
+      End: () => {
+        pause();
+        seek(length());
+      },
+    };
     if (!keys[event.key]) return;
     event.preventDefault();
     keys[event.key]();
@@ -237,8 +288,13 @@ function filmBegins() {
     const box = $('plane-map').getBoundingClientRect();
     set({ q: rounded(1 - (event.clientY - box.top) / box.height), e: rounded((event.clientX - box.left) / box.width) });
   };
-  plot.onpointerdown = (event) => { plot.setPointerCapture(event.pointerId); drag(event); };
-  plot.onpointermove = (event) => { if (plot.hasPointerCapture(event.pointerId)) drag(event); };
+  plot.onpointerdown = (event) => {
+    plot.setPointerCapture(event.pointerId);
+    drag(event);
+  };
+  plot.onpointermove = (event) => {
+    if (plot.hasPointerCapture(event.pointerId)) drag(event);
+  };
   plot.onkeydown = (event) => {
     const by = event.shiftKey ? 0.1 : 0.01;
     const move = { ArrowUp: [by, 0], ArrowDown: [-by, 0], ArrowRight: [0, by], ArrowLeft: [0, -by] }[event.key];

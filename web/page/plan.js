@@ -37,10 +37,25 @@ function drawPlan(of, verdicts, zones) {
     const things = all.map(movable);
     // Small ones above large ones.
     const size = ({ along_m: [a, b], across_m }) => (b - a) * (across_m ? across_m[1] - across_m[0] : 1);
-    const order = all.map((thing, i) => i).sort((i, k) => (all[i].kind === all[k].kind ? size(all[k]) - size(all[i]) : all[i].kind === 'mass' ? -1 : 1));
+    const order = all
+      .map((thing, i) => i)
+      .sort((i, k) => (all[i].kind === all[k].kind ? size(all[k]) - size(all[i]) : all[i].kind === 'mass' ? -1 : 1));
+    const centers = drawn('g', { id: 'centers' });
     svg.replaceChildren(
-      drawn('rect', { class: 'body', x: -500 * of.length_m, y: -500 * height, width: 1e3 * of.length_m, height: 1e3 * height, rx: 4e3 * plan.pixel }),
-      drawn('g', { id: 'zones' }), ...order.map((i) => things[i]), drawn('g', { id: 'centers' }), drawn('g', { id: 'foot' }));
+      drawn('rect', {
+        class: 'body',
+        x: -500 * of.length_m,
+        y: -500 * height,
+        width: 1e3 * of.length_m,
+        height: 1e3 * height,
+        rx: 4e3 * plan.pixel,
+      }),
+      drawn('g', { id: 'zones' }),
+      ...(of.width_m ? [] : [centers]),
+      ...order.map((i) => things[i]),
+      ...(of.width_m ? [centers] : []),
+      drawn('g', { id: 'foot' }),
+    );
     foots(of, height, room);
     if (focused) svg.querySelector(`[data-key="${focused}"]`)?.focus();
   }
@@ -48,9 +63,11 @@ function drawPlan(of, verdicts, zones) {
   zoned(of, all, zones);
   const [cx, cy] = [1e3 * of.center_m[0], -1e3 * of.center_m[1]];
   const r = 7e3 * plan.pixel;
-  $('centers').replaceChildren(of.width_m
-    ? drawn('path', { class: 'center cross', d: `M${cx - r} ${cy}h${2 * r}M${cx} ${cy - r}v${2 * r}` })
-    : drawn('path', { class: 'center', d: `M${cx} ${-500 * height}v${1e3 * height}` }));
+  $('centers').replaceChildren(
+    of.width_m
+      ? drawn('path', { class: 'center cross', d: `M${cx - r} ${cy}h${2 * r}M${cx} ${cy - r}v${2 * r}` })
+      : drawn('path', { class: 'center', d: `M${cx} ${-500 * height}v${1e3 * height}` }),
+  );
 }
 
 // Ends and the scale.
@@ -60,18 +77,31 @@ function foots(of, height, room) {
   const step = [5, 10, 20, 25, 50, 100, 200, 500, 1000].find((step) => (2 * half) / step <= 8) ?? 2000;
   const ticks = [];
   for (let mm = -Math.floor(half / step) * step; mm <= half; mm += step) {
-    ticks.push(drawn('path', { class: 'tick', d: `M${mm} ${500 * height}v${4e3 * plan.pixel}` }),
-      drawn('text', { x: mm, y: below + 3e3 * plan.pixel, 'text-anchor': 'middle' }, digits(mm, 4).replace(/\.0+$/, '')));
+    ticks.push(
+      drawn('path', { class: 'tick', d: `M${mm} ${500 * height}v${4e3 * plan.pixel}` }),
+      drawn('text', { x: mm, y: below + 3e3 * plan.pixel, 'text-anchor': 'middle' }, digits(mm, 4).replace(/\.0+$/, '')),
+    );
   }
-  const end = (name, side) => drawn('text', { class: 'end', x: side * (half + 500 * room), y: 4e3 * plan.pixel, 'text-anchor': 'middle' }, name);
+  const end = (name, side) =>
+    drawn('text', { class: 'end', x: side * (half + 500 * room), y: 4e3 * plan.pixel, 'text-anchor': 'middle' }, name);
   $('foot').replaceChildren(end('a', -1), end('b', 1), ...ticks);
 }
 
 function movable(thing) {
   const key = `${thing.kind}-${thing.n}`;
-  return drawn('g', {
-    class: `thing ${thing.kind}`, 'data-key': key, tabindex: 0, role: 'slider', onkeydown: (event) => nudge(event, thing), onpointerdown: (event) => grab(event, thing),
-  }, drawn('rect', { rx: 2e3 * plan.pixel }), drawn('text', {}, thing.name));
+  return drawn(
+    'g',
+    {
+      class: `thing ${thing.kind}`,
+      'data-key': key,
+      tabindex: 0,
+      role: 'slider',
+      onkeydown: (event) => nudge(event, thing),
+      onpointerdown: (event) => grab(event, thing),
+    },
+    drawn('rect', { rx: 2e3 * plan.pixel }),
+    drawn('text', {}, thing.name),
+  );
 }
 
 function place(of, thing, [low, high], verdict) {
@@ -122,7 +152,13 @@ function zoned(of, all, zones) {
     const [low, high] = reach(of, thing);
     const [from, to] = zone.map((m) => 1e3 * Math.min(0.5 * of.length_m, Math.max(-0.5 * of.length_m, m)));
     const tall = 0.3 * (high - low);
-    return drawn('rect', { class: 'zone', x: from, width: Math.max(0, to - from), y: -1e3 * (high + tall), height: 1e3 * (high - low + 2 * tall) });
+    return drawn('rect', {
+      class: 'zone',
+      x: from,
+      width: Math.max(0, to - from),
+      y: -1e3 * (high + tall),
+      height: 1e3 * (high - low + 2 * tall),
+    });
   });
   $('zones').replaceChildren(...bands.filter(Boolean));
 }
@@ -192,9 +228,18 @@ function places(of) {
   const key = JSON.stringify([!!of.width_m, all.map((thing) => [thing.kind, thing.name])]);
   if (key !== $('places').dataset.key) {
     $('places').dataset.key = key;
-    const heads = ['Middle of', 'along, mm', ...(of.width_m ? ['across, mm'] : [])].map((head) => element('th', { scope: 'col' }, head));
-    const row = (thing, n) => element('tr', {}, element('th', { scope: 'row' }, thing.name, element('small', {}, thing.kind === 'mass' ? ' mass' : ' part')),
-      ...[0, 1].filter((side) => side === 0 || of.width_m).map((side) => element('td', {}, side && !thing.across_m ? '' : field(n, side))));
+    const heads = ['Middle of', 'along, mm', ...(of.width_m ? ['across, mm'] : [])].map((head) =>
+      element('th', { scope: 'col' }, head),
+    );
+    const row = (thing, n) =>
+      element(
+        'tr',
+        {},
+        element('th', { scope: 'row' }, thing.name, element('small', {}, thing.kind === 'mass' ? ' mass' : ' part')),
+        ...[0, 1]
+          .filter((side) => side === 0 || of.width_m)
+          .map((side) => element('td', {}, side && !thing.across_m ? '' : field(n, side))),
+      );
     $('places').replaceChildren(element('thead', {}, element('tr', {}, ...heads)), element('tbody', {}, ...all.map(row)));
   }
   plan.things = all;
@@ -206,13 +251,20 @@ function places(of) {
 
 function field(n, side) {
   const name = ['along', 'across'][side];
-  return element('input', { type: 'number', step: 'any', 'data-n': n, 'data-side': side, 'aria-label': `Middle ${name}, mm`, onchange: ({ target }) => {
-    const thing = plan.things[n];
-    const mm = target.value.trim() === '' ? NaN : Number(target.value);
-    target.setAttribute('aria-invalid', !Number.isFinite(mm));
-    if (!Number.isFinite(mm)) return problem($('product-problem'), new Error(`the place of ${thing.name} ${name} is no number`));
-    const by = [0, 0];
-    by[side] = (mm - middle(thing)[side]) * 1e-3;
-    moves = moves.then(() => moved(product.text, thing.item, by, true));
-  } });
+  return element('input', {
+    type: 'number',
+    step: 'any',
+    'data-n': n,
+    'data-side': side,
+    'aria-label': `Middle ${name}, mm`,
+    onchange: ({ target }) => {
+      const thing = plan.things[n];
+      const mm = target.value.trim() === '' ? NaN : Number(target.value);
+      target.setAttribute('aria-invalid', !Number.isFinite(mm));
+      if (!Number.isFinite(mm)) return problem($('product-problem'), new Error(`the place of ${thing.name} ${name} is no number`));
+      const by = [0, 0];
+      by[side] = (mm - middle(thing)[side]) * 1e-3;
+      moves = moves.then(() => moved(product.text, thing.item, by, true));
+    },
+  });
 }

@@ -44,7 +44,8 @@ async function first() {
   const { name, text, changed } = product;
   try {
     const { shown, warnings } = await quick.ask({ ask: 'plan', name, text });
-    if (!product.plan || planKey(shown) !== planKey(product.plan)) Object.assign(product, { verdicts: undefined, zones: undefined });
+    if (!product.plan || planKey(shown) !== planKey(product.plan))
+      Object.assign(product, { verdicts: undefined, zones: undefined });
     product.plan = shown;
     redrawn(true);
     warned(warnings);
@@ -126,18 +127,29 @@ function verdicts(told, { first, changed }) {
   const count = (verdict) => answer.components.filter((part) => part.verdict === verdict).length;
   const [bad, open, all] = [count('unsafe'), count('undecided'), answer.components.length];
   const rest = open ? `, ${open} undecided` : '';
-  const headline = bad ? `is unsafe: ${bad} of ${all} components${rest}` : open ? `is undecided: ${open} of ${all} components` : 'is safe: every limit holds in the worst drop';
+  const headline = bad
+    ? `is unsafe: ${bad} of ${all} components${rest}`
+    : open
+      ? `is undecided: ${open} of ${all} components`
+      : 'is safe: every limit holds in the worst drop';
   const verdict = $('verdict');
   verdict.dataset.verdict = answer.verdict;
   if (verdict.textContent !== `${answer.product} ${headline}`) verdict.textContent = `${answer.product} ${headline}`;
-  $('limits').replaceChildren(...answer.components.flatMap((part, i) => part.limits.map((limit, k) => row(part, limit, told.shown[i][k], k === 0))));
-  $('drops').replaceChildren(...answer.components.flatMap((part, i) => part.limits.map((limit, k) => worst(part, limit, told.shown[i][k]))));
+  $('limits').replaceChildren(
+    ...answer.components.flatMap((part, i) => part.limits.map((limit, k) => row(part, limit, told.shown[i][k], k === 0))),
+  );
+  $('drops').replaceChildren(
+    ...answer.components.flatMap((part, i) => part.limits.map((limit, k) => worst(part, limit, told.shown[i][k]))),
+  );
   $('product-command').replaceChildren(command(told.command, told.answer));
   const ms = Math.round(performance.now() - changed);
   took[first ? 'first' : 'whole'] = ms;
   window.clatter.took = { ...took };
   if (first) state(`First answer, by instant impacts, after ${ms} ms; computing with contacts that take time …`);
-  else state(`Answered in ${ms < 1000 ? `${ms} ms` : `${digits(ms / 1000, 3)} s`}${product.plan.quick ? `, first after ${took.first} ms` : ''}.`);
+  else
+    state(
+      `Answered in ${ms < 1000 ? `${ms} ms` : `${digits(ms / 1000, 3)} s`}${product.plan.quick ? `, first after ${took.first} ms` : ''}.`,
+    );
 }
 
 function row(part, limit, { unit, si }, isFirst) {
@@ -146,24 +158,55 @@ function row(part, limit, { unit, si }, isFirst) {
   // A margin of m is a demand of 1/(1 + m) of what is allowed.
   const used = typeof room === 'number' ? Math.min(1.5, 1 / (1 + room)) / 1.5 : 0;
   const name = limit.limit.replaceAll('-', ' ');
-  return element('tr', { 'data-verdict': limit.verdict },
-    element('th', { scope: 'row' }, isFirst ? part.name : element('span', { class: 'unseen' }, part.name), element('small', {}, name)),
+  return element(
+    'tr',
+    { 'data-verdict': limit.verdict },
+    element(
+      'th',
+      { scope: 'row' },
+      isFirst ? part.name : element('span', { class: 'unseen' }, part.name),
+      element('small', {}, name),
+    ),
     element('td', { class: 'verdict' }, limit.verdict),
-    element('td', { class: 'number' }, `${limit.demand === null ? '–' : digits(limit.demand / si)}`, element('small', {}, `of ${digits(limit.allowed / si)} ${unit}`)),
-    element('td', { class: 'number' }, share, element('span', { class: 'used', 'aria-hidden': true }, element('i', { style: `width:${(100 * used).toFixed(1)}%` }))));
+    element(
+      'td',
+      { class: 'number' },
+      `${limit.demand === null ? '–' : digits(limit.demand / si)}`,
+      element('small', {}, `of ${digits(limit.allowed / si)} ${unit}`),
+    ),
+    element(
+      'td',
+      { class: 'number' },
+      share,
+      element('span', { class: 'used', 'aria-hidden': true }, element('i', { style: `width:${(100 * used).toFixed(1)}%` })),
+    ),
+  );
 }
 
 function worst(part, limit, { command: line }) {
   const worst = limit.worst_case;
   const say = (value, words) => (value === null || value === undefined ? undefined : words);
-  const words = worst && [
-    worst.landing ?? (worst.flat ? 'flat' : say(worst.first, `${worst.first} first, ${digits(worst.tilt_deg)}°`)), `${digits(worst.speed_m_s)} m/s`, `e ${digits(worst.restitution, 3)}`,
-    say(worst.contact_time_s, `contacts of ${digits(1e3 * worst.contact_time_s)} ms`), say(worst.frequency_hz, `${digits(worst.frequency_hz)} Hz`),
-    say(worst.impact, `impact ${worst.impact} at ${digits(1e3 * worst.time_s)} ms`),
-  ].filter(Boolean).join(', ');
-  return element('li', {}, element('b', {}, `${part.name}, ${limit.limit.replaceAll('-', ' ')}`), `: ${words ?? 'no drop was answered'}.`,
+  const words =
+    worst &&
+    [
+      worst.landing ?? (worst.flat ? 'flat' : say(worst.first, `${worst.first} first, ${digits(worst.tilt_deg)}°`)),
+      `${digits(worst.speed_m_s)} m/s`,
+      `e ${digits(worst.restitution, 3)}`,
+      say(worst.contact_time_s, `contacts of ${digits(1e3 * worst.contact_time_s)} ms`),
+      say(worst.frequency_hz, `${digits(worst.frequency_hz)} Hz`),
+      say(worst.impact, `impact ${worst.impact} at ${digits(1e3 * worst.time_s)} ms`),
+    ]
+      .filter(Boolean)
+      .join(', ');
+  return element(
+    'li',
+    {},
+    element('b', {}, `${part.name}, ${limit.limit.replaceAll('-', ' ')}`),
+    `: ${words ?? 'no drop was answered'}.`,
     limit.undecided ? element('p', {}, `Undecided: ${limit.undecided}.`) : undefined,
-    ...limit.notes.map((note) => element('p', {}, typeof note === 'string' ? note : JSON.stringify(note))), line ? command(line) : undefined);
+    ...limit.notes.map((note) => element('p', {}, typeof note === 'string' ? note : JSON.stringify(note))),
+    line ? command(line) : undefined,
+  );
 }
 
 // A file that is no text is refused as the command refuses it; one that cannot be read as a product is shown, with what is wrong.

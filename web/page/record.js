@@ -11,7 +11,10 @@ async function measured() {
   const { name, size } = record.file;
   $('record-state').textContent = `reading ${name} …`;
   try {
-    if (size > MOST_BYTES) throw new Error(`${name} has ${digits(size / 1e6, 3)} MB, and this page reads at most ${MOST_BYTES / 1e6} MB: clatter spectrum ${name} reads it`);
+    if (size > MOST_BYTES)
+      throw new Error(
+        `${name} has ${digits(size / 1e6, 3)} MB, and this page reads at most ${MOST_BYTES / 1e6} MB: clatter spectrum ${name} reads it`,
+      );
     const file = new Uint8Array(await record.file.arrayBuffer());
     const source = { name, units: $('units').value, sample_rate: $('rate').value };
     const held = await reader.ask({ ask: 'record', ...source }, file);
@@ -20,7 +23,9 @@ async function measured() {
     const spectrum = await reader.ask({ ask: 'spectrum', ...source }, file);
     if (!current()) return;
     Object.assign(answers, { record: held.answer, spectrum: spectrum.answer });
-    $('record-told').textContent = [held.shown, ...(held.warnings ?? []).map((warning) => `Warning: ${warning}`)].filter(Boolean).join('\n');
+    $('record-told').textContent = [held.shown, ...(held.warnings ?? []).map((warning) => `Warning: ${warning}`)]
+      .filter(Boolean)
+      .join('\n');
     $('record-figures').replaceChildren(...[...held.figures, ...spectrum.figures].map(figure));
     $('record-commands').replaceChildren(command(held.command, held.answer), command(spectrum.command, spectrum.answer));
     $('record-state').textContent = name;
@@ -45,7 +50,9 @@ function recordBegins() {
   $('units').onchange = $('rate').onchange = measured;
 }
 
-Engine.module.catch((error) => problem($('page-problem'), new Error(`this browser cannot run the engine of this page: ${error.message}`)));
+Engine.module.catch((error) =>
+  problem($('page-problem'), new Error(`this browser cannot run the engine of this page: ${error.message}`)),
+);
 filmBegins();
 productBegins();
 recordBegins();

@@ -15,7 +15,9 @@ function system(module) {
     environ_get: () => 0,
     sched_yield: () => 0,
     random_get: (place, length) => (crypto.getRandomValues(new Uint8Array(engine.memory.buffer, place, length)), 0),
-    proc_exit: () => { throw new Error(said); },
+    proc_exit: () => {
+      throw new Error(said);
+    },
     fd_write(descriptor, list, count, written) {
       const view = new DataView(engine.memory.buffer);
       let all = 0;

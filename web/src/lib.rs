@@ -27,7 +27,7 @@ enum Question {
     /// Its safe zone.
     Zone { q: f64, e: f64, threshold: f64 },
     /// The largest shocks at the ends over the plane of q and e.
-    Map,
+    Plane,
     /// Where parts and masses of a product are.
     Plan { name: String, text: String },
     /// The text of a product with one of them moved by so much, in m.
@@ -84,7 +84,7 @@ fn told(question: Question, file: &[u8], progress: Progress<'_>) -> Result<Told,
     match question {
         Question::Impacts { q, e, limit } => bars::impacts(q, e, limit),
         Question::Zone { q, e, threshold } => bars::zone(q, e, threshold),
-        Question::Map => bars::map(),
+        Question::Plane => bars::plane(),
         Question::Plan { name, text } => plan::plan(&name, &text),
         Question::Move { text, item, by } => Told::shown(plan::moved(&text, item, by)?),
         Question::Assess { name, text, quick } => products::assess(&name, &text, quick, progress),
@@ -125,11 +125,13 @@ mod tests {
         let error = |question, file| asked(&question, file)["error"].as_str().unwrap_or("none").to_owned();
         let bar = error(serde_json::json!({ "ask": "impacts", "q": 0.5, "e": 7.0, "limit": 9 }), "");
         assert_eq!(bar, clatter::Bar::new(0.5, 7.0).unwrap_err().to_string());
-        let product = error(serde_json::json!({ "ask": "assess", "name": "x.toml", "text": "a = 1", "quick": false }), "");
+        let product =
+            error(serde_json::json!({ "ask": "assess", "name": "x.toml", "text": "a = 1", "quick": false }), "");
         let faults = clatter_assess::ProductFile::read("a = 1", "x.toml").unwrap_err().to_string();
         assert!(product == faults && product.contains("error: the file has no key `a`"), "{product}");
         let record = serde_json::json!({ "ask": "record", "name": "x.csv", "units": "", "sample_rate": "" });
-        assert!(error(record, "time [s],a [g]\n0,0\n1,x\n").starts_with("x.csv: line 3: 'x' in column 2"), "as the command");
+        let said = error(record, "time [s],a [g]\n0,0\n0.001,1\n0.002,x\n");
+        assert!(said.starts_with("x.csv: line 4: 'x' in column 2"), "{said}");
         let rate = serde_json::json!({ "ask": "spectrum", "name": "x.csv", "units": "", "sample_rate": "-3" });
         assert_eq!(error(rate, ""), "sampling rate: -3.0 is not finite and > 0");
         assert!(error(serde_json::json!({ "ask": "nothing" }), "").contains("unknown variant"), "no question");

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use clatter_assess::units::{LENGTH, Unit};
 use clatter_assess::Component;
+use clatter_assess::units::{LENGTH, Unit};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
@@ -235,8 +235,9 @@ mod tests {
             assert_eq!(count("masses"), text.matches(", mass = \"").count(), "{name}");
         }
         let told = plan("x.toml", worked("handheld-terminal.toml")).unwrap().shown;
-        // By hand, in the file: q = 0.47403, and the center of mass −8.929 mm from the middle.
-        assert!((told["q"].as_f64().unwrap() - 0.474_03).abs() < 5e-6, "{told}");
+        // By hand: the center of mass −8.929 mm from the middle, so that the arms are 101.071 and 118.929 mm; ρ² = 4275.24 mm²;
+        // q = (12020.27 − 4275.24)/√((10215.35 + 4275.24) (14144.11 + 4275.24)).
+        assert!((told["q"].as_f64().unwrap() - 0.474_07).abs() < 5e-6, "{told}");
         assert!((told["center_m"][0].as_f64().unwrap() + 8.929e-3).abs() < 5e-7, "{told}");
     }
 }

@@ -28,7 +28,12 @@ afterEach(async () => {
 // Offline, from a file. Without motion, so that nothing moves but what is asked to.
 async function open(options = {}) {
   await context?.close();
-  context = await browser.newContext({ offline: true, reducedMotion: 'reduce', viewport: { width: 1280, height: 900 }, ...options });
+  context = await browser.newContext({
+    offline: true,
+    reducedMotion: 'reduce',
+    viewport: { width: 1280, height: 900 },
+    ...options,
+  });
   page = await context.newPage();
   complaints = [];
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
@@ -138,7 +143,10 @@ test('on a plate a part moves both ways, and the latest change wins', async () =
   const wide = (await page.locator('#plan .body').boundingBox()).width;
   const seen = await page.evaluateHandle(() => {
     const seen = [];
-    new MutationObserver(() => seen.push(document.getElementById('product-command').textContent)).observe(document.getElementById('product-command'), { childList: true });
+    new MutationObserver(() => seen.push(document.getElementById('product-command').textContent)).observe(
+      document.getElementById('product-command'),
+      { childList: true },
+    );
     return seen;
   });
   await drag('component-2', (10 * wide) / 220, (-5 * wide) / 220);
@@ -193,10 +201,17 @@ test('a broken product is told in the words of the command, and nothing is lost'
 
 test('what is no number is told, and the last bar stays', async () => {
   const old = await answer('impacts');
-  for (const [field, given, said] of [['q', '', 'q is no number'], ['e', '7', /e = 7/], ['q', '-1', /q = -1/]]) {
+  for (const [field, given, said] of [
+    ['q', '', 'q is no number'],
+    ['e', '7', /e = 7/],
+    ['q', '-1', /q = -1/],
+  ]) {
     await page.fill(`#${field}-number`, given);
     await page.waitForSelector('#bar-problem:visible');
-    await page.waitForFunction((said) => new RegExp(said).test(document.getElementById('bar-problem').textContent), said.source ?? said);
+    await page.waitForFunction(
+      (said) => new RegExp(said).test(document.getElementById('bar-problem').textContent),
+      said.source ?? said,
+    );
     assert.equal(await answer('impacts'), old);
     await page.fill(`#${field}-number`, { q: '0.5', e: '0.3' }[field]);
     await page.waitForSelector('#bar-problem', { state: 'hidden' });
@@ -236,7 +251,10 @@ test('q and e are dragged, typed and stepped, and the film goes from impact to i
 });
 
 test('a record is read and its spectrum drawn; a broken one is told, and nothing is lost', async () => {
-  const rows = Array.from({ length: 400 }, (_, i) => `${(i * 1e-4).toFixed(4)},${(i < 110 ? 50 * Math.sin((Math.PI * i) / 110) : 0).toFixed(4)}`);
+  const rows = Array.from(
+    { length: 400 },
+    (_, i) => `${(i * 1e-4).toFixed(4)},${(i < 110 ? 50 * Math.sin((Math.PI * i) / 110) : 0).toFixed(4)}`,
+  );
   writeFileSync(join(folder, 'half sine.csv'), `time [s],az [g]\n${rows.join('\n')}\n`);
   await page.setInputFiles('#record-open', join(folder, 'half sine.csv'));
   await page.waitForSelector('#record-figures img >> nth=1');
@@ -269,10 +287,15 @@ test('a record is read and its spectrum drawn; a broken one is told, and nothing
 });
 
 test('all that is operated has a name, and the order of tabs shows where it is', async () => {
-  const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, textarea, [tabindex]')].filter((node) => {
-    const label = node.getAttribute('aria-label') ?? [...(node.labels ?? [])].map((label) => label.textContent).join('') + node.textContent;
-    return label.trim() === '';
-  }).map((node) => node.outerHTML));
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll('button, input, select, textarea, [tabindex]')]
+      .filter((node) => {
+        const label =
+          node.getAttribute('aria-label') ?? [...(node.labels ?? [])].map((label) => label.textContent).join('') + node.textContent;
+        return label.trim() === '';
+      })
+      .map((node) => node.outerHTML),
+  );
   assert.deepEqual(nameless, []);
   for (let k = 0; k < 40; k++) {
     await page.keyboard.press('Tab');
@@ -293,6 +316,13 @@ for (const colorScheme of ['light', 'dark']) {
       await page.waitForSelector('#product-figures img >> nth=2', { state: 'attached' });
       assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
       await page.screenshot({ path: join(target, `web/${width}-${colorScheme}.png`), fullPage: true });
+      // That of README.
+      if (width === 1280 && colorScheme === 'light') {
+        await page.evaluate(() => {
+          document.getElementById('product-figures').open = false;
+        });
+        await page.locator('#product').screenshot({ path: join(target, 'web/page.png') });
+      }
     });
   }
 }
