@@ -14,7 +14,6 @@ class Engine {
   constructor() {
     this.number = 0;
     this.waiting = new Map();
-    this.start();
   }
 
   start() {
@@ -26,7 +25,7 @@ class Engine {
       const waits = this.waiting.get(data.number);
       this.waiting.delete(data.number);
       if (data.told !== undefined) return waits?.resolve(data.told);
-      // Its memory is not to be trusted any more: begin anew.
+      // Its memory is not to be trusted any more: the next question begins anew.
       waits?.reject(new Error(`the engine of this page failed: ${data.failed}`));
       this.stop();
     };
@@ -34,6 +33,7 @@ class Engine {
 
   // What a question is told; a refusal is an error with the words of the command.
   async ask(question, file) {
+    if (!this.worker) this.start();
     const worker = this.worker;
     await this.ready;
     if (worker !== this.worker) throw new Stopped();
@@ -53,10 +53,10 @@ class Engine {
 
   // Leaves what it is at.
   stop() {
-    this.worker.terminate();
+    this.worker?.terminate();
+    this.worker = undefined;
     for (const { reject } of this.waiting.values()) reject(new Stopped());
     this.waiting.clear();
-    this.start();
   }
 }
 

@@ -163,16 +163,28 @@ test('on a plate a part moves both ways, and the latest change wins', async () =
 });
 
 test('the first verdict comes within a tenth of a second', async () => {
-  const took = [];
+  // From the key to the first row of verdicts.
+  const first = await page.evaluateHandle(() => {
+    const took = [];
+    let begun;
+    document.addEventListener('keydown', () => (begun = performance.now()), true);
+    new MutationObserver(() => {
+      if (begun) took.push(Math.round(performance.now() - begun));
+      begun = undefined;
+    }).observe(document.getElementById('limits'), { childList: true });
+    return took;
+  });
+  const whole = [];
   for (let k = 0; k < 10; k++) {
     await page.focus('[data-key="component-0"]');
     await changed(() => page.keyboard.press('ArrowLeft'), `position = "${94 - k} mm"`);
-    took.push(await page.evaluate(() => window.clatter.took));
+    whole.push(await page.evaluate(() => window.clatter.took.whole));
   }
-  const of = (key) => took.map((took) => took[key]).sort((a, b) => a - b);
-  console.log(`from a change to the first verdict ${of('first').join(' ')} ms, to the last ${of('whole').join(' ')} ms`);
+  const took = await first.jsonValue();
+  console.log(`from a key to the first verdict ${took.join(' ')} ms, to the last ${whole.join(' ')} ms`);
+  assert.equal(took.length, 10);
   // The least of ten: others may be using this machine.
-  assert.ok(of('first')[0] <= 100, 'within 100 ms');
+  assert.ok(Math.min(...took) <= 100, 'within 100 ms');
 });
 
 test('a broken product is told in the words of the command, and nothing is lost', async () => {
@@ -320,8 +332,11 @@ for (const colorScheme of ['light', 'dark']) {
       if (width === 1280 && colorScheme === 'light') {
         await page.evaluate(() => {
           document.getElementById('product-figures').open = false;
+          document.getElementById('state').textContent = '';
         });
-        await page.locator('#product').screenshot({ path: join(target, 'web/page.png') });
+        const { x, y } = await page.locator('#product').boundingBox();
+        const clip = { x: x - 20, y: y + (await page.evaluate(() => window.scrollY)), width: 1160, height: 818 };
+        await page.screenshot({ path: join(target, 'web/page.png'), fullPage: true, clip });
       }
     });
   }
