@@ -36,11 +36,10 @@ function command(line, answer) {
 
 function copier(label, text, what) {
   const button = element('button', { type: 'button', 'aria-label': `Copy the ${what}` }, label);
-  button.onclick = async () => {
-    await navigator.clipboard?.writeText(text).then(
-      () => told('Copied'),
-      () => told('Press Ctrl-C in the line'),
-    );
+  button.onclick = () => {
+    const byHand = () => told('Press Ctrl-C in the line');
+    if (navigator.clipboard) navigator.clipboard.writeText(text).then(() => told('Copied'), byHand);
+    else byHand();
   };
   const told = (word) => {
     button.textContent = word;

@@ -145,7 +145,8 @@ function verdicts(told, { first, changed }) {
   const ms = Math.round(performance.now() - changed);
   took[first ? 'first' : 'whole'] = ms;
   window.clatter.took = { ...took };
-  if (first) state(`First answer, by instant impacts, after ${ms} ms; computing with contacts that take time …`);
+  if (first && judging.again) state('computing …');
+  else if (first) state(`First answer, by instant impacts, after ${ms} ms; computing with contacts that take time …`);
   else
     state(
       `Answered in ${ms < 1000 ? `${ms} ms` : `${digits(ms / 1000, 3)} s`}${product.plan.quick ? `, first after ${took.first} ms` : ''}.`,
