@@ -16,6 +16,10 @@ wasm:
 wheel:
     pip install '.[test]' && pytest
 
+# The page, into target/web/clatter.html
+page:
+    cargo run --release -p clatter-web
+
 # Format, lints and docs
 check:
     cargo fmt --all --check && cargo clippy --release --workspace --all-targets -- -D warnings && RUSTDOCFLAGS=-Dwarnings cargo doc --release --workspace --no-deps

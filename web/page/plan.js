@@ -1,0 +1,270 @@
+// The plan of a product: its masses and parts as rectangles that are dragged, or moved by arrow keys.
+
+const GRID = 1e-3; // m, what a drag and an arrow key move by
+const plan = { key: '', pixel: 1 };
+
+// What can be moved, masses first: parts lie on them.
+function items(of) {
+  const all = (list, kind) => list.map((place, n) => ({ ...place, kind, n, item: { [kind]: n } }));
+  return [...all(of.masses, 'mass'), ...all(of.components, 'component')];
+}
+
+// Of a bar nothing is across: what can be moved lies in rows, so high that a finger finds them.
+const ROW = 34; // pixels
+const across = (of) => of.width_m ?? (of.masses.length + of.components.length) * ROW * plan.pixel;
+function reach(of, thing) {
+  if (thing.across_m) return thing.across_m;
+  const row = thing.kind === 'mass' ? thing.n : of.masses.length + thing.n;
+  const pitch = ROW * plan.pixel;
+  const top = 0.5 * across(of) - row * pitch;
+  return of.width_m ? [-0.5 * of.width_m, 0.5 * of.width_m] : [top - 0.8 * pitch, top - 0.2 * pitch];
+}
+
+function drawPlan(of, verdicts, zones) {
+  const svg = $('plan');
+  const room = 0.05 * of.length_m;
+  const wide = of.length_m + 2 * room;
+  plan.pixel = wide / Math.max(200, svg.clientWidth);
+  const height = across(of);
+  const foot = 18 * plan.pixel;
+  const all = items(of);
+  const key = JSON.stringify([of.length_m, of.width_m, plan.pixel, all.map((thing) => [thing.kind, thing.name])]);
+  if (key !== plan.key) {
+    plan.key = key;
+    const focused = document.activeElement?.dataset?.key;
+    svg.setAttribute('viewBox', [-0.5 * wide, -0.5 * height - room, wide, height + 2 * room + foot].map((x) => 1e3 * x).join(' '));
+    svg.style.setProperty('--pixel', 1e3 * plan.pixel);
+    const things = all.map(movable);
+    // Small ones above large ones.
+    const size = ({ along_m: [a, b], across_m }) => (b - a) * (across_m ? across_m[1] - across_m[0] : 1);
+    const order = all
+      .map((thing, i) => i)
+      .sort((i, k) => (all[i].kind === all[k].kind ? size(all[k]) - size(all[i]) : all[i].kind === 'mass' ? -1 : 1));
+    const centers = drawn('g', { id: 'centers' });
+    svg.replaceChildren(
+      drawn('rect', {
+        class: 'body',
+        x: -500 * of.length_m,
+        y: -500 * height,
+        width: 1e3 * of.length_m,
+        height: 1e3 * height,
+        rx: 4e3 * plan.pixel,
+      }),
+      drawn('g', { id: 'zones' }),
+      ...(of.width_m ? [] : [centers]),
+      ...order.map((i) => things[i]),
+      ...(of.width_m ? [centers] : []),
+      drawn('g', { id: 'foot' }),
+    );
+    foots(of, height, room);
+    if (focused) svg.querySelector(`[data-key="${focused}"]`)?.focus();
+  }
+  for (const thing of all) place(of, thing, reach(of, thing), thing.kind === 'component' ? verdicts?.[thing.n] : undefined);
+  zoned(of, all, zones);
+  const [cx, cy] = [1e3 * of.center_m[0], -1e3 * of.center_m[1]];
+  const r = 7e3 * plan.pixel;
+  $('centers').replaceChildren(
+    of.width_m
+      ? drawn('path', { class: 'center cross', d: `M${cx - r} ${cy}h${2 * r}M${cx} ${cy - r}v${2 * r}` })
+      : drawn('path', { class: 'center', d: `M${cx} ${-500 * height}v${1e3 * height}` }),
+  );
+}
+
+// Ends and the scale.
+function foots(of, height, room) {
+  const below = 500 * height + 1e3 * plan.pixel * 16;
+  const half = 500 * of.length_m;
+  const step = [5, 10, 20, 25, 50, 100, 200, 500, 1000].find((step) => (2 * half) / step <= 8) ?? 2000;
+  const ticks = [];
+  for (let mm = -Math.floor(half / step) * step; mm <= half; mm += step) {
+    ticks.push(
+      drawn('path', { class: 'tick', d: `M${mm} ${500 * height}v${4e3 * plan.pixel}` }),
+      drawn('text', { x: mm, y: below + 3e3 * plan.pixel, 'text-anchor': 'middle' }, digits(mm, 4).replace(/\.0+$/, '')),
+    );
+  }
+  const end = (name, side) =>
+    drawn('text', { class: 'end', x: side * (half + 500 * room), y: 4e3 * plan.pixel, 'text-anchor': 'middle' }, name);
+  $('foot').replaceChildren(end('a', -1), end('b', 1), ...ticks);
+}
+
+function movable(thing) {
+  const key = `${thing.kind}-${thing.n}`;
+  return drawn(
+    'g',
+    {
+      class: `thing ${thing.kind}`,
+      'data-key': key,
+      tabindex: 0,
+      role: 'slider',
+      onkeydown: (event) => nudge(event, thing),
+      onpointerdown: (event) => grab(event, thing),
+    },
+    drawn('rect', { rx: 2e3 * plan.pixel }),
+    drawn('text', {}, thing.name),
+  );
+}
+
+function place(of, thing, [low, high], verdict) {
+  const node = $('plan').querySelector(`[data-key="${thing.kind}-${thing.n}"]`);
+  const [rect, text] = node.children;
+  const least = 1e3 * 9 * plan.pixel; // so wide that a finger finds it
+  const [x, wide] = spread(1e3 * thing.along_m[0], 1e3 * thing.along_m[1], least);
+  const [y, tall] = spread(-1e3 * high, -1e3 * low, least);
+  Object.entries({ x, y, width: wide, height: tall }).forEach(([key, value]) => rect.setAttribute(key, value));
+  node.dataset.verdict = verdict ?? '';
+  const [mx, my] = middle(thing);
+  Object.entries({
+    'aria-label': `${thing.kind === 'mass' ? 'Mass' : 'Part'} ${thing.name}`,
+    'aria-valuemin': -500 * of.length_m,
+    'aria-valuemax': 500 * of.length_m,
+    'aria-valuenow': mx,
+    'aria-valuetext': `${mx} mm along${of.width_m ? `, ${my} mm across` : ''}`,
+  }).forEach(([key, value]) => node.setAttribute(key, value));
+  // The name within, where it fits; else beside, towards the middle. On a plate parts may lie on masses: their names keep to a corner.
+  const room = 7 * thing.name.length * 1e3 * plan.pixel;
+  const inside = wide > room + 1e3 * plan.pixel * 8;
+  node.classList.toggle('within', inside);
+  const left = x + 0.5 * wide > 0;
+  const gap = 5e3 * plan.pixel;
+  const corner = of.width_m && thing.kind === 'mass';
+  text.setAttribute('x', corner ? x + gap : inside ? x + 0.5 * wide : left ? x - gap : x + wide + gap);
+  text.setAttribute('y', corner ? y + 14e3 * plan.pixel : y + 0.5 * tall + 4e3 * plan.pixel);
+  text.setAttribute('text-anchor', corner ? 'start' : inside ? 'middle' : left ? 'end' : 'start');
+  text.toggleAttribute('hidden', Boolean(corner) && !inside);
+}
+
+function spread(low, high, least) {
+  const wide = Math.max(high - low, least);
+  return [0.5 * (low + high - wide), wide];
+}
+
+// In mm, without what the last bits add.
+function middle({ along_m, across_m }) {
+  const of = ([low, high]) => Math.round(5e5 * (low + high)) / 1e3;
+  return [of(along_m), across_m ? of(across_m) : 0];
+}
+
+// Where the middle of each part would be safe.
+function zoned(of, all, zones) {
+  const bands = (zones ?? []).map((zone, n) => {
+    const thing = all.find((thing) => thing.kind === 'component' && thing.n === n);
+    if (!zone || !thing) return undefined;
+    const [low, high] = reach(of, thing);
+    const [from, to] = zone.map((m) => 1e3 * Math.min(0.5 * of.length_m, Math.max(-0.5 * of.length_m, m)));
+    const tall = 0.3 * (high - low);
+    return drawn('rect', {
+      class: 'zone',
+      x: from,
+      width: Math.max(0, to - from),
+      y: -1e3 * (high + tall),
+      height: 1e3 * (high - low + 2 * tall),
+    });
+  });
+  $('zones').replaceChildren(...bands.filter(Boolean));
+}
+
+// One move after the other, each in the text as it then is.
+let moves = Promise.resolve();
+function nudge(event, thing) {
+  const by = event.shiftKey ? 10 * GRID : GRID;
+  const way = { ArrowRight: [by, 0], ArrowLeft: [-by, 0], ArrowUp: [0, by], ArrowDown: [0, -by] }[event.key];
+  if (!way || (way[1] && !thing.across_m)) return;
+  event.preventDefault();
+  moves = moves.then(() => moved(product.text, thing.item, way, true));
+}
+
+// Moves what stands in a text; where the product has become another one meanwhile, nothing.
+async function moved(text, item, by, isNew) {
+  const before = product.text;
+  try {
+    const { shown } = await quick.ask({ ask: 'move', text, item, by });
+    if (product.text !== before) return false;
+    change(shown, { isNew });
+    return true;
+  } catch (error) {
+    problem($('product-problem'), error);
+    return false;
+  }
+}
+
+function grab(event, thing) {
+  const node = event.currentTarget;
+  const [x, y, text] = [event.clientX, event.clientY, product.text];
+  const scale = $('plan').getScreenCTM().a;
+  let [wanted, running, isNew] = [undefined, false, true];
+  node.setPointerCapture(event.pointerId);
+  node.focus();
+  event.preventDefault();
+  node.classList.add('held');
+  const go = async () => {
+    if (running) return;
+    running = true;
+    while (wanted) {
+      const by = wanted;
+      wanted = undefined;
+      if (!(await moved(text, thing.item, by, isNew))) return; // and nothing more of this drag
+      isNew = false;
+    }
+    running = false;
+  };
+  let last = '0,0';
+  node.onpointermove = (event) => {
+    const on = (pixels) => (Math.round(pixels / scale) * GRID * 1e3) / 1e3;
+    const by = [on(event.clientX - x), thing.across_m ? -on(event.clientY - y) : 0];
+    if (String(by) === last) return;
+    last = String(by);
+    wanted = by;
+    go();
+  };
+  node.onpointerup = node.onpointercancel = () => {
+    node.onpointermove = node.onpointerup = node.onpointercancel = null;
+    node.classList.remove('held');
+  };
+}
+
+// The same places as numbers. A field that is typed in stays.
+function places(of) {
+  const all = items(of);
+  const key = JSON.stringify([!!of.width_m, all.map((thing) => [thing.kind, thing.name])]);
+  if (key !== $('places').dataset.key) {
+    $('places').dataset.key = key;
+    const heads = ['Middle of', 'along, mm', ...(of.width_m ? ['across, mm'] : [])].map((head) =>
+      element('th', { scope: 'col' }, head),
+    );
+    const row = (thing, n) =>
+      element(
+        'tr',
+        {},
+        element('th', { scope: 'row' }, thing.name, element('small', {}, thing.kind === 'mass' ? ' mass' : ' part')),
+        ...[0, 1]
+          .filter((side) => side === 0 || of.width_m)
+          .map((side) => element('td', {}, side && !thing.across_m ? '' : field(n, side))),
+      );
+    $('places').replaceChildren(element('thead', {}, element('tr', {}, ...heads)), element('tbody', {}, ...all.map(row)));
+  }
+  plan.things = all;
+  for (const input of $('places').querySelectorAll('input')) {
+    if (input === document.activeElement && input.getAttribute('aria-invalid') === 'true') continue;
+    input.value = middle(all[input.dataset.n])[input.dataset.side];
+  }
+}
+
+function field(n, side) {
+  const name = ['along', 'across'][side];
+  return element('input', {
+    type: 'number',
+    step: 'any',
+    'data-n': n,
+    'data-side': side,
+    'aria-label': `Middle ${name}, mm`,
+    onchange: ({ target }) => {
+      const thing = plan.things[n];
+      const mm = target.value.trim() === '' ? NaN : Number(target.value);
+      target.setAttribute('aria-invalid', !Number.isFinite(mm));
+      if (!Number.isFinite(mm)) return problem($('product-problem'), new Error(`the place of ${thing.name} ${name} is no number`));
+      const by = [0, 0];
+      by[side] = (mm - middle(thing)[side]) * 1e-3;
+      moves = moves.then(() => moved(product.text, thing.item, by, true));
+    },
+  });
+}

@@ -1,0 +1,158 @@
+//! What the page asks: a question as JSON in, what the command answers out.
+//!
+//! Answers are the text that the command prints with `--format json`, to the last byte, and beside each stands the command line that
+//! repeats it. The page itself, in `page/`, draws and computes nothing of the physics.
+
+mod bars;
+mod plan;
+mod products;
+mod records;
+#[cfg(target_arch = "wasm32")]
+#[allow(unsafe_code, reason = "a name that JavaScript can call counts as unsafe")]
+mod wasm;
+
+use std::fmt::Display;
+
+use serde::{Deserialize, Serialize};
+
+/// Is told how much of how much is done.
+pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
+
+/// What can be asked; the page gives the name that a file is saved by, for messages and command lines.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "ask", rename_all = "kebab-case", deny_unknown_fields)]
+enum Question {
+    /// The impacts of a bar.
+    Impacts { q: f64, e: f64, limit: usize },
+    /// Its safe zone.
+    Zone { q: f64, e: f64, threshold: f64 },
+    /// The largest shocks at the ends over the plane of q and e.
+    Plane,
+    /// Where parts and masses of a product are.
+    Plan { name: String, text: String },
+    /// The text of a product with one of them moved by so much, in m.
+    Move { text: String, item: plan::Item, by: [f64; 2] },
+    /// The verdicts; `quick` by instant impacts, which take some milliseconds.
+    Assess { name: String, text: String, quick: bool },
+    /// The pictures of an assessment.
+    Figures { name: String, text: String },
+    /// What a file of measured accelerations holds; its bytes go beside the question.
+    Record(records::Source),
+    /// Its shock response spectrum.
+    Spectrum(records::Source),
+    /// Names and texts of the worked products.
+    Products,
+}
+
+/// What is told beside an answer.
+#[derive(Debug, Default, Serialize)]
+struct Told {
+    /// The text that the command prints.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    answer: Option<String>,
+    /// The command.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    command: Option<String>,
+    /// What the command warns of.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
+    /// Pictures as SVG, each with its name.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    figures: Vec<(String, String)>,
+    /// What the page draws or shows beside.
+    #[serde(skip_serializing_if = "serde_json::Value::is_null")]
+    shown: serde_json::Value,
+}
+
+impl Told {
+    fn shown(value: impl Serialize) -> Result<Self, String> {
+        Ok(Self { shown: serde_json::to_value(value).map_err(text)?, ..Self::default() })
+    }
+}
+
+/// Answers a question: JSON with what is told, or with the `error` in the words of the command. `file` is a file that goes with it.
+#[must_use]
+pub fn answer(question: &str, file: &[u8], progress: Progress<'_>) -> String {
+    let told = serde_json::from_str(question).map_err(text).and_then(|question| told(question, file, progress));
+    match told.and_then(|told| json(&told)) {
+        Ok(told) => told,
+        Err(error) => serde_json::json!({ "error": error }).to_string(),
+    }
+}
+
+fn told(question: Question, file: &[u8], progress: Progress<'_>) -> Result<Told, String> {
+    match question {
+        Question::Impacts { q, e, limit } => bars::impacts(q, e, limit),
+        Question::Zone { q, e, threshold } => bars::zone(q, e, threshold),
+        Question::Plane => bars::plane(),
+        Question::Plan { name, text } => plan::plan(&name, &text),
+        Question::Move { text, item, by } => Told::shown(plan::moved(&text, item, by)?),
+        Question::Assess { name, text, quick } => products::assess(&name, &text, quick, progress),
+        Question::Figures { name, text } => products::figures(&name, &text, progress),
+        Question::Record(source) => records::record(&source, file),
+        Question::Spectrum(source) => records::spectrum(&source, file),
+        Question::Products => Told::shown(products::WORKED),
+    }
+}
+
+/// As `--format json` prints it.
+fn json(answer: &impl Serialize) -> Result<String, String> {
+    serde_json::to_string(answer).map_err(text)
+}
+
+/// What a question is refused for, in the words of the command.
+fn text(error: impl Display) -> String {
+    error.to_string()
+}
+
+/// A file name as a shell takes it, and no option.
+fn quoted(name: &str) -> String {
+    let name = if name.starts_with('-') { format!("./{name}") } else { name.to_owned() };
+    let plain = |c: char| c.is_alphanumeric() || "._-/+,@%".contains(c);
+    if !name.is_empty() && name.chars().all(plain) { name } else { format!("'{}'", name.replace('\'', r"'\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(question: &serde_json::Value, file: &str) -> serde_json::Value {
+        serde_json::from_str(&answer(&question.to_string(), file.as_bytes(), &|_, _| ())).unwrap()
+    }
+
+    #[test]
+    fn what_is_refused_is_told_in_the_words_of_the_command() {
+        let error = |question, file| asked(&question, file)["error"].as_str().unwrap_or("none").to_owned();
+        let bar = error(serde_json::json!({ "ask": "impacts", "q": 0.5, "e": 7.0, "limit": 9 }), "");
+        assert_eq!(bar, clatter::Bar::new(0.5, 7.0).unwrap_err().to_string());
+        let product =
+            error(serde_json::json!({ "ask": "assess", "name": "x.toml", "text": "a = 1", "quick": false }), "");
+        let faults = clatter_assess::ProductFile::read("a = 1", "x.toml").unwrap_err().to_string();
+        assert!(product == faults && product.contains("error: the file has no key `a`"), "{product}");
+        let record = serde_json::json!({ "ask": "record", "name": "x.csv", "units": "", "sample_rate": "" });
+        let said = error(record, "time [s],a [g]\n0,0\n0.001,1\n0.002,x\n");
+        assert!(said.starts_with("x.csv: line 4: 'x' in column 2"), "{said}");
+        let rate = serde_json::json!({ "ask": "spectrum", "name": "x.csv", "units": "", "sample_rate": "-3" });
+        assert_eq!(error(rate, ""), "sampling rate: -3.0 is not finite and > 0");
+        assert!(error(serde_json::json!({ "ask": "nothing" }), "").contains("unknown variant"), "no question");
+    }
+
+    #[test]
+    fn the_first_answer_is_by_instant_impacts() {
+        let [name, text] = products::WORKED[0];
+        let of = |quick| asked(&serde_json::json!({ "ask": "assess", "name": name, "text": text, "quick": quick }), "");
+        assert_eq!(of(true)["command"], "clatter assess handheld-terminal.toml --model=finite-tilt --format=json");
+        assert_eq!(of(false)["command"], "clatter assess handheld-terminal.toml --format=json");
+        let model = |told: &serde_json::Value| {
+            let answer: serde_json::Value = serde_json::from_str(told["answer"].as_str().unwrap()).unwrap();
+            answer["components"][0]["model"]["bar"].clone()
+        };
+        assert_eq!([model(&of(true)), model(&of(false))], ["finite-tilt", "compliant"]);
+    }
+
+    #[test]
+    fn names_are_quoted_for_a_shell() {
+        let quoted = ["a.toml", "my phone.toml", "-x.toml", "it's.csv", ""].map(quoted);
+        assert_eq!(quoted, ["a.toml", "'my phone.toml'", "./-x.toml", r"'it'\''s.csv'", "''"]);
+    }
+}

@@ -1,0 +1,146 @@
+//! Product files: read, assessed, drawn.
+
+use clatter::End;
+use clatter_answer::assess as assess_of;
+use clatter_assess::{
+    Accuracy, Assessment, Component, ComponentAssessment, LimitAssessment, LimitKind, Model, Portrait, ProductFile,
+    STANDARD_GRAVITY_M_S2, Unit, repeat, visible,
+};
+use clatter_figures::{FigureError, Place};
+use serde::Serialize;
+
+use crate::{Progress, Told, json, quoted, text};
+
+/// The worked products, each under the name of its file.
+pub(crate) const WORKED: [[&str; 2]; 5] = [
+    ["handheld-terminal.toml", include_str!("../../reports/examples/handheld-terminal.toml")],
+    ["phone.toml", include_str!("../../reports/examples/phone.toml")],
+    ["laptop.toml", include_str!("../../reports/examples/laptop.toml")],
+    ["handheld-plate.toml", include_str!("../../reports/examples/handheld-plate.toml")],
+    ["handheld-transit.toml", include_str!("../../reports/examples/handheld-transit.toml")],
+];
+
+/// A product, and what is odd in its file.
+pub(crate) fn read(name: &str, given: &str) -> Result<(ProductFile, Vec<String>), String> {
+    let (file, odd) = ProductFile::read_warned(given, name).map_err(text)?;
+    let mut warnings = if odd.warnings().is_empty() { Vec::new() } else { vec![odd.to_string()] };
+    if !file.records.is_empty() {
+        warnings.push("the records that the file names are not read here: the command reads them".to_owned());
+    }
+    Ok((file, warnings))
+}
+
+/// What stands beside a limit: its unit, and the command that answers its worst drop once more.
+#[derive(Debug, Serialize)]
+struct Shown {
+    unit: &'static str,
+    /// One of it in SI.
+    si: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    command: Option<String>,
+}
+
+/// The unit in which the file gives a limit, else the one that people use, and one of it in SI.
+fn unit_of(component: &Component, limit: &LimitAssessment) -> (&'static str, f64) {
+    if let Some(unit) = component.limits.unit(limit.limit, limit.unit) {
+        return (unit.name, unit.to_si(1.0));
+    }
+    match limit.unit {
+        Unit::MeterPerSecondSquared => ("gn", STANDARD_GRAVITY_M_S2),
+        Unit::Meter => ("mm", 1e-3),
+        Unit::MeterPerSecond => ("m/s", 1.0),
+        Unit::RadianPerSecond => ("rad/s", 1.0),
+    }
+}
+
+/// The verdicts, and what stands beside each limit.
+pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_>) -> Result<Told, String> {
+    let (file, warnings) = read(name, given)?;
+    let accuracy = Accuracy { model: quick.then_some(Model::FiniteTilt), ..Accuracy::default() };
+    let answer = assess_of::watched(&file, &accuracy, &|done, all| {
+        progress(done, all);
+        true
+    });
+    let answer = answer.map_err(|error| format!("{}: {error}", visible(name)))?;
+    let shown = file.components.iter().zip(&answer.assessment.components).map(|(component, assessed)| {
+        let shown = |limit: &LimitAssessment| {
+            let (unit, si) = unit_of(component, limit);
+            let command = limit.demand.and_then(|_| repeat(name, &component.name, limit.limit, &accuracy));
+            Shown { unit, si, command }
+        };
+        assessed.limits.iter().map(shown).collect::<Vec<_>>()
+    });
+    let shown = serde_json::to_value(shown.collect::<Vec<_>>()).map_err(text)?;
+    let model = if quick { format!(" --model={}", Model::FiniteTilt.name()) } else { String::new() };
+    let command = format!("clatter assess {}{model} --format=json", quoted(name));
+    Ok(Told { answer: Some(json(&answer)?), command: Some(command), warnings, shown, ..Told::default() })
+}
+
+/// Where each part would be safe; of each its worst drop over time and its demand over the tilt.
+pub(crate) fn figures(name: &str, given: &str, progress: Progress<'_>) -> Result<Told, String> {
+    let (file, _) = read(name, given)?;
+    let watch = |done, all| {
+        progress(done, all);
+        true
+    };
+    let assessment = file.assess_watched(&Accuracy::default(), &watch).map_err(text)?;
+    let portraits = file.portraits(&assessment);
+    let zones_m: Vec<_> = portraits.iter().map(|portrait| portrait.zone_m).collect();
+    let figures = drawn(&file, &assessment, &portraits).map_err(text)?;
+    let command = format!("clatter assess {} -o report.pdf", quoted(name));
+    Ok(Told { figures, command: Some(command), ..Told::shown(zones_m)? })
+}
+
+fn drawn(
+    file: &ProductFile,
+    assessment: &Assessment,
+    portraits: &[Portrait],
+) -> Result<Vec<(String, String)>, FigureError> {
+    let mut figures = Vec::new();
+    let body = &file.product.body;
+    let parts = || file.components.iter().zip(&assessment.components).zip(portraits);
+    if file.product.width.is_none() {
+        let margin = |assessed: &ComponentAssessment| {
+            assessed.tightest().margin.map_or("?".to_owned(), |margin| format!("{:+.1} %", 100.0 * margin))
+        };
+        let words: Vec<String> = assessment.components.iter().map(margin).collect();
+        let places = parts().zip(&words).map(|(((component, assessed), portrait), word)| Place {
+            name: &component.name,
+            from_m: component.position_m.lo() - 0.5 * component.extent_m,
+            to_m: component.position_m.hi() + 0.5 * component.extent_m,
+            verdict: assessed.verdict,
+            word,
+            zone_m: portrait.zone_m,
+        });
+        let places: Vec<Place<'_>> = places.collect();
+        let drawing = clatter_figures::product(body.arms_m(), body.gyration_m(), &places)?;
+        figures.push(("Where each part would be safe".to_owned(), drawing));
+    }
+    for ((component, assessed), portrait) in parts() {
+        let limit = assessed.tightest();
+        let (unit, si) = unit_of(component, limit);
+        let what = match limit.limit {
+            LimitKind::AngularVelocityChange => "change of *ω*",
+            kind => kind.measured(limit.unit),
+        };
+        let title = format!("{what}, {unit}");
+        let allowed = limit.allowed / si;
+        let points: Vec<_> = portrait.history.iter().map(|(time_s, value)| (1e3 * time_s, value / si)).collect();
+        let impacts: Vec<f64> = portrait.impacts_s.iter().map(|time_s| 1e3 * time_s).collect();
+        let titles = ["time since the first touch, ms", &title];
+        let drawing = clatter_figures::history(&points, &impacts, allowed, titles)?;
+        figures.push((format!("{}: its worst drop", component.name), drawing));
+        if portrait.over_tilt.is_empty() {
+            continue;
+        }
+        let curve = |(first, curve): &(End, Vec<clatter_assess::Point>)| {
+            let points = curve.iter().map(|point| (point.tilt_rad.to_degrees(), allowed * point.share)).collect();
+            (if *first == End::A { "end *a* first" } else { "end *b* first" }, points)
+        };
+        let curves: Vec<(&str, Vec<_>)> = portrait.over_tilt.iter().map(curve).collect();
+        let titles = ["tilt at the first touch, degrees", &title];
+        let drawing = clatter_figures::over_tilt(&curves, allowed, titles)?;
+        figures.push((format!("{}: over the tilt", component.name), drawing));
+    }
+    Ok(figures)
+}
