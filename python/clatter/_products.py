@@ -321,7 +321,7 @@ def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = No
 def scatter(
     product: Source,
     *,
-    samples: int = 100_000,
+    samples: int | None = None,
     seed: int = 1,
     confidence: float = 0.95,
     merge_s: float = 1e-3,
@@ -333,8 +333,10 @@ def scatter(
     ----------
     product : Product, path, or dict
         The product, with distributions or ranges.
-    samples, seed : int
-        How many drops, and which.
+    samples : int, optional
+        How many drops, 100 000 unless given; of a box how many products, each of which goes through all of its drops, 1000 unless given.
+    seed : int
+        Which.
     confidence : float
         Of the intervals, in (0, 1).
     merge_s : float
@@ -345,7 +347,7 @@ def scatter(
     Returns
     -------
     Answer
-        ``survival`` and ``components`` with their ``drivers``, as ``clatter scatter`` has it.
+        ``survival`` and ``components`` with their ``drivers``, of a box ``landings`` too, as ``clatter scatter`` has it.
 
     Examples
     --------
@@ -353,7 +355,8 @@ def scatter(
     >>> clatter.scatter(clatter.Product.example(), samples=200).survival.probability
     1.0
     """
-    drawn = (whole("samples", samples, 1, 10**12), whole("seed", seed, 0, 2**64 - 1), number("confidence", confidence))
+    count = None if samples is None else whole("samples", samples, 1, 10**12)
+    drawn = (count, whole("seed", seed, 0, 2**64 - 1), number("confidence", confidence))
     rest = (number("merge_s", merge_s), optional("target", target))
     return told(_clatter.scatter(_of(product), *drawn, *rest), _survivals)
 

@@ -79,7 +79,7 @@ pub(crate) fn assess(
 pub(crate) fn scatter(
     py: Python<'_>,
     product: &ProductText,
-    samples: u64,
+    samples: Option<u64>,
     seed: u64,
     confidence: f64,
     merge_s: f64,
@@ -90,6 +90,7 @@ pub(crate) fn scatter(
     }
     let file = product.file.clone();
     long(py, move |wanted| {
+        let samples = samples.unwrap_or_else(|| Settings::samples_of(&file));
         let sampler = Sampler::new(&file, Settings { samples, seed, confidence, merge_s });
         let sampler = sampler.map_err(|error| error.to_string())?;
         let Ok(drawn) = sampler.run(false, &|| wanted.still(), |_| Ok::<_, Infallible>(()));

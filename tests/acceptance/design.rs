@@ -251,3 +251,27 @@ fn margins_of_the_plane_are_those_of_an_assessment() {
         assert!((0.98..1.03).contains(&worse), "{name}: {margin} in the plane, {assessed} assessed at {q}, {e}");
     }
 }
+
+/// A box: the change that is printed holds in all of its drops.
+#[test]
+fn a_change_of_a_box_holds_in_its_drops() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("box.toml");
+    let text = "[product]\nname = \"Box\"\nlength = \"150 mm\"\nwidth = \"70 mm\"\nthickness = \"40 mm\"\nmass = \"300 g\"\n\
+                radius_of_gyration = [\"43 mm\", \"20 mm\"]\nrestitution = 0.2\ncontact_time = \"0.4 ms\"\n\
+                contact_law = \"hysteretic\"\n[drop]\nheight = \"1 m\"\nface = \"bottom\"\n[[component]]\nname = \"battery\"\n\
+                position = [\"30 mm\", \"10 mm\"]\nnatural_frequency = \"120 Hz\"\ndamping_ratio = 0.1\nrattle_space = \"6 mm\"\n";
+    std::fs::write(&path, text).unwrap();
+    let path = path.to_str().unwrap();
+    let found = answer(["design", path, "--margin=5%"]);
+    let remedies = found["components"][0]["remedies"].as_array().unwrap();
+    let room = remedies.iter().find(|remedy| remedy["lever"] == "rattle-space").unwrap();
+    assert_eq!(room["outcome"], "change", "{found}");
+    let to = 1e3 * room["to"][0].as_f64().unwrap();
+    std::fs::write(path, text.replace("6 mm\"", &format!("{to:.6} mm\""))).unwrap();
+    let outcome = clatter(["assess", path, "--format=json"]);
+    assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stdout);
+    let after: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    assert_eq!(after["components"][0]["limits"][0]["margin"], room["margin_after"], "{room}");
+    assert!(clatter(["design", path]).stdout.starts_with("Box: a box, e = 0.2"));
+}

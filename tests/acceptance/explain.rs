@@ -101,3 +101,36 @@ fn a_tolerance_and_a_model_can_be_asked_for() {
         assert!(outcome.stderr.contains(said), "{option}: {}", outcome.stderr);
     }
 }
+
+/// Of a box: what each of its drops does, what its tolerance leaves open, and what the plate of a face would say.
+#[test]
+fn the_drops_of_a_box_are_told_one_by_one() {
+    let path = example("handheld-transit.toml");
+    let json = answer(["explain", path.as_str(), "--tolerance=5%"]);
+    let landings = json["landings"].as_array().unwrap();
+    assert_eq!(landings.len(), 26);
+    let bottom = landings.iter().find(|landing| landing["landing"] == "face bottom").unwrap();
+    // The diagonal of 220 mm × 85 mm, 2 degrees, from 1.22 m.
+    let latest = 0.22_f64.hypot(0.085) * 2_f64.to_radians().sin() / (2.0 * 9.80665 * 1.22_f64).sqrt();
+    let last = bottom["last_corner_s"][1].as_f64().unwrap();
+    assert!(
+        (last / latest - 1.0).abs() < 1e-9 && bottom["contact_time_s"] == serde_json::json!([1e-3, 1e-3]),
+        "{bottom}"
+    );
+    assert!(
+        bottom["as_one_to_deg"].as_f64().is_some_and(|degrees| degrees < 2.0) && bottom["corners"] == 4,
+        "{bottom}"
+    );
+    let limits = json["limits"].as_array().unwrap();
+    assert_eq!(limits.len(), 3);
+    for limit in limits {
+        let names: Vec<_> = limit["models"].as_array().unwrap().iter().map(|m| m["model"].as_str().unwrap()).collect();
+        // The camera is shaken along any axis, which no plate does.
+        let known = if limit["component"] == "camera" { vec!["box"] } else { vec!["bar", "plate", "box"] };
+        assert_eq!(names, known, "{limit}");
+    }
+    let table = clatter(["explain", path.as_str(), "--tolerance=5%"]).stdout;
+    for told in ["last corner", "one corner", "0 to 1.68", "drops may clatter", "face bottom"] {
+        assert!(table.contains(told), "{told}: {table}");
+    }
+}

@@ -479,6 +479,40 @@ fn short_contacts_are_velocity_shocks() {
     assert!((a - b).abs() < 1e-5, "{a}, not {b}");
 }
 
+/// The service condition of a shock test that is named does at least as much to the component, the next lower one less; of a hard drop none does.
+#[test]
+fn the_least_service_condition_covers_the_drop() {
+    let drop = ["respond", "--model=ballistic", "--at=1", "--equivalent-pulse"];
+    let got = answer(drop.into_iter().chain(DROP));
+    let hz = format!("--frequency={:?}", 1131.0 / std::f64::consts::TAU);
+    let [z, a] = PEAKS.map(|name| of(&got, name));
+    let does = |pulse: &str| {
+        let flag = format!("--pulse={pulse}");
+        let maximax =
+            |quantity: &str| answer(["spectrum", &flag, &hz, "--quantity", quantity])["maximax"][0].as_f64().unwrap();
+        [maximax("acceleration") / (1131.0 * a), maximax("pseudo-velocity") / z]
+    };
+    let found = &got["service_condition"];
+    let order = ["C", "D", "E", "A", "F", "B", "G", "H"].map(|name| format!("JESD22-B110/{name}"));
+    let first = order.iter().find(|pulse| does(pulse).into_iter().all(|ratio| ratio >= 1.0));
+    assert_eq!(found["pulse"].as_str(), first.map(String::as_str), "{found}");
+    let shown = clatter(drop.into_iter().chain(DROP)).stdout;
+    match first {
+        Some(pulse) => {
+            let [acceleration, displacement] = does(pulse);
+            assert!((of(found, "acceleration_ratio") / acceleration - 1.0).abs() < 1e-9, "{found}");
+            assert!((of(found, "displacement_ratio") / displacement - 1.0).abs() < 1e-9, "{found}");
+            assert!(shown.contains(&format!("Shock test: {pulse} (")), "{shown}");
+        }
+        None => assert!(shown.contains("no service condition of JESD22-B110 does as much"), "{shown}"),
+    }
+    // Ten times as fast nothing covers it.
+    let fast: Vec<_> =
+        DROP.into_iter().map(|flag| if flag.starts_with("--speed") { "--speed-m-s=60" } else { flag }).collect();
+    let none = answer(drop.into_iter().chain(fast.iter().copied()).chain(["--shock-table=0.2:20,50000,500"]));
+    assert_eq!(none["service_condition"], Value::Null, "{none}");
+}
+
 /// The half-sine that is named gives the component the same acceleration, and within 1 % the same displacement.
 #[test]
 fn the_equivalent_pulse_does_the_same() {

@@ -190,3 +190,83 @@ fn the_table_tells_what_drives_a_part() {
     let line: String = outcome.stdout.lines().filter(|line| line.starts_with("camera")).collect();
     assert!(line.contains("height+") && line.contains('%'), "{line}");
 }
+
+/// A box that goes through some drops one after the other: what every sample asks of its battery is repeated by `respond`, which is told
+/// the attitude, and of all products no more survive the sequence than any drop of it.
+#[test]
+fn a_box_is_a_sequence_of_drops() {
+    let dir = tempfile::tempdir().unwrap();
+    let (path, target) = (dir.path().join("box.toml"), dir.path().join("samples.csv"));
+    let text = "[product]\nname = \"Box\"\nlength = \"150 mm\"\nwidth = \"70 mm\"\nthickness = \"14 mm\"\nmass = \"300 g\"\n\
+                radius_of_gyration = [\"43 mm\", \"20 mm\"]\nrestitution = [0.3, 0.4]\ncontact_time = \"0.4 ms\"\n\
+                contact_law = \"hysteretic\"\n[drop]\nstandard = \"MIL-STD-810H/516.8-IV\"\n[[component]]\nname = \"battery\"\n\
+                position = [\"-30 mm\", \"0 mm\"]\nnatural_frequency = [\"110 Hz\", \"130 Hz\"]\ndamping_ratio = 0.1\n\
+                rattle_space = \"7 mm\"\n";
+    std::fs::write(&path, text).unwrap();
+    let (path, target) = (path.to_str().unwrap(), target.to_str().unwrap());
+    let outcome = clatter(["scatter", path, "--samples=20", "--format=json", "-o", target]);
+    assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""));
+    let found: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
+    assert!(
+        found["model"]["sequence"].as_str().unwrap().contains("one product that goes through all drops"),
+        "{found}"
+    );
+    let landings = found["landings"].as_array().unwrap();
+    let survival = |of: &serde_json::Value| of["survival"]["probability"].as_f64().unwrap();
+    assert_eq!((landings.len(), landings[4]["landing"].as_str()), (26, Some("face bottom")));
+    for landing in landings {
+        assert!(
+            survival(&found) <= survival(landing) && survival(landing) <= survival(&landing["components"][0]),
+            "{landing}"
+        );
+    }
+    assert!((0.05..0.95).contains(&survival(&found)), "{found}");
+    let csv = std::fs::read_to_string(target).unwrap();
+    let mut rows = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let titles = rows.next().unwrap();
+    for row in rows.take(8) {
+        let of = |title: &str| {
+            let k = titles.iter().position(|t| *t == title).unwrap_or_else(|| panic!("{title} of {titles:?}"));
+            row[k].parse::<f64>().unwrap()
+        };
+        let on = |what: &str| of(&format!("{what} on face bottom"));
+        // Turned about an axis in the bottom, so that it rises towards the direction.
+        let (half, direction) = (0.5 * on("tilt_deg").to_radians(), on("direction_deg").to_radians());
+        let turned = [half.cos(), half.sin() * direction.sin(), -half.sin() * direction.cos(), 0.0];
+        let axes =
+            [0.02_f64.hypot(0.014 / 12_f64.sqrt()), 0.043_f64.hypot(0.014 / 12_f64.sqrt()), 0.043_f64.hypot(0.02)];
+        let list = |of: &[f64]| of.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(",");
+        let omega = std::f64::consts::TAU * of("frequency_hz of battery");
+        let numbers = [
+            ("gyration-m", list(&axes)),
+            ("orientation", list(&turned)),
+            ("e", list(&[of("restitution")])),
+            ("speed-m-s", list(&[on("speed_m_s")])),
+            ("omega", list(&[omega])),
+        ];
+        let mut arguments =
+            "respond --model=compliant --length-m=0.15 --width-m=0.07 --thickness-m=0.014 --gravity-m-s2=9.80665 \
+                             --at-m=-0.03,0,0 --axis=z --damping=0.1 --contact-time-s=4e-4 --contact-law=hysteretic"
+                .split_whitespace()
+                .map(str::to_owned)
+                .collect::<Vec<_>>();
+        arguments.extend(numbers.iter().map(|(name, value)| format!("--{name}={value}")));
+        let alone = answer(arguments.iter().map(String::as_str));
+        let used = alone["omega_peak_relative_displacement"].as_f64().unwrap() / omega / 7e-3;
+        let drawn = of("utilization of battery on face bottom");
+        // What is felt is joined by straight lines, four or eight in a step.
+        assert!((used / drawn - 1.0).abs() < 1e-3, "{used}, not {drawn}");
+        assert!(of("utilization of battery") >= drawn, "{row:?}");
+    }
+    let table = clatter(["scatter", path, "--samples=20"]).stdout;
+    for told in [
+        "Box: 20 products drawn with seed 1; each goes through its 26 drops, one after the other",
+        "Taken as equally likely all over the range: attitude within its tolerance, restitution, natural frequency of battery",
+        "each drop alone",
+        "corner top back end-b",
+    ] {
+        assert!(table.contains(told), "{told}: {table}");
+    }
+    // Any number of threads says the same; more than the one of a test runs of the process.
+    assert_eq!(outcome.stdout, clatter(["scatter", path, "--samples=20", "--format=json"]).stdout);
+}

@@ -9,7 +9,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder, Reference, Rung};
+use clatter_assess::ladder::{Groups, LandingLadder, LeftOut, LimitLadder, Measured, ProductLadder, Reference, Rung};
 use clatter_assess::{LimitKind, Unit, WorstCase};
 use serde::{Serialize, Serializer};
 
@@ -25,6 +25,9 @@ struct AnswerJson<'a> {
     tolerance: Json,
     limits: Vec<LimitJson<'a>>,
     left_out: &'a [LeftOut],
+    /// Of a box.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    landings: &'a [LandingLadder],
 }
 
 #[derive(Serialize)]
@@ -72,6 +75,7 @@ impl Serialize for Answer<'_> {
             tolerance: Json(ladders.tolerance),
             limits: ladders.limits.iter().map(LimitJson::new).collect(),
             left_out: &ladders.left_out,
+            landings: &ladders.landings,
         }
         .serialize(serializer)
     }

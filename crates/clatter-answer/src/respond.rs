@@ -31,7 +31,10 @@ use serde::Serialize;
 use crate::error::within_periods;
 use crate::{Error, Json, on_body};
 pub use limits::{Limit, Position};
-pub use peaks::{AllPeaks, Equivalent, Extreme, Extremes, Factors, HalfSine, Largest, LargestValues, Peaks};
+pub use peaks::{
+    AllPeaks, Equivalent, Extreme, Extremes, Factors, HalfSine, Largest, LargestValues, NOTHING_FELT, Peaks,
+    ServiceCondition,
+};
 
 /// What shakes a part.
 #[derive(Debug, Clone)]

@@ -11,15 +11,24 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! A sample of a box is one product that goes through all of its drops: [`SEQUENCE`].
+//!
 //! To watch the samples, or to keep them, draw with a [`Sampler`] and make the answer of what it gives.
 
 use std::convert::Infallible;
 
-use clatter_assess::scatter::{ComponentScatter, Driver, Error, Input, Pilot, Probability, Sampler, Scatter, Settings};
-use clatter_assess::{Model, ProductFile};
+use clatter_assess::scatter::{
+    ComponentScatter, Driver, Error, Input, LandingComponent, LandingScatter, Pilot, Probability, Sampler, Scatter,
+    Settings,
+};
+use clatter_assess::{Attitude, Component, Model, ProductFile};
 use serde::{Serialize, Serializer};
 
 use crate::Json;
+
+/// What a sample of a box is.
+pub const SEQUENCE: &str = "a sample is one product that goes through all drops: what [product] and [[component]] give is drawn once \
+for it, height or speed and attitude for each drop, every attitude within the tolerance equally likely; it survives if it survives each drop";
 
 /// What came of all samples.
 #[derive(Debug, Clone)]
@@ -72,7 +81,30 @@ struct AnswerJson<'a> {
     /// Why the first of them is not answered.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
+    /// Of a box, samples in which what answers may be off by, or the energy left, decides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    open: Option<u64>,
     components: Vec<ComponentJson<'a>>,
+    /// Of a box, its drops one by one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    landings: Vec<LandingJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct LandingJson<'a> {
+    landing: Attitude,
+    survival: SurvivalJson,
+    components: Vec<LandingComponentJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct LandingComponentJson<'a> {
+    name: &'a str,
+    failed: u64,
+    open: u64,
+    unanswered: u64,
+    survival: SurvivalJson,
+    largest_utilization: Json,
 }
 
 #[derive(Serialize)]
@@ -83,6 +115,9 @@ struct ModelJson {
     refined: u64,
     /// Null where the cheap model was not tried.
     pilot: Option<PilotJson>,
+    /// Of a box, what a sample is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sequence: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -113,6 +148,9 @@ struct InputJson {
     /// Index of the component that it belongs to.
     #[serde(skip_serializing_if = "Option::is_none")]
     component: Option<usize>,
+    /// The drop of a box that it belongs to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    landing: Option<Attitude>,
     /// Of a limit, which one.
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<&'static str>,
@@ -159,6 +197,8 @@ struct UtilizationJson {
 struct DriverJson {
     input: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
+    landing: Option<Attitude>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<&'static str>,
     variance_share: Json,
     trend: Json,
@@ -185,7 +225,8 @@ impl ModelJson {
             one_in: pilot.one_in,
         };
         let refined = if scatter.followed < scatter.drawn { scatter.followed } else { 0 };
-        Self { bar: scatter.model.name(), reason, refined, pilot: scatter.pilot.map(pilot) }
+        let sequence = (!scatter.landings.is_empty()).then_some(SEQUENCE);
+        Self { bar: scatter.model.name(), reason, refined, pilot: scatter.pilot.map(pilot), sequence }
     }
 }
 
@@ -194,10 +235,26 @@ fn limit(input: &Input) -> Option<&'static str> {
     if let Input::Limit(_, kind) = input { Some(kind.name()) } else { None }
 }
 
+impl<'a> LandingJson<'a> {
+    fn new(file: &'a ProductFile, of: &LandingScatter) -> Self {
+        let one = |(component, of): (&'a Component, &LandingComponent)| LandingComponentJson {
+            name: &component.name,
+            failed: of.failures,
+            open: of.open,
+            unanswered: of.unanswered,
+            survival: SurvivalJson::new(of.survival),
+            largest_utilization: Json(of.largest_utilization),
+        };
+        let components = file.components.iter().zip(&of.components).map(one).collect();
+        Self { landing: of.landing, survival: SurvivalJson::new(of.survival), components }
+    }
+}
+
 impl<'a> ComponentJson<'a> {
-    fn new(c: &'a ComponentScatter) -> Self {
+    fn new(c: &'a ComponentScatter, landing: &dyn Fn(&Input) -> Option<Attitude>) -> Self {
         let driver = |driver: &Driver| DriverJson {
             input: driver.input.name(),
+            landing: landing(&driver.input),
             limit: limit(&driver.input),
             variance_share: Json(driver.share.variance),
             trend: Json(driver.share.trend),
@@ -224,9 +281,11 @@ impl Serialize for Answer<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { file, scatter, target } = self;
         let Settings { samples, seed, confidence, .. } = scatter.settings;
+        let landing = |input: &Input| input.landing().map(|n| file.landings[n].attitude);
         let input = |input: &Input| InputJson {
             input: input.name(),
             component: input.component(),
+            landing: landing(input),
             limit: limit(input),
             assumed_uniform: scatter.assumed_even.contains(input),
         };
@@ -242,7 +301,9 @@ impl Serialize for Answer<'_> {
             target: target.map(|share| TargetJson { survival: Json(share), met: self.is_met() }),
             unanswered: scatter.unanswered,
             reason: scatter.reason.as_ref().map(ToString::to_string),
-            components: scatter.components.iter().map(ComponentJson::new).collect(),
+            open: (!scatter.landings.is_empty()).then_some(scatter.open),
+            components: scatter.components.iter().map(|c| ComponentJson::new(c, &landing)).collect(),
+            landings: scatter.landings.iter().map(|of| LandingJson::new(file, of)).collect(),
         }
         .serialize(serializer)
     }

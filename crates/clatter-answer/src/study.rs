@@ -30,7 +30,7 @@ mod parts;
 use std::io;
 use std::ops::Range;
 
-use clatter_assess::scatter::{Asked, Column, Sampler, Settings};
+use clatter_assess::scatter::{Column, PartRow, Sampler, Settings};
 use clatter_assess::{Accuracy, Assessment, Component, Family, Faults, LimitKind, Plan, ProductFile, Verdict};
 use clatter_record::{Field, FieldKind};
 
@@ -51,6 +51,11 @@ pub enum Error {
     /// A product that is not assessed.
     #[error(transparent)]
     Assess(#[from] clatter_assess::Error),
+    /// A box, whose samples go through all of its drops.
+    #[error(
+        "a study draws drops of bars and plates; a box goes through all of its drops, which `scatter` and `assess` tell"
+    )]
+    Box,
     /// A shard that there is not.
     #[error("shard {index}/{of} is none: the plan has {rows} rows, in shards from 1/N to N/N with N from 1 to {rows}")]
     Shard {
@@ -159,6 +164,9 @@ impl Study {
 
     fn sampler(&self, file: &ProductFile, confidence: f64) -> Result<Sampler, Error> {
         let Plan { samples, seed, .. } = self.plan;
+        if !file.landings.is_empty() {
+            return Err(Error::Box);
+        }
         Ok(Sampler::new(file, Settings { samples, seed, confidence, merge_s: Accuracy::default().merge_s })?)
     }
 
@@ -273,7 +281,7 @@ impl Study {
             let told = each.flat_map(|(asked, component)| {
                 let kinds = component.limits.kinds().len();
                 let flag = |is: bool| f64::from(u8::from(is));
-                let Asked { utilization, open, exceeded } = asked.unwrap_or(UNANSWERED);
+                let PartRow { utilization, open, exceeded } = asked.unwrap_or(UNANSWERED);
                 [utilization, flag(open)].into_iter().chain(exceeded.into_iter().take(kinds).map(flag))
             });
             push(group, self.place(row).chain(drawn).chain(told));
@@ -282,7 +290,7 @@ impl Study {
 }
 
 /// What stands in a row for what is not answered.
-const UNANSWERED: Asked = Asked { utilization: f64::NAN, open: false, exceeded: [false; LimitKind::ALL.len()] };
+const UNANSWERED: PartRow = PartRow { utilization: f64::NAN, open: false, exceeded: [false; LimitKind::ALL.len()] };
 
 fn push(group: &mut [Vec<f64>], row: impl Iterator<Item = f64>) {
     group.iter_mut().zip(row).for_each(|(column, value)| column.push(value));

@@ -25,6 +25,8 @@ pub(crate) const THIN: f64 = 0.05;
 pub(crate) struct Breaker {
     /// By the other contact law than that of the product.
     pub(crate) other_law: bool,
+    /// Which of the drops that are searched.
+    pub(crate) listed: usize,
     pub(crate) place: Place,
 }
 
@@ -153,13 +155,13 @@ impl ProductFile {
         let count = searched.iter().map(Vec::len).sum::<usize>();
         let mut worst: Vec<Vec<Vec<Worst>>> = Vec::with_capacity(listed.len());
         let mut before = 0;
-        for laws in &searched {
+        for (listed, laws) in searched.iter().enumerate() {
             let mut of_drop = Vec::with_capacity(laws.len());
             for (n, ranges) in laws.iter().enumerate() {
                 let watch = |done, all| watch(before * all + done, count * all);
                 match ranges.worst(&tasks, &all_tasks, most[n], &watch) {
                     Ok(of_law) => of_drop.push(of_law),
-                    Err(place) => return Ok(Err(Breaker { other_law: n > 0, place })),
+                    Err(place) => return Ok(Err(Breaker { other_law: n > 0, listed, place })),
                 }
                 before += 1;
             }
@@ -192,7 +194,7 @@ impl ProductFile {
     }
 
     /// The drops that are searched one after the other: each on what a box lands on, or the one of the file.
-    fn listed(&self) -> Vec<Listed> {
+    pub(crate) fn listed(&self) -> Vec<Listed> {
         let faces_m = self.product.faces_m();
         let of = |landing: &Landing| {
             let tilt_rad = Spread::new(0.0, landing.tolerance_rad, Law::Range).unwrap_or(Spread::finite(0.0));
@@ -212,7 +214,7 @@ impl ProductFile {
         self.ranges_of(&self.drop, None, accuracy)
     }
 
-    fn ranges_of<'a>(&'a self, drop: &'a Drop, posture: Option<Posture>, accuracy: &Accuracy) -> Ranges<'a> {
+    pub(crate) fn ranges_of<'a>(&'a self, drop: &'a Drop, posture: Option<Posture>, accuracy: &Accuracy) -> Ranges<'a> {
         let fullest = if self.product.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt };
         let model = accuracy.model.unwrap_or(fullest);
         let law = self.product.law();
@@ -356,9 +358,10 @@ struct Found {
 }
 
 /// A drop that is searched.
-struct Listed {
-    drop: Drop,
-    posture: Option<Posture>,
+pub(crate) struct Listed {
+    pub(crate) drop: Drop,
+    /// Of a box.
+    pub(crate) posture: Option<Posture>,
 }
 
 /// What the drops that a box is put through say of a limit together: the one that leaves least, by its verdict and then by its margin.

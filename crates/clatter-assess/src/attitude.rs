@@ -42,6 +42,10 @@ impl Attitude {
     pub fn faces(self) -> usize {
         self.0.iter().filter(|side| **side != 0).count()
     }
+    /// The axes of a box along which what it lands on lies level: two of a face, one of an edge, none of a corner.
+    pub(crate) fn level(self) -> Vec<usize> {
+        (0..3).filter(|axis| self.0[*axis] == 0).collect()
+    }
     /// The vertical in axes of a box whose faces have these distances from the center of mass, −x, +x, −y and so on: the center of mass
     /// is over the face, or straight over the edge or corner.
     pub(crate) fn upward(self, faces_m: [[f64; 2]; 3]) -> [f64; 3] {

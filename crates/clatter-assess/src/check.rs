@@ -86,10 +86,6 @@ impl ProductFile {
         }
         Ok(())
     }
-    /// Refuses a box that lands on faces, edges and corners where bars and plates alone are taken.
-    pub(crate) fn check_no_box(&self, what: &'static str) -> Result<(), Error> {
-        if self.landings.is_empty() { Ok(()) } else { Err(Error::OfBoxes(what)) }
-    }
     /// Refuses a plate where bars alone are taken.
     pub(crate) fn check_bar(&self, what: &'static str) -> Result<(), Error> {
         if self.product.width.is_some() { Err(Error::OfBars(what)) } else { Ok(()) }

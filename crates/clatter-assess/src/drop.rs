@@ -189,6 +189,10 @@ impl SingleDrop {
         }
         Ok(())
     }
+    /// Whether it is a box that lands on a face, an edge or a corner.
+    pub(crate) fn is_box(&self) -> bool {
+        self.across.is_some_and(|across| across.posture.is_some())
+    }
     /// From the lowest point to the highest, along the body.
     pub(crate) fn reach_m(&self) -> f64 {
         let length = self.body.length_m();
@@ -198,7 +202,7 @@ impl SingleDrop {
         })
     }
     /// How far the last point of what lands has to come down.
-    fn gap_m(&self) -> f64 {
+    pub(crate) fn gap_m(&self) -> f64 {
         let (Some(across), Some(posture)) = (&self.across, self.across.and_then(|across| across.posture)) else {
             return self.reach_m() * libm::sin(self.tilt_rad);
         };

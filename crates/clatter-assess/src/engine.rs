@@ -178,10 +178,9 @@ impl Answer {
             return self;
         }
         // Where a drop next to this one is not answered, nothing tells how far off this one is.
-        let is_box = drop.across.is_some_and(|across| across.posture.is_some());
         let off = |other: &SingleDrop, tolerance: f64| {
             // How a box lands again is another question: the energy that is left answers it.
-            let until = if is_box { Until::Past(PAST_PEAK * self.time_s) } else { Until::Over };
+            let until = if drop.is_box() { Until::Past(PAST_PEAK * self.time_s) } else { Until::Over };
             let other =
                 Followed::until(other, model, tolerance, until).and_then(|other| of_followed(&other, part, limit));
             other.map_or(f64::INFINITY, |other| (other.value - self.value).abs())
@@ -211,11 +210,7 @@ pub(crate) fn once(
 
 /// The same of a drop that is followed already.
 pub(crate) fn of_followed(followed: &Followed, part: &Part, limit: &Limit) -> Result<Answer, Error> {
-    let felt = PlaceHistory::new(followed, part.spot())?;
-    let asked = felt.answer(limit, part.suspension.as_ref(), 0.0)?;
-    let (allowed, unit) = (limit.allowed, limit.kind.unit());
-    let nothing = || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: felt.later_of(limit) };
-    Ok(asked.unwrap_or_else(nothing))
+    PlaceHistory::new(followed, part.spot())?.answer_or_nothing(limit, part.suspension.as_ref())
 }
 
 /// An answer from the largest shock or the net change of velocity alone, without following a strike.
@@ -355,6 +350,13 @@ impl<'a> PlaceHistory<'a> {
         let impact = self.followed.impact_at(time_s);
         let answer = Answer { value, allowed: limit.allowed, unit: limit.kind.unit(), time_s, impact, off_by };
         Ok(Some(answer).filter(|answer| answer.utilization() > above))
+    }
+
+    /// The answer for one limit; 0 where nothing is asked of it.
+    pub(crate) fn answer_or_nothing(&self, limit: &Limit, suspension: Option<&Suspension>) -> Result<Answer, Error> {
+        let (allowed, unit) = (limit.allowed, limit.kind.unit());
+        let nothing = || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: self.later_of(limit) };
+        Ok(self.answer(limit, suspension, 0.0)?.unwrap_or_else(nothing))
     }
 
     /// Changes of velocity at the place in steps of time, each in its middle, up to a time: what a curve is drawn from.

@@ -75,9 +75,6 @@ pub enum Error {
     /// A model that does not follow plates.
     #[error("a plate is followed by the model compliant, not by {}", .0.name())]
     PlateModel(crate::Model),
-    /// What takes no box that lands on faces, edges and corners.
-    #[error("{0} takes no drops on a face, an edge or a corner")]
-    OfBoxes(&'static str),
     /// What takes bars alone.
     #[error("{0} takes a product without `width`")]
     OfBars(&'static str),

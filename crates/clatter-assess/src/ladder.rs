@@ -3,14 +3,18 @@
 //! Six models from the least physics to the most ([`Model`]) answer the same drop of a bar. Each is held against the one with the most
 //! physics that the data allow, worked out more exactly; the cheapest within the tolerance is named, with the dimensionless
 //! group that makes the next cheaper one too coarse. A drop of a plate is answered with contacts that take time by three bodies: the bar
-//! along its length, the plate of small tilt, and the box with full rotation, which is what they are held against. Errors are the same from run to run; times are of the machine that
+//! along its length, the plate of small tilt, and the box with full rotation, which is what they are held against. A drop of a box on a face is answered by the same three where the part
+//! moves across that face, and by itself alone on an edge or a corner; beside it stands how late the last corner may come ([`LandingLadder`]).
+//! Errors are the same from run to run; times are of the machine that
 //! [`Machine`] names.
 
+mod block;
 mod plate;
 mod time;
 
 use serde::{Serialize, Serializer};
 
+pub use block::LandingLadder;
 pub use time::Machine;
 
 use crate::drop::{Followed, Model, SingleDrop};
@@ -66,6 +70,9 @@ pub struct ProductLadder {
     pub limits: Vec<LimitLadder>,
     /// Limits of which no drop was answered.
     pub left_out: Vec<LeftOut>,
+    /// Of a box, its drops one by one; else empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub landings: Vec<LandingLadder>,
 }
 
 /// All models on the worst drop of one limit.
@@ -187,7 +194,10 @@ impl Ladder {
     /// ```
     pub fn measure(drop: &SingleDrop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
         if let Some(across) = &drop.across {
-            return Self::of_plate(drop, across, part, limit, tolerance);
+            return match across.posture {
+                Some(_) => Self::of_box(drop, part, limit, tolerance),
+                None => Self::of_plate(drop, across, part, limit, tolerance),
+            };
         }
         let fullest = drop.fullest();
         let exact = answer(drop, part, limit, fullest, FINER * tolerance)?;
@@ -212,7 +222,7 @@ impl Ladder {
 
 impl Groups {
     fn of(drop: &SingleDrop, part: &Part) -> Result<Self, Error> {
-        let h0 = drop.reach_m() * libm::sin(drop.tilt_rad);
+        let h0 = drop.gap_m();
         // Contacts of a plate alone are followed.
         let model = if drop.across.is_some() { Model::Compliant } else { Model::Map };
         let times = Followed::new(drop, model, 0.01)?.motion.struck_s();
@@ -226,7 +236,7 @@ impl Groups {
             pulse: omega.zip(drop.contact_time_s).map(|(omega, time)| omega * time),
             train: omega.map(|omega| omega * last),
             damping: part.suspension.map(|part| part.damping().get() * part.omega() * gap),
-            across: drop.across.map(|across| {
+            across: drop.across.filter(|across| across.posture.is_none()).map(|across| {
                 let [along, across] = drop.gaps_m(&across);
                 across / along
             }),
@@ -289,7 +299,6 @@ impl ProductFile {
     /// ```
     pub fn ladders(&self, assessment: &Assessment, tolerance: f64) -> Result<ProductLadder, Error> {
         self.check()?;
-        self.check_no_box("the ladder of models")?;
         assessment.is_of(self)?;
         let (mut limits, mut left_out) = (Vec::new(), Vec::new());
         for (component, assessed) in self.components.iter().zip(&assessment.components) {
@@ -307,6 +316,7 @@ impl ProductFile {
             }
         }
         let (product, machine) = (assessment.product.clone(), Machine::here());
-        Ok(ProductLadder { product, tolerance, machine, limits, left_out })
+        let landings = self.landing_ladders(assessment);
+        Ok(ProductLadder { product, tolerance, machine, limits, left_out, landings })
     }
 }

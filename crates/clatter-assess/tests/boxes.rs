@@ -13,7 +13,7 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 /// A handheld terminal as MIL-STD-810H drops it in transit.
-const HANDHELD: &str = r#"
+pub(crate) const HANDHELD: &str = r#"
 [product]
 name = "handheld"
 length = "150 mm"
@@ -46,7 +46,7 @@ rattle_space = "9 mm"
 "#;
 
 /// The same landing on one face, edge or corner.
-fn on(key: &str, faces: &str) -> String {
+pub(crate) fn on(key: &str, faces: &str) -> String {
     HANDHELD.replace(
         "standard = \"MIL-STD-810H/516.8-IV\"",
         &format!(

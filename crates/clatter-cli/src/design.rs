@@ -25,10 +25,10 @@ use crate::{Failure, Streams, assess, budget, output, quantities, text};
 ///
 /// Of a product file: every part that 'clatter assess' does not find safe with the margin, and for each thing that can
 /// be changed alone (the radius of gyration of a bar, the restitution e, the part's place, of a plate
-/// across it too, its natural frequency, its damping,
+/// or a box across it too, its natural frequency, its damping,
 /// the contact time by a bumper, the room that the part has, what it stands) the smallest change that makes it so, or that
 /// none does within the bounds. Values are rounded to what can be specified, two digits (places and the radius of gyration
-/// to 1 mm of 140 mm), and assessed again as they are printed; no mass is put outside of the body. Where no change alone is enough, two together, or how near one gets. Of goals (safe zones, in v0): where
+/// to 1 mm of 140 mm), and assessed again as they are printed, a box in all of its drops; no mass is put outside of the body. Where no change alone is enough, two together, or how near one gets. Of goals (safe zones, in v0): where
 /// in the plane of q and e they are met, and the front of the largest zone against q for each e. Without either, the
 /// goals are the paper's example: v0/2 in the middle tenth of the bar, 2 v0 in nearly all of it; the designs of its
 /// Table 1 stand beside the front.

@@ -70,9 +70,13 @@ pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
         return Ok(PulseArg { pulses: vec![standard.pulse()], unit: plain_or_typed(&ACCELERATION, "1g")?.unit });
     }
     let [name, amplitude, duration, starts @ ..] = &parts(text, ',')[..] else {
-        return Err("a pulse is SHAPE,AMPLITUDE,DURATION,START, such as half-sine,1500g,0.5ms,0s; numbers without a unit are in \
-                    SI: SHAPE,AMPLITUDE_M_S2,DURATION_S,START_S"
-            .to_owned());
+        let known: Vec<_> = clatter_shock::STANDARD_PULSES.iter().map(|pulse| pulse.keyword).collect();
+        return Err(format!(
+            "a pulse is SHAPE,AMPLITUDE,DURATION,START, such as half-sine,1500g,0.5ms,0s; numbers without a unit are in \
+             SI: SHAPE,AMPLITUDE_M_S2,DURATION_S,START_S. Levels that are built in: {}; those of other standards, IEC 60068-2-27 among \
+             them, are given so",
+            known.join(", ")
+        ));
     };
     let (shape, amplitude, duration) =
         (shape(name)?, plain_or_typed(&ACCELERATION, amplitude)?, plain_or_typed(&TIME, duration)?);

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_answer::explain::Answer;
-use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder};
+use clatter_assess::ladder::{Groups, LandingLadder, LeftOut, LimitLadder, Measured, ProductLadder};
 use clatter_assess::{Accuracy, ProductFile, units};
 
-use crate::columns::sentence;
+use crate::columns::{Table, sentence};
 use crate::inputs::{self, Format};
 use crate::numbers::{figures, given};
 use crate::output::Files;
@@ -27,12 +27,17 @@ use crate::{Failure, Streams, assess, text};
 ///
 /// Of a product with a width three bodies answer it, all with contacts that take time: the bar along its length, the plate of small tilt
 /// and the box with full rotation, which the others are held against; told is what the bar gets wrong.
+///
+/// Of a box it tells of each drop which part it leaves least room, and how late the last corner of the face or edge may come within the
+/// tolerance, beside a contact: from a clean landing to full clatter. Where the worst drop is on a face across which the part moves, the plate
+/// that this face is and the bar along it answer it as well.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   clatter init handheld.toml && clatter explain handheld.toml
   clatter explain handheld.toml --tolerance=10%    what a quick look needs
   clatter explain handheld.toml --format=json
+  clatter explain handheld-transit.toml            which of the 26 drops clatter, and what each does
 
 'clatter tradeoff' tells what each model costs as well.")]
 pub(crate) struct Args {
@@ -92,7 +97,46 @@ fn table(file: &ProductFile, ladders: &ProductLadder, out: &mut dyn Write) -> io
     let head = format!("{name}: the cheapest model within {tolerance} % of the one with the most physics");
     sentence(out, "", &head)?;
     ladders.limits.iter().try_for_each(|limit| of_limit(file, limit, out))?;
-    left_out(ladders, out)
+    left_out(ladders, out)?;
+    if ladders.landings.is_empty() { Ok(()) } else { landings(&ladders.landings, out) }
+}
+
+/// Of a box, a row for each drop: what its tolerance leaves open, and the limit that it leaves least room.
+fn landings(landings: &[LandingLadder], out: &mut dyn Write) -> io::Result<()> {
+    let row = |cells: [&str; 8]| cells.map(str::to_owned).to_vec();
+    let mut rows = vec![
+        row(["drop", "off", "last corner", "contact", "one landing", "tightest", "limit", "margin"]),
+        row(["", "deg", "ms", "ms", "deg", "", "", ""]),
+    ];
+    let range = |[lo, hi]: [f64; 2]| {
+        let [low, high] = [lo, hi].map(|s| figures(1e3 * s));
+        if lo < hi { format!("{low} to {high}") } else { low }
+    };
+    for landing in landings {
+        let tightest = landing.tightest.as_ref();
+        rows.push(vec![
+            landing.landing.to_string(),
+            figures(landing.tolerance_deg),
+            if landing.corners > 1 { range(landing.last_corner_s) } else { "one corner".to_owned() },
+            range(landing.contact_time_s),
+            landing.as_one_to_deg.map_or("always".to_owned(), |deg| format!("to {}", figures(deg))),
+            tightest.map_or("-".to_owned(), |limit| shown(&limit.component, 24)),
+            tightest.map_or("-".to_owned(), |limit| limit.limit.name().to_owned()),
+            tightest
+                .and_then(|limit| limit.margin)
+                .map_or("-".to_owned(), |margin| format!("{:+.1} %", 100.0 * margin)),
+        ]);
+    }
+    writeln!(out)?;
+    Table { keys: 1, headings: 2, texts: 1, last_is_text: false, least: 9, rows }.write(out)?;
+    let clatter = landings.iter().filter(|landing| landing.may_clatter()).count();
+    let text = format!(
+        "{clatter} of {} drops may clatter: within their tolerance the last corner of the face or edge comes when the contact of the first is \
+         over, the gap over the speed. The same drop is one landing where it is turned off by less than stands under it.",
+        landings.len()
+    );
+    writeln!(out)?;
+    sentence(out, "", &text)
 }
 
 fn of_limit(file: &ProductFile, limit: &LimitLadder, out: &mut dyn Write) -> io::Result<()> {

@@ -61,8 +61,9 @@ use crate::{Failure, Streams, excitation};
 ///                   as in `clatter spectrum --help`; they may overlap
 ///
 /// --equivalent-pulse names the half-sine of a shock table that does the same to the component, in
-/// acceleration and in relative displacement to 1 %, or says that there is none. For that everything
-/// has to be in SI units, --velocity and --height-gap too.
+/// acceleration and in relative displacement to 1 %, or says that there is none; and the least service
+/// condition of JESD22-B110 whose pulse covers the drop: no smaller acceleration and displacement of the
+/// component. For that everything has to be in SI units, --velocity and --height-gap too.
 #[derive(Debug, clap::Args)]
 #[command(
     verbatim_doc_comment,

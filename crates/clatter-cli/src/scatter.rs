@@ -34,6 +34,11 @@ use crate::{Exit, Failure, Streams, assess, budget, output, quantities};
 /// of a part that fails less often may be wider. Where that saves nothing, it says so and answers each by the fuller
 /// model.
 ///
+/// A sample of a box is one product that goes through all of its drops, and survives if it survives each: what \[product\] and
+/// \[\[component\]\] give is drawn once for it, height or speed and attitude for each drop, every attitude within the tolerance equally
+/// likely. Told are the survival of the whole sequence and of each drop. A drop is followed past its first landing where the energy left may
+/// decide; where it still may in the end, the sample is open, and widens the intervals.
+///
 /// What drives a part: the share of the variance of its utilization (demand over allowed) that an input explains alone
 /// (first-order index of Sobol), and the way it goes: + more is worse, - less is worse, ~ neither throughout.
 ///
@@ -45,15 +50,17 @@ Examples:
   clatter scatter handheld.toml --samples=1e6 --seed=7 --format=json
   clatter scatter handheld.toml --target=99.9%       exit status 1 where that is not sure
   clatter scatter handheld.toml --samples=2000 -o samples.csv
+  clatter scatter handheld-transit.toml              26 drops of a box, one by one and in sequence
 
 Exit status: 0 done, 1 the target is missed, 2 bad input.")]
 pub(crate) struct Args {
     /// Product file
     #[arg(value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
     product: PathBuf,
-    /// How many drops, 1 to 1e12; where a cheap model helps, as many as the interval is worth
-    #[arg(long, value_name = "N", default_value = "1e5", allow_hyphen_values = true, value_parser = samples)]
-    samples: u64,
+    /// How many drops, 1 to 1e12; where a cheap model helps, as many as the interval is worth; of a box how many products, each of which goes
+    /// through all drops [default: 1e5, of a box 1000]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = samples)]
+    samples: Option<u64>,
     /// Another seed draws other drops
     #[arg(long, value_name = "S", default_value = "1", allow_hyphen_values = true, value_parser = seed)]
     seed: u64,
@@ -128,10 +135,10 @@ impl Args {
     }
 
     fn draw(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<Scatter, Failure> {
-        let settings =
-            Settings { samples: self.samples, seed: self.seed, confidence: self.confidence, merge_s: self.merge.si };
+        let samples = self.samples.unwrap_or_else(|| Settings::samples_of(file));
+        let settings = Settings { samples, seed: self.seed, confidence: self.confidence, merge_s: self.merge.si };
         let sampler = Sampler::new(file, settings)?;
-        let counted = Counted::begin("drawing", self.samples);
+        let counted = Counted::begin("drawing", samples);
         let Some(path) = &self.output else {
             let count = |progress: &Progress<'_>| {
                 counted.at(progress.done);
@@ -170,6 +177,12 @@ fn title(file: &ProductFile, column: Column) -> String {
         Column::AcrossM(i) => format!("position_across_m of {}", name_of(file, i)),
         Column::Limit(i, kind) => format!("{} limit of {}", kind.name(), name_of(file, i)),
         Column::CriticalAccelerationMS2(i) => format!("critical_acceleration_m_s2 of {}", name_of(file, i)),
+        Column::LandingSpeedMS(n) => format!("speed_m_s on {}", file.landings[n].attitude),
+        Column::LandingTiltDeg(n) => format!("tilt_deg on {}", file.landings[n].attitude),
+        Column::LandingDirectionDeg(n) => format!("direction_deg on {}", file.landings[n].attitude),
+        Column::LandingUtilization(n, i) => {
+            format!("utilization of {} on {}", name_of(file, i), file.landings[n].attitude)
+        }
         Column::Model => "model".to_owned(),
         Column::Utilization(i) => format!("utilization of {}", name_of(file, i)),
         _ => "value".to_owned(),

@@ -91,7 +91,10 @@ pub use pulse_fit::{PulseFit, fit_pulses, pulse_at};
 pub use required::{Deviation, RequiredSpectrum};
 pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshold};
 pub use spectrum::{Frequencies, Quantity, Spectrum, Summary};
-pub use standard::{STANDARD_CURVES, STANDARD_PULSES, StandardCurve, StandardPulse, standard_curve, standard_pulse};
+pub use standard::{
+    STANDARD_CURVES, STANDARD_PULSES, ServiceCondition, StandardCurve, StandardPulse, covering_condition,
+    standard_curve, standard_pulse,
+};
 pub use suspension::{DampingRatio, State, Suspension};
 pub use tolerance::{Distortion, PULSE_TOLERANCES, PulseCheck, PulseTolerance, Within, check_pulse, pulse_tolerance};
 pub use uneven::UnevenFilter;

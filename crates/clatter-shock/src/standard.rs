@@ -1,6 +1,6 @@
 //! Pulses and limit curves that standards state, as data with their sources.
 
-use crate::{Error, LimitCurve, Pulse, Quantity, STANDARD_GRAVITY_M_S2, Shape};
+use crate::{Error, LimitCurve, Pulse, Pulses, Quantity, Response, STANDARD_GRAVITY_M_S2, Shape, Suspension};
 
 /// A limit curve of a standard: a shock response spectrum that a test has to reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,6 +169,48 @@ pub fn standard_pulse(keyword: &str) -> Option<&'static StandardPulse> {
     PULSES.iter().find(|pulse| pulse.keyword.eq_ignore_ascii_case(keyword))
 }
 
+/// A service condition beside what a part goes through.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ServiceCondition {
+    /// The pulse.
+    pub pulse: &'static StandardPulse,
+    /// The largest acceleration that the pulse gives the part over that of its response, at least 1.
+    pub acceleration: f64,
+    /// The same of its relative displacement.
+    pub displacement: f64,
+}
+
+/// The least service condition of JESD22-B110 that covers a response: whose half-sine gives the part no smaller acceleration and no
+/// smaller relative displacement, as its spectra at the frequency and damping of the part tell. None where no condition does.
+///
+/// From one condition to the next both the peak and the velocity change rise: C, D, E, A, F, B, G, H.
+///
+/// # Examples
+/// A drop by 1 m that rebounds with e = 0.3 changes the velocity by 5.8 m/s, more than any condition: a part that is slow beside all
+/// of the pulses is not covered. One that follows the pulse of 1 ms is, by a peak that is higher.
+/// ```
+/// use clatter_shock::{DampingRatio, Pulse, Pulses, Shape, Suspension, covering_condition};
+/// let drop = Pulses::new(&[Pulse { shape: Shape::HalfSine, amplitude: 9046.0, duration: 1e-3, start: 0.0 }])?;
+/// let part = |hz| Suspension::from_hz(hz, DampingRatio::new(0.05).unwrap()).unwrap();
+/// let covers = |hz| covering_condition(&part(hz), &drop.respond(&part(hz))).map(|found| found.pulse.keyword);
+/// assert_eq!([covers(50.0), covers(5000.0)], [None, Some("JESD22-B110/B")]);
+/// # Ok::<(), clatter_shock::Error>(())
+/// ```
+#[must_use]
+pub fn covering_condition(suspension: &Suspension, response: &Response) -> Option<ServiceCondition> {
+    static PULSES: [StandardPulse; 12] = STANDARD_PULSES;
+    let conditions = PULSES.iter().rev().filter(|pulse| pulse.keyword.starts_with("JESD22-B110/"));
+    let beside = |pulse: &'static StandardPulse| {
+        let does = Pulses::new(&[pulse.pulse()]).ok()?.respond(suspension);
+        Some(ServiceCondition {
+            pulse,
+            acceleration: does.absolute_acceleration.magnitude() / response.absolute_acceleration.magnitude(),
+            displacement: does.relative_displacement.magnitude() / response.relative_displacement.magnitude(),
+        })
+    };
+    conditions.filter_map(beside).find(|of| of.acceleration >= 1.0 && of.displacement >= 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -214,5 +256,40 @@ mod tests {
             let same = |other: &&StandardPulse| other.keyword.eq_ignore_ascii_case(pulse.keyword);
             assert_eq!(STANDARD_PULSES.iter().filter(same).count(), 1, "{i}");
         }
+    }
+
+    /// What is told to cover does as much, and the next lower condition does less.
+    #[test]
+    fn the_least_condition_that_covers_is_told() {
+        let damping = crate::DampingRatio::new(0.05).expect("a ratio");
+        let order = ["C", "D", "E", "A", "F", "B", "G", "H"].map(|name| format!("JESD22-B110/{name}"));
+        let mut told = Vec::new();
+        for hz in [60.0, 200.0, 700.0, 3000.0, 20_000.0] {
+            let part = Suspension::from_hz(hz, damping).expect("a part");
+            let felt = |pulse: Pulse| Pulses::new(&[pulse]).expect("a pulse").respond(&part);
+            let peaks = |response: &Response| {
+                [response.absolute_acceleration.magnitude(), response.relative_displacement.magnitude()]
+            };
+            for (amplitude, duration) in
+                [(300.0, 2e-3), (2000.0, 3e-3), (4000.0, 5e-4), (15_000.0, 2e-4), (9000.0, 1e-3)]
+            {
+                let drop = felt(Pulse { shape: Shape::HalfSine, amplitude, duration, start: 0.0 });
+                let covers = |name: &String| {
+                    let pulse = standard_pulse(name).expect("built in").pulse();
+                    peaks(&felt(pulse)).into_iter().zip(peaks(&drop)).all(|(does, asked)| does >= asked)
+                };
+                let first = order.iter().find(|name| covers(name)).map(String::as_str);
+                assert_eq!(
+                    covering_condition(&part, &drop).map(|found| found.pulse.keyword),
+                    first,
+                    "{hz} Hz, {amplitude}"
+                );
+                told.push(first);
+            }
+        }
+        assert!(
+            told.contains(&None) && told.contains(&Some("JESD22-B110/C")) && told.contains(&Some("JESD22-B110/B")),
+            "{told:?}"
+        );
     }
 }

@@ -3,6 +3,7 @@
 use clatter_assess::{Answer, Unit};
 use clatter_shock::{
     DampingRatio, EquivalentPulse, ImpulseFactors, Response, STANDARD_GRAVITY_M_S2, ShockTable, Suspension,
+    covering_condition,
 };
 use serde::Serialize;
 
@@ -142,6 +143,36 @@ pub struct Equivalent {
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_equivalent_pulse: Option<String>,
+    /// The least service condition of JESD22-B110 that covers what the part goes through; null where none does.
+    pub service_condition: Option<ServiceCondition>,
+}
+
+/// A service condition of a shock test, beside what the part goes through.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct ServiceCondition {
+    /// Its name, as of `--pulse`.
+    pub pulse: &'static str,
+    /// Peak of its half-sine in standard gravities.
+    pub acceleration_g: Json,
+    /// How long that lasts.
+    pub duration_s: Json,
+    /// The largest acceleration that it gives the part over that in the drop.
+    pub acceleration_ratio: Json,
+    /// The same of the relative displacement.
+    pub displacement_ratio: Json,
+}
+
+impl From<clatter_shock::ServiceCondition> for ServiceCondition {
+    fn from(found: clatter_shock::ServiceCondition) -> Self {
+        Self {
+            pulse: found.pulse.keyword,
+            acceleration_g: Json(found.pulse.peak_g),
+            duration_s: Json(1e-3 * found.pulse.duration_ms),
+            acceleration_ratio: Json(found.acceleration),
+            displacement_ratio: Json(found.displacement),
+        }
+    }
 }
 
 /// A half-sine that gives a part the same acceleration.
@@ -162,14 +193,20 @@ pub struct HalfSine {
     pub displacement_mismatch: Json,
 }
 
+/// Why no pulse is equivalent to nothing.
+pub const NOTHING_FELT: &str = "nothing is felt here, which no pulse does";
+
 /// Mismatch of the relative displacement that an equivalent pulse may have.
 const EQUIVALENT: f64 = 0.01;
 
 impl Equivalent {
     pub(super) fn new(table: &ShockTable, suspension: &Suspension, response: &Response) -> Result<Self, Error> {
-        let none = |why: String| Self { equivalent_pulse: None, no_equivalent_pulse: Some(why) };
-        if response.absolute_acceleration.magnitude() <= 0.0 {
-            return Ok(none("nothing is felt here, which no pulse does".to_owned()));
+        let is_felt = response.absolute_acceleration.magnitude() > 0.0;
+        let covering = is_felt.then(|| covering_condition(suspension, response)).flatten();
+        let service_condition = covering.map(ServiceCondition::from);
+        let none = |why: String| Self { equivalent_pulse: None, no_equivalent_pulse: Some(why), service_condition };
+        if !is_felt {
+            return Ok(none(NOTHING_FELT.to_owned()));
         }
         let EquivalentPulse { pulse, displacement_mismatch } =
             match table.equivalent_half_sine(suspension, response, EQUIVALENT) {
@@ -184,7 +221,7 @@ impl Equivalent {
             velocity_change_m_s: Json(pulse.velocity_change()),
             displacement_mismatch: Json(displacement_mismatch),
         };
-        Ok(Self { equivalent_pulse: Some(half_sine), no_equivalent_pulse: None })
+        Ok(Self { equivalent_pulse: Some(half_sine), no_equivalent_pulse: None, service_condition })
     }
 }
 

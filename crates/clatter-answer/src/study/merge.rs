@@ -1,6 +1,6 @@
 //! All rows of a study, in order, to its answer.
 
-use clatter_assess::scatter::{Asked, Recount};
+use clatter_assess::scatter::{PartRow, Recount};
 use clatter_assess::{Component, LimitKind, ProductFile, Verdict};
 
 use super::answer::{Answer, Member, SearchedLimit, Told};
@@ -63,7 +63,7 @@ impl<'a> Merge<'a> {
         Ok(())
     }
 
-    fn counted(&mut self, asked: &[Option<Asked>]) -> Result<(), Error> {
+    fn counted(&mut self, asked: &[Option<PartRow>]) -> Result<(), Error> {
         let samples = self.study.plan.samples;
         if self.next > 0 && self.next.is_multiple_of(samples) {
             self.end();
@@ -130,12 +130,12 @@ impl<'a> Merge<'a> {
 }
 
 /// What a row tells of a part.
-fn of_part(component: &Component, cells: &mut impl Iterator<Item = f64>) -> Option<Asked> {
+fn of_part(component: &Component, cells: &mut impl Iterator<Item = f64>) -> Option<PartRow> {
     let mut cell = || cells.next().unwrap_or(f64::NAN);
     let (utilization, open) = (cell(), cell() > 0.0);
     let mut exceeded = [false; LimitKind::ALL.len()];
     for exceeded in exceeded.iter_mut().take(component.limits.kinds().len()) {
         *exceeded = cell() > 0.0;
     }
-    (!utilization.is_nan()).then_some(Asked { utilization, open, exceeded })
+    (!utilization.is_nan()).then_some(PartRow { utilization, open, exceeded })
 }

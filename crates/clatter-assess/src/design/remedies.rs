@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
-use super::trial::{Breakers, is_enough};
+use super::trial::{Breakers, is_enough, is_known_enough};
 use crate::quantity::Source;
 use crate::search::Watch;
 use crate::{Accuracy, Assessment, Component, ComponentAssessment, Error, Mount, ProductFile, Verdict};
@@ -30,6 +30,8 @@ impl ProductFile {
     /// printed. No mass is put outside of the body, ρ² ≤ `L_a L_b`. A value is passed over at once where a drop that broke the part before still does, and a search for its worst drop
     /// is left as soon as one breaks it: what takes its time is to find nothing. So the first value that no known drop breaks is
     /// searched, and what breaks it tells of the next. Two levers go from their present values to the best of each together.
+    ///
+    /// A box is searched in all of its drops, one after the other, until one breaks the part.
     ///
     /// # Limitation
     /// A safe stretch narrower than a step may be missed. Of pairs only those on the way to the best value of each lever are
@@ -58,7 +60,6 @@ impl ProductFile {
             return Err(Error::Number(margin));
         }
         self.check()?;
-        self.check_no_box("design")?;
         bounds.check()?;
         assessment.accuracy.check()?;
         assessment.is_of(self)?;
@@ -186,7 +187,7 @@ impl Case<'_> {
                 } else {
                     let room = nearest.as_ref().map(|nearest| nearest.after.tightest().room().min(self.margin));
                     let Some(all) = self.with_room(&at(SHARES), room, &mut breakers)? else { continue };
-                    if !is_enough(&all, self.margin) {
+                    if !is_known_enough(&all, self.margin) {
                         nearer(&mut nearest, &changes(SHARES), &all);
                         continue;
                     }

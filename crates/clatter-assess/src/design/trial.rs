@@ -2,13 +2,18 @@
 
 use super::lever::Lever;
 use super::remedies::Case;
-use crate::assess::Breaker;
+use crate::assess::{Breaker, Listed};
 use crate::search::{Ranges, Task};
-use crate::{ComponentAssessment, Error, Limit, ProductFile, Verdict};
+use crate::{ComponentAssessment, Error, Landing, Limit, ProductFile, Verdict, WorstCase};
 
 /// Whether a part is safe with a margin.
 pub(super) fn is_enough(found: &ComponentAssessment, margin: f64) -> bool {
     found.verdict == Verdict::Safe && found.tightest().room() >= margin
+}
+
+/// The same where every margin is known: of a change, drops that nothing answers show nothing.
+pub(super) fn is_known_enough(found: &ComponentAssessment, margin: f64) -> bool {
+    is_enough(found, margin) && found.limits.iter().all(|limit| limit.margin.is_some())
 }
 
 /// The same share but for roundings.
@@ -26,18 +31,25 @@ impl Breakers {
     }
     /// The tightest limit tells most, and is the last.
     fn learn(&mut self, file: &ProductFile, case: &Case<'_>, found: &ComponentAssessment) {
-        let ranges = case.ranges(file);
+        let listed = file.listed();
         let mut limits: Vec<_> = found.limits.iter().collect();
         limits.sort_by(|a, b| b.room().total_cmp(&a.room()));
         let worst = limits.into_iter().filter_map(|limit| limit.worst_case.as_ref());
-        let place = |worst| Breaker { other_law: false, place: ranges.place_of(case.component, worst) };
-        self.0.extend(worst.map(place));
+        let breaker = |worst: &WorstCase| {
+            let on = |landing: &Landing| Some(landing.attitude) == worst.landing;
+            let n = file.landings.iter().position(on).unwrap_or_default();
+            let ranges = case.ranges(file, &listed[n]);
+            Breaker { other_law: false, listed: n, place: ranges.place_of(case.component, worst) }
+        };
+        self.0.extend(worst.map(breaker));
     }
 }
 
 /// A product with the part alone, and what is asked of that.
 struct Changed {
     file: ProductFile,
+    /// Its drops.
+    listed: Vec<Listed>,
     limits: Vec<Limit>,
 }
 
@@ -57,16 +69,16 @@ impl Case<'_> {
     fn with(&self, values: &[(Lever, f64)]) -> Option<Changed> {
         let file = self.changed(values)?;
         let limits = Limit::of(file.components.first()?);
-        Some(Changed { file, limits })
+        Some(Changed { listed: file.listed(), file, limits })
     }
 
-    fn ranges<'b>(&self, file: &'b ProductFile) -> Ranges<'b> {
-        file.ranges(&self.accuracy)
+    fn ranges<'b>(&self, file: &'b ProductFile, listed: &'b Listed) -> Ranges<'b> {
+        file.ranges_of(&listed.drop, listed.posture, &self.accuracy)
     }
 
     /// The law by which a drop breaks the part, and what it may ask by it: where the file names no law, the part is to be safe by both.
-    fn by_law<'b>(&self, file: &'b ProductFile, breaker: &Breaker) -> (Ranges<'b>, f64) {
-        let own = self.ranges(file);
+    fn by_law<'b>(&self, changed: &'b Changed, breaker: &Breaker) -> (Ranges<'b>, f64) {
+        let own = self.ranges(&changed.file, &changed.listed[breaker.listed]);
         if breaker.other_law { (Ranges { law: own.law.other(), ..own }, 1.0) } else { (own, most(self.margin)) }
     }
 
@@ -74,7 +86,7 @@ impl Case<'_> {
     fn is_broken(&self, values: &[(Lever, f64)], breakers: &mut Breakers) -> bool {
         let Some(changed) = self.with(values) else { return true };
         let breaks = |breaker: &Breaker| {
-            let (ranges, most) = self.by_law(&changed.file, breaker);
+            let (ranges, most) = self.by_law(&changed, breaker);
             changed.tasks().any(|task| ranges.in_one(&task, &breaker.place) > most)
         };
         let by = breakers.0.iter().rposition(breaks);
@@ -88,9 +100,11 @@ impl Case<'_> {
     /// The most that known drops ask of the part with these values, by its own law.
     pub(super) fn asked(&self, values: &[(Lever, f64)], breakers: &Breakers) -> f64 {
         let Some(changed) = self.with(values) else { return f64::INFINITY };
-        let ranges = self.ranges(&changed.file);
         let own = breakers.0.iter().filter(|breaker| !breaker.other_law);
-        let asked = own.flat_map(|b| changed.tasks().map(move |task| ranges.in_one(&task, &b.place)));
+        let asked = own.flat_map(|b| {
+            let (ranges, _) = self.by_law(&changed, b);
+            changed.tasks().map(move |task| ranges.in_one(&task, &b.place))
+        });
         asked.fold(0.0, f64::max)
     }
 
@@ -106,10 +120,11 @@ impl Case<'_> {
     ) -> Result<Option<ComponentAssessment>, Error> {
         let most = room.map_or(f64::INFINITY, |room| most(room) * ALIKE);
         let Some(changed) = self.with(values) else { return Ok(None) };
-        let ranges = self.ranges(&changed.file);
-        let own = |breaker: &&Breaker| !breaker.other_law;
-        let mut known = breakers.0.iter().rev().filter(own);
-        if known.any(|breaker| changed.tasks().any(|task| ranges.asks_more(&task, &breaker.place, most))) {
+        let asks_more = |breaker: &Breaker| {
+            let (ranges, _) = self.by_law(&changed, breaker);
+            changed.tasks().any(|task| ranges.asks_more(&task, &breaker.place, most))
+        };
+        if breakers.0.iter().rev().filter(|breaker| !breaker.other_law).any(asks_more) {
             return Ok(None);
         }
         self.searched(&changed, [most, f64::INFINITY], breakers)
@@ -151,7 +166,7 @@ impl Case<'_> {
         let Some(changed) = self.with(values) else { return Ok(None) };
         let by_other = if self.file.product.contact_law.is_some() { f64::INFINITY } else { 1.0 };
         let found = self.searched(&changed, [most(self.margin) * ALIKE, by_other], breakers)?;
-        Ok(found.filter(|found| is_enough(found, self.margin)).map(Box::new))
+        Ok(found.filter(|found| is_known_enough(found, self.margin)).map(Box::new))
     }
 
     /// The first step of those up to `last` that makes the part safe with the margin, where the steps before fail and those after do not;

@@ -148,7 +148,7 @@ impl PlaceHistory<'_> {
         self.followed.kept_arms() * largest_m_s + (later - value).max(0.0)
     }
     fn is_box(&self) -> bool {
-        self.followed.drop.across.is_some_and(|across| across.posture.is_some())
+        self.followed.drop.is_box()
     }
     /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
     pub(super) fn later_of(&self, limit: &Limit) -> f64 {

@@ -3,17 +3,17 @@
 use super::{FINER, Groups, Ladder, Measured, Reference, Rung, cheapest, percent, time, with};
 use crate::assess::THIN;
 use crate::drop::{Across, Followed, Model, SingleDrop, Until};
-use crate::engine::{Part, answer, of_followed};
+use crate::engine::{Answer, Part, answer, of_followed};
 use crate::{Error, Limit};
 
 /// Until so long a box is followed, over the time of the peak that the plate of small tilt has.
-const BEYOND_PEAK: f64 = 1.5;
+pub(super) const BEYOND_PEAK: f64 = 1.5;
 /// A box is left where later presses do less than this share of the largest.
-const BLOCK: f64 = 1e-3;
+pub(super) const BLOCK: f64 = 1e-3;
 
 impl SingleDrop {
     /// The same drop without what is across: of the bar along the length, which rises to its other end as the edge does.
-    fn along(&self, across: &Across) -> Self {
+    pub(super) fn along(&self, across: &Across) -> Self {
         let rises = self.gaps_m(across)[0] / self.body.length_m();
         Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), ..*self }
     }
@@ -41,22 +41,18 @@ impl Ladder {
             Some(block) => (Rung::Block, block),
             None => (Rung::Plate, answer(drop, part, limit, Model::Compliant, FINER * tolerance)?),
         };
-        let mut models = Vec::new();
-        let mut measure = |model, part: &Part, follow: &dyn Fn() -> Result<Followed, Error>| -> Result<(), Error> {
-            let (found, seconds) = time::measured(|| of_followed(&follow()?, part, limit))?;
-            let error = (found.utilization() / exact.utilization() - 1.0).abs();
-            let strikes = follow()?.motion.struck_s().len();
-            models.push(Measured { model, value: found.value, error, seconds, strikes });
-            Ok(())
+        let measure = |model, part: &Part, follow: &dyn Fn() -> Result<Followed, Error>| {
+            measured(model, follow, part, limit, &exact)
         };
-        measure(Rung::Bar, &bar.1, &|| until(&bar.0))?;
-        measure(Rung::Plate, part, &|| until(drop))?;
+        let mut models =
+            vec![measure(Rung::Bar, &bar.1, &|| until(&bar.0))?, measure(Rung::Plate, part, &|| until(drop))?];
         if block.is_some() {
-            measure(Rung::Block, part, &as_block)?;
+            models.push(measure(Rung::Block, part, &as_block)?);
         }
         let groups = Groups::of(drop, part)?;
         let cheapest = cheapest(&models, tolerance).unwrap_or(fullest);
-        let mut reason = reason(&models, cheapest, tolerance, &groups);
+        let steep = with("real tilt counts", "φ²", Some(groups.geometry));
+        let mut reason = reason(&models, cheapest, tolerance, &groups, steep);
         if is_askew {
             reason.push_str("; no box is followed whose masses lie askew");
         }
@@ -66,8 +62,22 @@ impl Ladder {
     }
 }
 
-/// What the next cheaper body lacks.
-fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) -> String {
+/// A body on the drop, beside the exact answer.
+pub(super) fn measured(
+    model: Rung,
+    follow: &dyn Fn() -> Result<Followed, Error>,
+    part: &Part,
+    limit: &Limit,
+    exact: &Answer,
+) -> Result<Measured, Error> {
+    let (found, seconds) = time::measured(|| of_followed(&follow()?, part, limit))?;
+    let error = (found.utilization() / exact.utilization() - 1.0).abs();
+    let strikes = follow()?.motion.struck_s().len();
+    Ok(Measured { model, value: found.value, error, seconds, strikes })
+}
+
+/// What the next cheaper body lacks; of the plate that is told.
+pub(super) fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups, of_plate: String) -> String {
     let Some(coarser) = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance) else {
         let off = models.iter().find(|m| m.model == cheapest).map_or(f64::INFINITY, |m| m.error);
         return match cheapest {
@@ -81,7 +91,7 @@ fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) 
     };
     let lacks = match coarser.model {
         Rung::Bar => with("it turns about its length too, as no bar does", "h_y/h_x", groups.across),
-        _ => with("real tilt counts", "φ²", Some(groups.geometry)),
+        _ => of_plate,
     };
     format!("{}; {} is off by {}", lacks, coarser.model.name(), percent(coarser.error))
 }

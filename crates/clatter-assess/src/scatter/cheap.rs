@@ -20,7 +20,7 @@ const MOST_STRIKES: usize = 256;
 
 /// What a sample asks of every part, times a factor for each; nothing where the train has no answer.
 pub(super) fn answer(sample: &Sample, factors: &[f64], asked: &mut Vec<SampleDemand>) {
-    let drop = &sample.drop;
+    let drop = &sample.drops[0];
     let train = strikes(drop).unwrap_or_default();
     let each = sample.parts.iter().zip(factors);
     asked.clear();
@@ -68,7 +68,8 @@ fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) 
                 }
                 (Source::Shock | Source::Boundary, _) => shocks.largest(),
             };
-            asked.raise(k, factor * value / limit.allowed, 0.0);
+            let used = factor * value / limit.allowed;
+            asked.raise(k, used, [used; 2]);
         }
     }
     Ok(asked)
@@ -77,7 +78,7 @@ fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ContactLaw, Limit, LimitKind, Model, Part};
+    use crate::{ContactLaw, Inside, Limit, LimitKind, Model, Part};
     use clatter_flight::Body;
     use clatter_shock::{DampingRatio, Suspension};
     use proptest::prelude::*;
@@ -110,13 +111,15 @@ mod tests {
                 limits.push(Limit::new(LimitKind::Acceleration, 3000.0));
             }
             for limit in limits {
-                let part = PartSample { at_m: [ends_m[0], 0.0], reaches_m: [ends_m, [0.0; 2]], suspension, limits: vec![limit] };
+                let (at_m, inside) = ([ends_m[0], 0.0], Inside::default());
+                let reaches_m = [ends_m, [0.0; 2]];
+                let part = PartSample { at_m, reaches_m, inside, suspension, limits: vec![limit] };
                 let known = part.ends().iter().map(|x| {
                     let part = Part::new(*x, suspension);
                     crate::answer(&drop, &part, &limit, Model::Map, 1e-6).unwrap().utilization()
                 });
                 let known = known.fold(0.0, f64::max);
-                let sample = Sample { uniforms: Vec::new(), drop, parts: vec![part] };
+                let sample = Sample { uniforms: Vec::new(), drops: vec![drop], parts: vec![part] };
                 let mut asked = Vec::new();
                 answer(&sample, &[2.0], &mut asked);
                 let found = 0.5 * asked[0].utilization;

@@ -76,7 +76,7 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
         let sample = few.sample(body, *e, pick(1, few.drops.len()));
         let (mut cheap, mut full) = (Vec::new(), Vec::new());
         cheap::answer(&sample, &vec![1.0; sample.parts.len()], &mut cheap);
-        full::answer(&sample, &mut full);
+        full::answer(&sample.drops[0], &sample.parts, &mut full);
         error(&cheap, &full)
     };
     let tried = if points.is_empty() { 0 } else { TRIED };
@@ -134,7 +134,8 @@ fn variants(component: &Component) -> Result<Vec<PartSample>, crate::Error> {
     let reaches_m = component.reaches_m();
     let part = |suspension| {
         let limits = Limit::of(component);
-        PartSample { at_m: reaches_m.map(|[lo, hi]| 0.5 * (lo + hi)), reaches_m, suspension, limits }
+        let (at_m, inside) = (reaches_m.map(|[lo, hi]| 0.5 * (lo + hi)), component.inside);
+        PartSample { at_m, reaches_m, inside, suspension, limits }
     };
     Ok(suspensions.into_iter().map(part).collect())
 }
@@ -187,7 +188,7 @@ impl Corners {
     /// One of the drops, of another body and restitution.
     fn sample(&self, body: &Body, e: f64, drop: usize) -> Sample {
         let drop = SingleDrop { body: *body, restitution: e, ..self.drops[drop] };
-        Sample { uniforms: Vec::new(), drop, parts: self.parts.clone() }
+        Sample { uniforms: Vec::new(), drops: vec![drop], parts: self.parts.clone() }
     }
 
     fn closed(&self, body: &Body, e: f64) -> Vec<Option<f64>> {
@@ -195,7 +196,7 @@ impl Corners {
         let even = vec![1.0; sample.parts.len()];
         let mut worst = Worst::new(&self.counts);
         for drop in &self.drops {
-            sample.drop = SingleDrop { body: *body, restitution: e, ..*drop };
+            sample.drops[0] = SingleDrop { body: *body, restitution: e, ..*drop };
             cheap::answer(&sample, &even, &mut asked);
             worst.raise(&asked, |asked, most| Some(asked.utilization.max(most)));
         }
@@ -206,7 +207,7 @@ impl Corners {
         let mut worst = Worst::new(&self.counts);
         for drop in &self.drops {
             let drop = SingleDrop { body: *body, restitution: e, ..*drop };
-            let mut followings = FollowedDrops::of(&drop);
+            let mut followings = FollowedDrops::of(&drop, &self.parts);
             worst.raise(&self.parts, |part, most| followings.larger(part, most).ok());
         }
         worst.verdicts()

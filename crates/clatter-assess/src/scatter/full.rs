@@ -1,7 +1,9 @@
 //! A sample by the model with the most physics that the data allow.
 
+use std::f64::consts::PI;
+
 use super::SampleDemand;
-use super::sample::{PartSample, Sample};
+use super::sample::PartSample;
 use crate::drop::{Followed, Until};
 use crate::engine::PlaceHistory;
 use crate::quantity::Source;
@@ -13,6 +15,10 @@ const TOLERANCE: f64 = 0.005;
 const FINER: [f64; 2] = [5e-4, 5e-5];
 /// How exactly a drop is answered of which only the largest of many counts.
 const COARSE: f64 = 0.02;
+/// What the steps of a box, and the straight lines between them, may get wrong of a demand.
+const STEPS: f64 = 1e-3;
+/// So many times v/g a box is followed on: through its bounces up to a restitution of 0.6, through the first two of any.
+const BOUNCES: f64 = 4.0;
 
 /// One drop, followed as far as its parts ask for it.
 ///
@@ -21,6 +27,8 @@ const COARSE: f64 = 0.02;
 #[derive(Debug)]
 pub(super) struct FollowedDrops<'a> {
     drop: &'a SingleDrop,
+    /// The first swing of the slowest part takes so long at most.
+    swing_s: f64,
     early: LazyDrop,
     whole: LazyDrop,
     finer: [LazyDrop; 2],
@@ -30,12 +38,17 @@ pub(super) struct FollowedDrops<'a> {
 type LazyDrop = Option<Result<Followed, Error>>;
 
 impl<'a> FollowedDrops<'a> {
-    pub(super) fn of(drop: &'a SingleDrop) -> Self {
-        Self { drop, early: None, whole: None, finer: [None, None] }
+    pub(super) fn of(drop: &'a SingleDrop, parts: &[PartSample]) -> Self {
+        let suspensions = parts.iter().filter_map(|part| part.suspension.as_ref());
+        let swing_s = suspensions.map(|part| PI / part.omega()).fold(0.0, f64::max);
+        Self { drop, swing_s, early: None, whole: None, finer: [None, None] }
     }
 
     /// What the drop asks of a part; why, where it is not answered.
     pub(super) fn answer(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
+        if self.drop.is_box() {
+            return self.of_box(part);
+        }
         let mut asked = self.passing(part, TOLERANCE, LEAST)?;
         for (following, tolerance) in self.finer.iter_mut().zip(FINER) {
             if !asked.is_open() {
@@ -48,6 +61,24 @@ impl<'a> FollowedDrops<'a> {
             asked = finer;
         }
         Ok(asked)
+    }
+
+    /// The same of a box: by its first landing and the first swing of its parts, and by what follows where its energy may decide whether
+    /// a limit holds. Where what is left of it in the end still may, the sample is open.
+    fn of_box(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
+        let drop = self.drop;
+        let follow = |following: &mut LazyDrop, until| {
+            let follow = || Followed::until(drop, drop.fullest(), TOLERANCE, until);
+            let followed = following.get_or_insert_with(follow);
+            followed.as_ref().map_err(Clone::clone).and_then(|followed| of_part_of_box(followed, part))
+        };
+        let first = follow(&mut self.early, Until::Past(self.swing_s))?;
+        if !first.is_open() {
+            return Ok(first);
+        }
+        let on_s = if drop.gravity_m_s2 > 0.0 { BOUNCES * drop.speed_m_s / drop.gravity_m_s2 } else { 0.0 };
+        // A motion that is too long to be followed stays open.
+        Ok(follow(&mut self.whole, Until::Past(on_s.max(self.swing_s))).unwrap_or(first))
     }
 
     /// The larger of a utilization and what the drop asks of a part.
@@ -75,11 +106,11 @@ impl<'a> FollowedDrops<'a> {
     }
 }
 
-/// What a sample asks of every part; why, of those that it does not answer.
-pub(super) fn answer(sample: &Sample, asked: &mut Vec<Result<SampleDemand, Error>>) {
-    let mut followings = FollowedDrops::of(&sample.drop);
+/// What a drop asks of every part; why, of those that it does not answer.
+pub(super) fn answer(drop: &SingleDrop, parts: &[PartSample], asked: &mut Vec<Result<SampleDemand, Error>>) {
+    let mut followings = FollowedDrops::of(drop, parts);
     asked.clear();
-    asked.extend(sample.parts.iter().map(|part| followings.answer(part)));
+    asked.extend(parts.iter().map(|part| followings.answer(part)));
 }
 
 /// Below every utilization: what a drop asks passes it, 0 too, unless it is no number.
@@ -90,14 +121,17 @@ fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Sample
     let mut asked = SampleDemand::default();
     let mut goes_on = false;
     let felt: Vec<PlaceHistory<'_>> =
-        part.places().into_iter().map(|at_m| PlaceHistory::new(followed, at_m)).collect::<Result<_, Error>>()?;
+        part.spots().into_iter().map(|spot| PlaceHistory::new(followed, spot)).collect::<Result<_, Error>>()?;
     let each = || felt.iter().flat_map(|felt| part.limits.iter().enumerate().map(move |(k, limit)| (k, felt, limit)));
     for (k, felt, limit) in each() {
         if above >= 0.0 && !may_pass(felt, limit, &followed.drop, above)? {
             continue;
         }
         match felt.answer(limit, part.suspension.as_ref(), above)? {
-            Some(answer) => asked.raise(k, answer.utilization(), answer.error()),
+            Some(answer) => {
+                let (used, error) = (answer.utilization(), answer.error());
+                asked.raise(k, used, [used / (1.0 + error), used * (1.0 + error)]);
+            }
             None if above >= 0.0 => {}
             // It may have been left before the part began to move.
             _ if followed.is_early() => goes_on = true,
@@ -107,6 +141,26 @@ fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Sample
     let most = asked.utilization.max(above);
     goes_on |= each().any(|(_, felt, limit)| may_pass_later(felt, limit, part, &followed.drop, most));
     Ok((asked, goes_on))
+}
+
+/// What a followed drop of a box asks of a part, and what it may ask by the energy that is left.
+fn of_part_of_box(followed: &Followed, part: &PartSample) -> Result<SampleDemand, Error> {
+    let mut asked = SampleDemand::default();
+    for spot in part.spots() {
+        let felt = PlaceHistory::new(followed, spot)?;
+        for (k, limit) in part.limits.iter().enumerate() {
+            let answer = felt.answer_or_nothing(limit, part.suspension.as_ref())?;
+            let used = answer.utilization();
+            // A boundary is passed by both of its quantities, and what is off nothing has no share.
+            let later = if used > 0.0 && limit.kind.source() != Source::Boundary {
+                used + answer.off_by / answer.allowed
+            } else {
+                felt.later_most(limit, part.suspension.as_ref(), used)
+            };
+            asked.raise(k, used, [used / (1.0 + STEPS), later.max(used * (1.0 + STEPS))]);
+        }
+    }
+    Ok(asked)
 }
 
 /// The acceleration that a damage boundary asks for besides its velocity change, as a limit of its own; without a contact time no

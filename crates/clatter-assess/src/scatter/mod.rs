@@ -15,6 +15,16 @@
 //! Where a body lands after it has bounced clear is sensitive to every input. What such a landing asks in one sample may differ from
 //! one tolerance to another; how many samples fail does not.
 //!
+//! # Boxes
+//! A sample of a box is one product that goes through all of its drops, and survives if it survives each. What \[product\] and
+//! \[\[component\]\] give is drawn once for it and is the same in all drops: masses, restitution and contact time, places, frequencies,
+//! limits. What belongs to a drop is drawn for each: its height or speed, and its attitude, of which all within the tolerance are equally
+//! likely. No drop wears a part: each is held against the same limits.
+//!
+//! A drop of a box is followed through its first landing, and on through what follows, for 4 v/g at most, where the energy left may decide
+//! whether a limit holds. Where in the end it still may, the sample counts as a failure for the lower end and as none for the upper:
+//! it is open, too. Utilizations are those of what was followed.
+//!
 //! # Samples
 //! Input i of sample k is the counter (k, i) of Philox4x32-10 under the seed: it is the same alone, in any run, on any number of
 //! threads and on any machine. Sums are made in blocks of fixed size, merged in order, so that the answer is the same as well,
@@ -26,6 +36,7 @@ mod draw;
 mod drivers;
 mod extremes;
 mod full;
+mod landing;
 mod levels;
 mod philox;
 mod rows;
@@ -34,7 +45,8 @@ mod tally;
 
 use rayon::prelude::*;
 
-use crate::{Component, LimitKind, Model, ProductFile};
+use crate::{Attitude, Component, LimitKind, Model, ProductFile};
+use landing::sequence;
 use levels::{Levels, float, round};
 use sample::{Inputs, Sample};
 use tally::Block;
@@ -42,8 +54,9 @@ use tally::Block;
 pub use binomial::{Probability, clopper_pearson};
 pub use drivers::Share;
 pub use extremes::{Extremes, extremes};
+pub use landing::{LandingComponent, LandingScatter, OfLanding};
 pub use levels::Pilot;
-pub use rows::{Asked, Recount};
+pub use rows::{PartRow, Recount};
 pub use sample::Input;
 
 /// Why nothing can be drawn.
@@ -76,7 +89,8 @@ pub enum Error {
 /// How to draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How many drops answered by the full model the intervals are as wide as.
+    /// How many drops answered by the full model the intervals are as wide as; of a box how many products, each of which goes through all
+    /// of its drops.
     pub samples: u64,
     /// Another seed, other drops.
     pub seed: u64,
@@ -85,6 +99,15 @@ pub struct Settings {
     /// Instant impacts that are closer than this are one, as of an [assessment](crate::Accuracy): a sample whose ends land so closely
     /// lands flat.
     pub merge_s: f64,
+}
+
+impl Settings {
+    /// Samples unless said otherwise: 100 000 drops; of a box 1000 products, whose 26 drops take from some 6 s to a minute, by how often
+    /// more than the first landing decides.
+    #[must_use]
+    pub fn samples_of(file: &ProductFile) -> u64 {
+        if file.landings.is_empty() { 100_000 } else { 1000 }
+    }
 }
 
 /// What came of all samples.
@@ -111,8 +134,12 @@ pub struct Scatter {
     pub unanswered: u64,
     /// Why the first of them was not.
     pub reason: Option<crate::Error>,
+    /// Samples in which what an answer may be off by decides whether all survive, as of [`ComponentScatter`].
+    pub open: u64,
     /// In the order of the file.
     pub components: Vec<ComponentScatter>,
+    /// Of a box, what came of each of its drops, in the order of the file; else empty.
+    pub landings: Vec<LandingScatter>,
 }
 
 /// What came of one component. Counts are of the samples asked for; where not all are answered by the full model, as estimated.
@@ -188,6 +215,12 @@ pub enum Column {
     PositionM(usize),
     /// Where it is across a plate, in m, where it varies.
     AcrossM(usize),
+    /// Speed at the first touch in one of the drops of a box, in m/s; drops by their order in the file.
+    LandingSpeedMS(usize),
+    /// How far it is turned off what it lands on there, in degrees.
+    LandingTiltDeg(usize),
+    /// Towards where, in degrees.
+    LandingDirectionDeg(usize),
     /// A limit of a part in the unit of its kind, where it varies.
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part in m/s², where it varies.
@@ -196,6 +229,8 @@ pub enum Column {
     Model,
     /// Utilization of a part; by the cheap model times a factor, so that as many drops fail in the first batch: the largest demand over allowed. It survives up to 1. NaN where the model has no answer.
     Utilization(usize),
+    /// In one of the drops of a box, the utilization of a part.
+    LandingUtilization(usize, usize),
 }
 
 /// What a sample asks of a part.
@@ -210,12 +245,19 @@ struct SampleDemand {
 }
 
 impl SampleDemand {
-    /// Takes in what one limit is asked, which may be off by a share.
-    fn raise(&mut self, limit: usize, used: f64, error: f64) {
+    /// Takes in what one limit is asked, and what that is at least and at most.
+    fn raise(&mut self, limit: usize, used: f64, within: [f64; 2]) {
         self.utilization = self.utilization.max(used);
-        self.within[0] = self.within[0].max(used / (1.0 + error));
-        self.within[1] = self.within[1].max(used * (1.0 + error));
+        self.within = [0, 1].map(|end| self.within[end].max(within[end]));
         self.fails[limit] |= used > 1.0;
+    }
+    /// The larger of both, limit by limit.
+    fn largest(self, other: &Self) -> Self {
+        Self {
+            utilization: self.utilization.max(other.utilization),
+            within: [0, 1].map(|end| self.within[end].max(other.within[end])),
+            fails: std::array::from_fn(|limit| self.fails[limit] || other.fails[limit]),
+        }
     }
     /// Whether what it may be off by decides if it survives.
     fn is_open(&self) -> bool {
@@ -223,8 +265,24 @@ impl SampleDemand {
     }
 }
 
+/// What a sample asks of every part; a list is empty where a model was not asked.
+#[derive(Debug, Default)]
+struct Answers {
+    /// By the cheap model.
+    cheap: Vec<SampleDemand>,
+    /// By the full one, in all drops.
+    full: Vec<OfPart>,
+    /// The same in each drop of a box.
+    landings: Vec<Vec<OfPart>>,
+}
+
+/// What is asked of a part; why, where that is not answered.
+type OfPart = Result<SampleDemand, crate::Error>;
+
 /// Samples of one block; sums are made within blocks and then over blocks, in order.
 const BLOCK: u64 = 1024;
+/// Drops of boxes in a block, each of which takes longer.
+const BLOCK_OF_BOXES: u64 = 128;
 /// Samples at most.
 const MOST_SAMPLES: u64 = 1_000_000_000_000;
 
@@ -234,6 +292,8 @@ pub struct Sampler {
     settings: Settings,
     inputs: Inputs,
     components: Vec<Component>,
+    /// Of a box.
+    attitudes: Vec<Attitude>,
     fullest: Model,
 }
 
@@ -256,8 +316,9 @@ impl Sampler {
             return Err(Error::Setting { name: "confidence", value: confidence, allowed: "in (0, 1)" });
         }
         let inputs = Inputs::new(file, settings.merge_s)?;
-        let fullest = inputs.blank().drop.fullest();
-        Ok(Self { settings, inputs, components: file.components.clone(), fullest })
+        let fullest = inputs.blank().drops[0].fullest();
+        let attitudes = file.landings.iter().map(|landing| landing.attitude).collect();
+        Ok(Self { settings, inputs, components: file.components.clone(), attitudes, fullest })
     }
 
     /// What each sample of [`Progress::values`] consists of.
@@ -284,7 +345,9 @@ impl Sampler {
         let levels = levels.flatten();
         let samples = levels.as_ref().map_or(asked_for, |levels| levels.samples);
         let near = self.near();
-        let blocks = samples.div_ceil(BLOCK);
+        let landings = self.inputs.landings() as u64;
+        let block = BLOCK_OF_BOXES.checked_div(landings).map_or(BLOCK, |samples| samples.max(1));
+        let blocks = samples.div_ceil(block);
         let together = 4 * rayon::current_num_threads() as u64;
         let mut total = Block::new(&self.components, &self.inputs, &near);
         let mut next = 0;
@@ -293,13 +356,13 @@ impl Sampler {
             let until = blocks.min(next + together);
             let drawn: Vec<Block> = (next..until)
                 .into_par_iter()
-                .map(|b| self.block([b * BLOCK, samples.min((b + 1) * BLOCK)], levels.as_ref(), keep, &near, go_on))
+                .map(|b| self.block([b * block, samples.min((b + 1) * block)], levels.as_ref(), keep, &near, go_on))
                 .collect();
-            for block in drawn {
-                total.merge(&block);
-                watch(&Progress { done: done(total.all.samples), values: &block.values })?;
+            for drawn in drawn {
+                total.merge(&drawn);
+                watch(&Progress { done: done(total.all.samples), values: &drawn.values })?;
                 next += 1;
-                if total.all.samples < samples.min(next * BLOCK) {
+                if total.all.samples < samples.min(next * block) {
                     break 'drawing;
                 }
             }
@@ -310,11 +373,12 @@ impl Sampler {
 
     /// What came of all blocks, for the intervals of so many samples.
     fn summary(&self, total: Block, samples: u64, pilot: Option<Pilot>) -> Scatter {
-        let Block { tallies, all, reason, .. } = total;
+        let Block { tallies, landings, all, reason, .. } = total;
         let settings = Settings { samples, ..self.settings };
         let each = self.components.iter().zip(tallies.iter().zip(&self.inputs.of_part));
         let components: Vec<_> =
             each.map(|(component, (tally, own))| tally.summary(component, &self.inputs, own, &settings)).collect();
+        let [_, open, unanswered] = all.counts(settings.samples);
         Scatter {
             settings,
             model: self.fullest,
@@ -324,9 +388,11 @@ impl Sampler {
             inputs: self.inputs.varied.clone(),
             assumed_even: self.inputs.assumed_even.clone(),
             survival: all.survival(settings.confidence),
-            unanswered: round(float(all.unanswered) * float(settings.samples) / float(all.both.max(1))),
+            unanswered,
             reason,
+            open,
             components,
+            landings: self.attitudes.iter().zip(&landings).map(|(on, tally)| tally.summary(*on, &settings)).collect(),
         }
     }
 
@@ -339,8 +405,9 @@ impl Sampler {
             if !go_on() {
                 return vec![(0.0, false); parts];
             }
-            let (mut sample, mut cheap, mut full) = (self.inputs.blank(), Vec::new(), Vec::new());
-            self.answer(BATCH + k, Some(&vec![1.0; parts]), true, &mut sample, &mut cheap, &mut full);
+            let (mut sample, mut asked) = (self.inputs.blank(), Answers::default());
+            self.answer(BATCH + k, Some(&vec![1.0; parts]), true, &mut sample, &mut asked);
+            let Answers { cheap, full, .. } = asked;
             let fails = |full: &Result<SampleDemand, _>| full.as_ref().map_or(true, |asked| asked.utilization > 1.0);
             cheap.iter().zip(&full).map(|(cheap, full)| (cheap.utilization, fails(full))).collect()
         };
@@ -350,33 +417,36 @@ impl Sampler {
 
     /// The utilizations of the first sample: sums count from there.
     fn near(&self) -> Vec<f64> {
-        let (mut sample, mut full) = (self.inputs.blank(), Vec::new());
-        self.answer(0, None, true, &mut sample, &mut Vec::new(), &mut full);
+        let (mut sample, mut asked) = (self.inputs.blank(), Answers::default());
+        self.answer(0, None, true, &mut sample, &mut asked);
         let utilization = |asked: &Result<SampleDemand, _>| asked.as_ref().map_or(0.0, |asked| asked.utilization);
-        full.iter().map(utilization).map(|used| if used.is_finite() { used } else { 0.0 }).collect()
+        asked.full.iter().map(utilization).map(|used| if used.is_finite() { used } else { 0.0 }).collect()
     }
 
     /// Draws a sample, and what it asks by the cheap model, times these factors, and by the full one; a list is left empty where that
     /// one is not asked.
-    fn answer(
-        &self,
-        k: u64,
-        factors: Option<&[f64]>,
-        follow: bool,
-        sample: &mut Sample,
-        cheap: &mut Vec<SampleDemand>,
-        full: &mut Vec<Result<SampleDemand, crate::Error>>,
-    ) {
+    fn answer(&self, k: u64, factors: Option<&[f64]>, follow: bool, sample: &mut Sample, asked: &mut Answers) {
+        let Answers { cheap, full, landings } = asked;
         cheap.clear();
         full.clear();
+        landings.clear();
         let drawn = self.inputs.draw(self.settings.seed, k, sample);
         if let Some(factors) = factors {
             cheap::answer(sample, factors, cheap);
         }
         match drawn {
             _ if !follow => {}
-            Ok(()) => full::answer(sample, full),
-            Err(error) => full.resize(self.components.len(), Err(error)),
+            Ok(()) if self.inputs.is_box() => {
+                landings.resize_with(sample.drops.len(), Vec::new);
+                let each = sample.drops.iter().zip(landings.iter_mut());
+                each.for_each(|(drop, asked)| full::answer(drop, &sample.parts, asked));
+                full.extend((0..sample.parts.len()).map(|i| sequence(landings.iter().map(|landing| &landing[i]))));
+            }
+            Ok(()) => full::answer(&sample.drops[0], &sample.parts, full),
+            Err(error) => {
+                full.resize(self.components.len(), Err(error));
+                landings.resize(self.inputs.landings(), full.clone());
+            }
         }
     }
 
@@ -391,19 +461,21 @@ impl Sampler {
     ) -> Block {
         let mut block = Block::new(&self.components, &self.inputs, near);
         let columns = if keep { self.columns() } else { Vec::new() };
-        let (mut sample, mut cheap, mut full) = (self.inputs.blank(), Vec::new(), Vec::new());
+        let (mut sample, mut asked) = (self.inputs.blank(), Answers::default());
         for k in from..to {
             if k > 0 && !go_on() {
                 break;
             }
             let follow = levels.is_none_or(|levels| k % levels.one_in == 0);
             let factors = levels.map(|levels| &levels.factors[..]);
-            self.answer(k, factors, follow, &mut sample, &mut cheap, &mut full);
-            block.take(k, &cheap, &full, &self.inputs, &sample.uniforms);
+            self.answer(k, factors, follow, &mut sample, &mut asked);
+            block.take(k, &asked, &self.inputs, &sample.uniforms);
+            let used = |asked: &OfPart| asked.as_ref().map_or(f64::NAN, |asked| asked.utilization);
             block.values.extend(columns.iter().map(|column| match column {
                 Column::Model => f64::from(u8::from(!follow)),
-                Column::Utilization(i) if follow => full[*i].as_ref().map_or(f64::NAN, |asked| asked.utilization),
-                Column::Utilization(i) => cheap[*i].utilization,
+                Column::Utilization(i) if follow => used(&asked.full[*i]),
+                Column::Utilization(i) => asked.cheap[*i].utilization,
+                Column::LandingUtilization(n, i) => used(&asked.landings[*n][*i]),
                 other => sample.value(*other),
             }));
         }

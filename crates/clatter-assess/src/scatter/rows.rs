@@ -9,12 +9,12 @@ use rayon::prelude::*;
 
 use super::sample::Sample;
 use super::tally::Block;
-use super::{BLOCK, Column, SampleDemand, Sampler, Scatter};
+use super::{Answers, BLOCK, Column, SampleDemand, Sampler, Scatter};
 use crate::LimitKind;
 
 /// What a sample asks of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Asked {
+pub struct PartRow {
     /// The largest demand over allowed of its limits.
     pub utilization: f64,
     /// Whether what it may be off by decides if the part survives.
@@ -23,7 +23,7 @@ pub struct Asked {
     pub exceeded: [bool; LimitKind::ALL.len()],
 }
 
-impl Asked {
+impl PartRow {
     fn new(asked: &SampleDemand) -> Self {
         Self { utilization: asked.utilization, open: asked.is_open(), exceeded: asked.fails }
     }
@@ -67,21 +67,22 @@ impl Sampler {
         samples: Range<u64>,
         columns: &[Column],
         done: &(dyn Fn(u64) + Sync),
-    ) -> Vec<(Vec<f64>, Vec<Option<Asked>>)> {
+    ) -> Vec<(Vec<f64>, Vec<Option<PartRow>>)> {
         let pieces = (samples.end - samples.start).div_ceil(PIECE);
         let piece = |i: u64| {
             let from = samples.start + i * PIECE;
             let until = samples.end.min(from + PIECE);
-            let (mut sample, mut full) = (self.inputs.blank(), Vec::new());
+            let (mut sample, mut answers) = (self.inputs.blank(), Answers::default());
             let row = |k| {
-                self.answer(k, None, true, &mut sample, &mut Vec::new(), &mut full);
+                self.answer(k, None, true, &mut sample, &mut answers);
+                let full = &answers.full;
                 if full.iter().all(Result::is_err) {
                     // What could not be drawn is not to be that of the sample before.
                     sample = self.inputs.blank();
                     let _ = self.inputs.draw(self.settings.seed, k, &mut sample);
                 }
                 let values = columns.iter().map(|column| in_si(&sample, *column)).collect();
-                (values, full.iter().map(|asked| asked.as_ref().ok().map(Asked::new)).collect())
+                (values, full.iter().map(|asked| asked.as_ref().ok().map(PartRow::new)).collect())
             };
             let rows: Vec<_> = (from..until).map(row).collect();
             done(until - from);
@@ -94,8 +95,8 @@ impl Sampler {
 /// A quantity of a sample in SI.
 fn in_si(sample: &Sample, column: Column) -> f64 {
     match column {
-        Column::TiltDeg => sample.drop.tilt_rad,
-        Column::DirectionDeg => sample.drop.across.map_or(f64::NAN, |across| across.direction_rad),
+        Column::TiltDeg => sample.drops[0].tilt_rad,
+        Column::DirectionDeg => sample.drops[0].across.map_or(f64::NAN, |across| across.direction_rad),
         other => sample.value(other),
     }
 }
@@ -121,22 +122,23 @@ impl Recount {
     }
 
     /// Takes in what the next sample asks of each part.
-    pub fn take(&mut self, asked: &[Option<Asked>]) {
+    pub fn take(&mut self, asked: &[Option<PartRow>]) {
         let (sampler, k) = (&self.sampler, self.next);
         let _ = sampler.inputs.draw(sampler.settings.seed, k, &mut self.sample); // its numbers stand, whatever is refused
-        let mut again = Vec::new();
+        let mut again = Answers::default();
         let known = self.total.reason.as_ref().or(self.block.reason.as_ref());
         if known.is_none() && asked.iter().any(Option::is_none) {
             // Why it has no answer was not kept, and is found once more.
-            sampler.answer(k, None, true, &mut self.sample, &mut Vec::new(), &mut again);
+            sampler.answer(k, None, true, &mut self.sample, &mut again);
         }
         let reason = |i: usize| {
-            let own = again.get(i).and_then(|asked: &Result<_, crate::Error>| asked.as_ref().err());
+            let own = again.full.get(i).and_then(|asked: &Result<_, crate::Error>| asked.as_ref().err());
             own.or(known).cloned().unwrap_or(crate::Error::Unfinished)
         };
         let each = asked.iter().enumerate();
-        let full: Vec<_> = each.map(|(i, asked)| asked.map(|asked| asked.demand()).ok_or_else(|| reason(i))).collect();
-        self.block.take(k, &[], &full, &sampler.inputs, &self.sample.uniforms);
+        let full = each.map(|(i, asked)| asked.map(|asked| asked.demand()).ok_or_else(|| reason(i))).collect();
+        let answers = Answers { full, ..Answers::default() };
+        self.block.take(k, &answers, &sampler.inputs, &self.sample.uniforms);
         self.next += 1;
         if self.next.is_multiple_of(BLOCK) {
             self.total.merge(&self.block);

@@ -7,12 +7,15 @@ use clatter_flight::Body;
 use clatter_shock::Suspension;
 
 use super::draw::Quantile;
+use super::landing::OfLanding;
 use super::philox::Stream;
 use super::{Column, Error};
+use crate::assess::Listed;
 use crate::component::places;
-use crate::drop::Across;
+use crate::drop::{Across, Posture};
+use crate::engine::Spot;
 use crate::quantity::Source;
-use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
+use crate::{Component, Damping, Fall, First, Inside, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +49,8 @@ pub enum Input {
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part.
     CriticalAcceleration(usize),
+    /// What one of the drops of a box has of its own; drops by their order in the file.
+    Landing(usize, OfLanding),
 }
 
 impl Input {
@@ -55,10 +60,10 @@ impl Input {
     pub fn name(&self) -> &'static str {
         match self {
             Self::First => "first",
-            Self::Direction => "direction",
-            Self::Height => "height",
-            Self::Speed => "speed",
-            Self::Tilt => "tilt",
+            Self::Direction | Self::Landing(_, OfLanding::Direction) => "direction",
+            Self::Height | Self::Landing(_, OfLanding::Height) => "height",
+            Self::Speed | Self::Landing(_, OfLanding::Speed) => "speed",
+            Self::Tilt | Self::Landing(_, OfLanding::Tilt) => "tilt",
             Self::Restitution => "restitution",
             Self::ContactTime => "contact-time",
             Self::Gyration => "radius-of-gyration",
@@ -69,6 +74,11 @@ impl Input {
             Self::Limit(..) => "limit",
             Self::CriticalAcceleration(_) => "critical-acceleration",
         }
+    }
+    /// The drop of a box that it belongs to, by its order in the file; none of what all drops share.
+    #[must_use]
+    pub fn landing(&self) -> Option<usize> {
+        if let Self::Landing(n, _) = self { Some(*n) } else { None }
     }
     /// The part that it belongs to, by its index in the file; none of what all parts share.
     #[must_use]
@@ -99,6 +109,11 @@ impl Input {
             Self::Across(i) => column == Column::AcrossM(i),
             Self::Limit(i, kind) => column == Column::Limit(i, kind),
             Self::CriticalAcceleration(i) => column == Column::CriticalAccelerationMS2(i),
+            Self::Landing(n, of) => match of {
+                OfLanding::Height | OfLanding::Speed => column == Column::LandingSpeedMS(n),
+                OfLanding::Tilt => column == Column::LandingTiltDeg(n),
+                OfLanding::Direction => column == Column::LandingDirectionDeg(n),
+            },
         }
     }
     /// Which of the uniform numbers of a sample it is drawn from, whatever else is drawn. There is room for other inputs and kinds of
@@ -106,6 +121,9 @@ impl Input {
     fn number(self) -> u32 {
         const SHARED: u32 = 16;
         const OWN: u32 = 32;
+        /// Beyond the last part.
+        const LANDINGS: u32 = 1 << 20;
+        const OF_LANDING: u32 = 8;
         let own = match self {
             Self::First => return 0,
             Self::Height | Self::Speed => return 1,
@@ -120,6 +138,8 @@ impl Input {
             Self::CriticalAcceleration(_) => 3,
             Self::Across(_) => 4,
             Self::Limit(_, kind) => 8 + kind as u32,
+            #[expect(clippy::cast_possible_truncation, reason = "a list has some tens of drops")]
+            Self::Landing(n, of) => return LANDINGS + OF_LANDING * n as u32 + of.number(),
         };
         #[expect(clippy::cast_possible_truncation, reason = "a file has at most 1000 parts")]
         let component = self.component().unwrap_or_default() as u32;
@@ -153,15 +173,24 @@ pub(super) struct Inputs {
     /// What is the same in all drops.
     drop: SingleDrop,
     firsts: &'static [End],
-    fall: Drawn,
-    is_height: bool,
-    tilt: Drawn,
     restitution: Drawn,
     contact_time: Option<Drawn>,
     gyration: Option<Drawn>,
-    /// Of a plate.
-    direction: Option<Drawn>,
+    /// One of a bar and of a plate; of a box those that it goes through.
+    drops: Vec<DropInputs>,
     parts: Vec<PartInputs>,
+}
+
+/// What one drop is drawn from.
+#[derive(Debug)]
+struct DropInputs {
+    /// Of a box, how it lands but for its tolerance.
+    posture: Option<Posture>,
+    fall: Drawn,
+    is_height: bool,
+    tilt: Drawn,
+    /// Of a plate and of a box.
+    direction: Option<Drawn>,
 }
 
 #[derive(Debug)]
@@ -169,16 +198,18 @@ struct PartInputs {
     /// Along the length, and across a plate.
     position: [Drawn; 2],
     extent_m: [f64; 2],
+    inside: Inside,
     mount: Option<(Drawn, Drawn, Damping)>,
     limits: Vec<(LimitKind, Drawn, Option<Drawn>)>,
 }
 
-/// A drop and the parts in it.
+/// A product that is dropped, and the parts in it.
 #[derive(Debug)]
 pub(super) struct Sample {
     /// Of each input that varies, the uniform number that it comes from.
     pub(super) uniforms: Vec<f64>,
-    pub(super) drop: SingleDrop,
+    /// One of a bar and of a plate; of a box all that it goes through, one after the other.
+    pub(super) drops: Vec<SingleDrop>,
     pub(super) parts: Vec<PartSample>,
 }
 
@@ -189,6 +220,7 @@ pub(super) struct PartSample {
     pub(super) at_m: [f64; 2],
     /// From where to where it reaches along the product and across it, the same for a point.
     pub(super) reaches_m: [[f64; 2]; 2],
+    pub(super) inside: Inside,
     pub(super) suspension: Option<Suspension>,
     pub(super) limits: Vec<Limit>,
 }
@@ -200,8 +232,9 @@ impl PartSample {
         if along[0] < along[1] { along } else { &along[..1] }
     }
     /// Places at which a drop with contacts is answered, as [`Component::places_m`](crate::Component::places_m).
-    pub(super) fn places(&self) -> Vec<[f64; 2]> {
-        places(self.reaches_m, self.limits.iter().map(|limit| limit.kind))
+    pub(super) fn spots(&self) -> Vec<Spot> {
+        let places = places(self.reaches_m, self.limits.iter().map(|limit| limit.kind));
+        places.into_iter().map(|at_m| Spot { at_m, inside: self.inside }).collect()
     }
 }
 
@@ -252,7 +285,26 @@ impl Finder {
                 critical.map(|spread| self.drawn(Input::CriticalAcceleration(i), spread, &of)).transpose()?;
             limits.push((kind, allowed, critical));
         }
-        Ok(PartInputs { position, extent_m: [component.extent_m, component.extent_across_m], mount, limits })
+        let extent_m = [component.extent_m, component.extent_across_m];
+        Ok(PartInputs { position, extent_m, inside: component.inside, mount, limits })
+    }
+
+    /// Height or speed and tilt of a drop, of a box of that of its list.
+    fn drop(&mut self, listed: &Listed, landing: Option<usize>) -> Result<DropInputs, Error> {
+        let Listed { drop, posture } = listed;
+        let of_box = |of: OfLanding, other: Input| landing.map_or(other, |n| Input::Landing(n, of));
+        let (fall, is_height) = match &drop.fall {
+            Fall::HeightM(height) => (self.drawn(of_box(OfLanding::Height, Input::Height), height, "")?, true),
+            Fall::SpeedMS(speed) => (self.drawn(of_box(OfLanding::Speed, Input::Speed), speed, "")?, false),
+        };
+        let mut tilt_rad = drop.tilt_rad;
+        if posture.is_some() && !tilt_rad.is_value() {
+            // All attitudes within the tolerance: rings of them grow with the angle.
+            self.assumed_even.push(of_box(OfLanding::Tilt, Input::Tilt));
+            tilt_rad = Spread::new(tilt_rad.lo(), tilt_rad.hi(), Law::Triangular { mode: tilt_rad.hi() })?;
+        }
+        let tilt = self.drawn(of_box(OfLanding::Tilt, Input::Tilt), &tilt_rad, "")?;
+        Ok(DropInputs { posture: *posture, fall, is_height, tilt, direction: None })
     }
 }
 
@@ -260,19 +312,18 @@ impl Inputs {
     /// The inputs of a product, all checked.
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         file.check()?;
-        file.check_no_box("scatter")?;
         crate::verdict::merge(merge_s)?;
-        let (product, drop) = (&file.product, &file.drop);
+        let (product, drop, listed) = (&file.product, &file.drop, file.listed());
         let mut finder = Finder::default();
-        let across = product.width.map(|width| Across { width, direction_rad: 0.0, posture: None });
+        let across = product.width.map(|width| Across { width, direction_rad: 0.0, posture: listed[0].posture });
         if drop.first == First::Either && across.is_none() {
             finder.varied.push(Input::First);
         }
-        let (fall, is_height) = match &drop.fall {
-            Fall::HeightM(height) => (finder.drawn(Input::Height, height, "")?, true),
-            Fall::SpeedMS(speed) => (finder.drawn(Input::Speed, speed, "")?, false),
-        };
-        let tilt = finder.drawn(Input::Tilt, &drop.tilt_rad, "")?;
+        let number = |n: usize| (!file.landings.is_empty()).then_some(n);
+        let mut drops = Vec::with_capacity(listed.len());
+        for (n, one) in listed.iter().enumerate() {
+            drops.push(finder.drop(one, number(n))?);
+        }
         let restitution = finder.drawn(Input::Restitution, &product.restitution, "")?;
         let contact_time =
             product.contact_time_s.map(|time| finder.drawn(Input::ContactTime, &time, "")).transpose()?;
@@ -280,9 +331,12 @@ impl Inputs {
             .then(|| finder.drawn(Input::Gyration, &product.gyration_m, ""))
             .transpose()?;
         let any = Spread::new(0.0, TAU, Law::Uniform)?;
-        let direction = across
-            .map(|_| finder.drawn(Input::Direction, drop.direction_rad.as_ref().unwrap_or(&any), ""))
-            .transpose()?;
+        for (n, one) in drops.iter_mut().enumerate().filter(|_| across.is_some()) {
+            let input = number(n).map_or(Input::Direction, |n| Input::Landing(n, OfLanding::Direction));
+            // A box that is turned off nothing is turned towards nothing.
+            let any = if one.posture.is_some() && one.tilt.input.is_none() { Spread::finite(0.0) } else { any };
+            one.direction = Some(finder.drawn(input, drop.direction_rad.as_ref().unwrap_or(&any), "")?);
+        }
         let shared = finder.varied.len();
         let (mut parts, mut of_part) = (Vec::new(), Vec::new());
         for (i, component) in file.components.iter().enumerate() {
@@ -296,7 +350,7 @@ impl Inputs {
             first: drop.first_ends()[0],
             tilt_rad: drop.tilt_rad.lo(),
             flat: false,
-            speed_m_s: drop.speeds_m_s()[0],
+            speed_m_s: listed[0].drop.speeds_m_s()[0],
             restitution: product.restitution.lo(),
             gravity_m_s2: drop.gravity_m_s2,
             contact_time_s: product.contact_time_s.map(|time| time.lo()),
@@ -311,13 +365,10 @@ impl Inputs {
             of_part,
             drop: same,
             firsts,
-            fall,
-            is_height,
-            tilt,
             restitution,
             contact_time,
             gyration,
-            direction,
+            drops,
             parts,
         })
     }
@@ -327,10 +378,11 @@ impl Inputs {
         let limit = |(kind, ..): &(LimitKind, _, _)| Limit::new(*kind, f64::INFINITY);
         let part = |part: &PartInputs| {
             let limits = part.limits.iter().map(limit).collect();
-            PartSample { at_m: [0.0; 2], reaches_m: [[0.0; 2]; 2], suspension: None, limits }
+            let (at_m, reaches_m) = ([0.0; 2], [[0.0; 2]; 2]);
+            PartSample { at_m, reaches_m, inside: part.inside, suspension: None, limits }
         };
         let parts = self.parts.iter().map(part).collect();
-        Sample { uniforms: vec![0.0; self.varied.len()], drop: self.drop, parts }
+        Sample { uniforms: vec![0.0; self.varied.len()], drops: vec![self.drop; self.drops.len()], parts }
     }
 
     /// Sample k of a seed.
@@ -339,8 +391,8 @@ impl Inputs {
         for (uniform, input) in sample.uniforms.iter_mut().zip(&self.varied) {
             *uniform = stream.at(input.number());
         }
-        let Sample { uniforms, drop, parts } = sample;
-        self.drop(uniforms, drop)?;
+        let Sample { uniforms, drops, parts } = sample;
+        self.product(uniforms, drops)?;
         for (inputs, part) in self.parts.iter().zip(parts) {
             part.at_m = inputs.position.map(|position| position.at(uniforms));
             part.reaches_m = [0, 1].map(|side| {
@@ -364,33 +416,37 @@ impl Inputs {
         self.drop.across.is_none()
     }
 
-    /// The drop that these uniform numbers give.
-    pub(super) fn drop(&self, uniforms: &[f64], drop: &mut SingleDrop) -> Result<(), crate::Error> {
-        drop.first = match *self.firsts {
-            [end] => end,
-            _ if uniforms[0] < 0.5 => End::A,
-            _ => End::B,
-        };
-        if let (Some(across), Some(direction)) = (&mut drop.across, &self.direction) {
-            across.direction_rad = direction.at(uniforms);
-            drop.first = across.first();
+    /// The drops that these uniform numbers give, all of one product.
+    fn product(&self, uniforms: &[f64], drops: &mut [SingleDrop]) -> Result<(), crate::Error> {
+        for (inputs, drop) in self.drops.iter().zip(drops) {
+            if let (Some(across), Some(direction)) = (&mut drop.across, &inputs.direction) {
+                across.posture = inputs.posture;
+                across.direction_rad = direction.at(uniforms);
+                drop.first = across.first();
+            } else {
+                drop.first = match *self.firsts {
+                    [end] => end,
+                    _ if uniforms[0] < 0.5 => End::A,
+                    _ => End::B,
+                };
+            }
+            let fall = inputs.fall.at(uniforms);
+            drop.speed_m_s = if inputs.is_height { (2.0 * drop.gravity_m_s2 * fall).sqrt() } else { fall };
+            drop.tilt_rad = inputs.tilt.at(uniforms);
+            drop.restitution = self.restitution.at(uniforms);
+            drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
+            if let Some(gyration) = &self.gyration {
+                let [a, b] = drop.body.arms_m();
+                drop.body = Body::off_center(a, b, gyration.at(uniforms))?;
+            }
+            drop.flat = drop.lands_as_one(self.merge_s);
         }
-        let fall = self.fall.at(uniforms);
-        drop.speed_m_s = if self.is_height { (2.0 * drop.gravity_m_s2 * fall).sqrt() } else { fall };
-        drop.tilt_rad = self.tilt.at(uniforms);
-        drop.restitution = self.restitution.at(uniforms);
-        drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
-        if let Some(gyration) = &self.gyration {
-            let [a, b] = drop.body.arms_m();
-            drop.body = Body::off_center(a, b, gyration.at(uniforms))?;
-        }
-        drop.flat = drop.lands_as_one(self.merge_s);
         Ok(())
     }
 
     /// What a sample may be described by: all that the product has, whether it varies or not.
     pub(super) fn quantities(&self) -> Vec<Column> {
-        let is_plate = self.direction.is_some();
+        let is_plate = self.drops[0].direction.is_some();
         let falls = if is_plate { Column::DirectionDeg } else { Column::First };
         let mut all = vec![falls, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
         all.extend(self.contact_time.map(|_| Column::ContactTimeS));
@@ -406,11 +462,26 @@ impl Inputs {
         }
         all
     }
+    /// Whether the drops are those of a box.
+    pub(super) fn is_box(&self) -> bool {
+        self.drops[0].posture.is_some()
+    }
+    /// How many drops of a box a sample goes through; none of a bar and of a plate.
+    pub(super) fn landings(&self) -> usize {
+        if self.is_box() { self.drops.len() } else { 0 }
+    }
 
     /// What a row of values holds.
     pub(super) fn columns(&self) -> Vec<Column> {
-        let falls = if self.direction.is_some() { Column::DirectionDeg } else { Column::First };
-        let mut columns = vec![falls, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
+        let mut columns = Vec::new();
+        if self.is_box() {
+            let of = |n| [Column::LandingSpeedMS(n), Column::LandingTiltDeg(n), Column::LandingDirectionDeg(n)];
+            columns.extend((0..self.drops.len()).flat_map(of));
+        } else {
+            let falls = if self.drop.across.is_some() { Column::DirectionDeg } else { Column::First };
+            columns.extend([falls, Column::SpeedMS, Column::TiltDeg]);
+        }
+        columns.push(Column::Restitution);
         columns.extend(self.contact_time.map(|_| Column::ContactTimeS));
         columns.extend(self.gyration.map(|_| Column::GyrationM));
         for (i, part) in self.parts.iter().enumerate() {
@@ -426,6 +497,10 @@ impl Inputs {
         }
         columns.push(Column::Model);
         columns.extend((0..self.parts.len()).map(Column::Utilization));
+        if self.is_box() {
+            let of = |n| (0..self.parts.len()).map(move |i| Column::LandingUtilization(n, i));
+            columns.extend((0..self.drops.len()).flat_map(of));
+        }
         columns
     }
 }
@@ -435,14 +510,20 @@ impl Sample {
     pub(super) fn value(&self, column: Column) -> f64 {
         let suspension = |i: usize| self.parts[i].suspension.as_ref();
         let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
+        // What the product has is the same in all of its drops.
+        let drop = &self.drops[0];
+        let direction = |drop: &SingleDrop| drop.across.map(|across| across.direction_rad.to_degrees());
         let value = match column {
-            Column::First => Some(if self.drop.first == End::A { 0.0 } else { 1.0 }),
-            Column::DirectionDeg => self.drop.across.map(|across| across.direction_rad.to_degrees()),
-            Column::SpeedMS => Some(self.drop.speed_m_s),
-            Column::TiltDeg => Some(self.drop.tilt_rad.to_degrees()),
-            Column::Restitution => Some(self.drop.restitution),
-            Column::ContactTimeS => self.drop.contact_time_s,
-            Column::GyrationM => Some(self.drop.body.gyration_m()),
+            Column::First => Some(if drop.first == End::A { 0.0 } else { 1.0 }),
+            Column::DirectionDeg => direction(drop),
+            Column::SpeedMS => Some(drop.speed_m_s),
+            Column::TiltDeg => Some(drop.tilt_rad.to_degrees()),
+            Column::LandingDirectionDeg(n) => direction(&self.drops[n]),
+            Column::LandingSpeedMS(n) => Some(self.drops[n].speed_m_s),
+            Column::LandingTiltDeg(n) => Some(self.drops[n].tilt_rad.to_degrees()),
+            Column::Restitution => Some(drop.restitution),
+            Column::ContactTimeS => drop.contact_time_s,
+            Column::GyrationM => Some(drop.body.gyration_m()),
             Column::FrequencyHz(i) => suspension(i).map(|part| part.omega() / TAU),
             Column::DampingRatio(i) => suspension(i).map(|part| part.damping().get()),
             Column::PositionM(i) => Some(self.parts[i].at_m[0]),
@@ -451,7 +532,7 @@ impl Sample {
             Column::CriticalAccelerationMS2(i) => {
                 limit(i, LimitKind::DamageBoundary).map(|limit| limit.critical_acceleration_m_s2)
             }
-            Column::Model | Column::Utilization(_) => None,
+            Column::Model | Column::Utilization(_) | Column::LandingUtilization(..) => None,
         };
         value.unwrap_or(f64::NAN)
     }

@@ -3,8 +3,9 @@
 #![expect(clippy::option_option, reason = "not asked, without an answer, answered")]
 
 use super::drivers::Sums;
+use super::landing::{LandingTally, all_of};
 use super::levels::{Count, float, round};
-use super::{ComponentScatter, Driver, Inputs, Probability, SampleDemand, Settings};
+use super::{Answers, ComponentScatter, Driver, Inputs, Probability, SampleDemand, Settings};
 use crate::{Component, Error, Limit};
 
 impl Count {
@@ -30,12 +31,22 @@ impl Count {
     fn of(&self, samples: u64, which: usize) -> u64 {
         round(float(samples) * self.probability(which).clamp(0.0, 1.0))
     }
+
+    /// Of the samples asked for, those that fail, that are open and that are not answered.
+    pub(super) fn counts(&self, samples: u64) -> [u64; 3] {
+        let Self { more, fewer, unanswered, both, .. } = *self;
+        let scaled = |count: u64| round(float(count) * float(samples) / float(both.max(1)));
+        let open = (more[2] + fewer[1]).saturating_sub(more[1] + fewer[2] + unanswered);
+        [self.of(samples, 0).saturating_sub(scaled(unanswered)), scaled(open), scaled(unanswered)]
+    }
 }
 
 /// What came of one block.
 #[derive(Debug)]
 pub(super) struct Block {
     pub(super) tallies: Vec<Tally>,
+    /// Of each drop of a box.
+    pub(super) landings: Vec<LandingTally>,
     pub(super) all: Count,
     pub(super) reason: Option<Error>,
     pub(super) values: Vec<f64>,
@@ -45,40 +56,30 @@ impl Block {
     pub(super) fn new(components: &[Component], inputs: &Inputs, near: &[f64]) -> Self {
         let each = components.iter().zip(&inputs.of_part).zip(near);
         let tallies = each.map(|((component, own), near)| Tally::new(component, own.len(), *near)).collect();
-        Self { tallies, all: Count::default(), reason: None, values: Vec::new() }
+        let landings = vec![LandingTally::new(components.len()); inputs.landings()];
+        Self { tallies, landings, all: Count::default(), reason: None, values: Vec::new() }
     }
 
     /// Takes in sample k; an empty list where a model was not asked.
-    pub(super) fn take(
-        &mut self,
-        k: u64,
-        cheap: &[SampleDemand],
-        full: &[Result<SampleDemand, Error>],
-        inputs: &Inputs,
-        uniforms: &[f64],
-    ) {
+    pub(super) fn take(&mut self, k: u64, asked: &Answers, inputs: &Inputs, uniforms: &[f64]) {
+        let Answers { cheap, full, landings } = asked;
         for (i, (tally, own)) in self.tallies.iter_mut().zip(&inputs.of_part).enumerate() {
             let full = full.get(i).map(|full| full.as_ref().ok());
             tally.take(k, cheap.get(i), full, own.iter().map(|input| uniforms[*input]));
         }
-        let largest = |most: SampleDemand, asked: &SampleDemand| SampleDemand {
-            utilization: most.utilization.max(asked.utilization),
-            within: [0, 1].map(|end| most.within[end].max(asked.within[end])),
-            ..most
-        };
-        let cheap = cheap.iter().fold(SampleDemand::default(), largest);
-        let together: Result<SampleDemand, Error> = full.iter().try_fold(SampleDemand::default(), |most, asked| {
-            asked.as_ref().map(|asked| largest(most, asked)).map_err(Clone::clone)
-        });
+        let cheap = cheap.iter().fold(SampleDemand::default(), SampleDemand::largest);
+        let together = all_of(full);
         self.all.take(Some(&cheap), (!full.is_empty()).then_some(together.as_ref().ok()));
         if self.reason.is_none() {
             self.reason = together.err();
         }
+        self.landings.iter_mut().zip(landings).for_each(|(tally, parts)| tally.take(parts));
     }
 
     pub(super) fn merge(&mut self, later: &Self) {
         self.all.merge(&later.all);
         self.tallies.iter_mut().zip(&later.tallies).for_each(|(sum, later)| sum.merge(later));
+        self.landings.iter_mut().zip(&later.landings).for_each(|(sum, later)| sum.merge(later));
         if self.reason.is_none() {
             self.reason.clone_from(&later.reason);
         }
@@ -143,13 +144,12 @@ impl Tally {
             own.iter().zip(shares).map(|(input, share)| Driver { input: inputs.varied[*input], share }).collect();
         drivers.sort_by(|a, b| b.share.variance.total_cmp(&a.share.variance));
         let kinds = Limit::of(component).into_iter().map(|limit| limit.kind);
-        let Count { more, fewer, unanswered, both, .. } = self.count;
-        let scaled = |count: u64| round(float(count) * float(settings.samples) / float(both.max(1)));
+        let [failures, open, unanswered] = self.count.counts(settings.samples);
         ComponentScatter {
             name: component.name.clone(),
-            failures: self.count.of(settings.samples, 0).saturating_sub(scaled(unanswered)),
-            open: scaled((more[2] + fewer[1]).saturating_sub(more[1] + fewer[2] + unanswered)),
-            unanswered: scaled(unanswered),
+            failures,
+            open,
+            unanswered,
             survival: self.count.survival(settings.confidence),
             limits: kinds.zip(self.limits.iter().map(|count| count.of(settings.samples, 0))).collect(),
             mean_utilization: self.sums.mean(),

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use clatter_answer::design::{Answer, margin};
 use clatter_assess::design::{Change, Lever, Outcome, Remedies, Remedy, Together};
-use clatter_assess::{ComponentAssessment, Verdict};
+use clatter_assess::{ComponentAssessment, Drop, ProductFile, Verdict};
 
 use crate::numbers::{digits, figures, given};
 use crate::text::{field, shown};
@@ -60,6 +60,13 @@ fn cells(outcome: &str, Change { from, to, .. }: &Change, after: &ComponentAsses
     format!("{outcome},{}", numbers.join(","))
 }
 
+/// The highest speed at the first touch, of a box in any of its drops.
+fn fastest(file: &ProductFile) -> f64 {
+    let of = |fall| Drop { fall, ..file.drop }.speeds_m_s()[1];
+    let of_box = file.landings.iter().map(|landing| of(landing.fall)).reduce(f64::max);
+    of_box.unwrap_or(of(file.drop.fall))
+}
+
 impl Found<'_> {
     /// A value of a lever of a part in words, a range where it is one, in the unit of the file.
     fn value(&self, part: &Remedies, lever: Lever, value: [f64; 2]) -> String {
@@ -80,7 +87,7 @@ impl Found<'_> {
         let more = match lever {
             Lever::InertiaRatio => format!(", q {} -> {}", digits_of(from[0], 4), digits_of(to[0], 4)),
             Lever::ContactTime => {
-                let [_, fastest] = self.0.file.drop.speeds_m_s();
+                let fastest = fastest(self.0.file);
                 // That of the hysteretic law: τ = (π/2)(1 + e) d/v.
                 let give_m = to[1] * fastest / (FRAC_PI_2 * (1.0 + self.0.file.product.restitution.lo()));
                 format!(", an edge that gives by {} mm", digits_of(1e3 * give_m, 2))
@@ -95,7 +102,8 @@ impl Found<'_> {
         let e = either([product.restitution.lo(), product.restitution.hi()].map(short), "");
         let is = match product.width {
             None => format!("q = {}", figures(product.inertia_ratio())),
-            Some(_) => "a plate".to_owned(),
+            Some(_) if self.0.file.landings.is_empty() => "a plate".to_owned(),
+            Some(_) => "a box".to_owned(),
         };
         writeln!(out, "{}: {is}, e = {e}", shown(&product.name, 60))?;
         let (wanted, count) = (given(100.0 * self.0.margin), self.0.assessment.components.len());

@@ -32,7 +32,7 @@ impl Args {
 
     pub(super) fn block(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         if self.output.is_some() || self.flat || self.equivalent_pulse {
-            return Err(Failure::Usage("-o, --flat and --equivalent-pulse go with bars alone"));
+            return Err(Failure::Usage("-o, --flat and --equivalent-pulse do not go with a box"));
         }
         let gyration = self.inertia.given().map(|radii| radii.of_block(self.inertia.flag())).transpose()?;
         let setup = self.drop.block(&BesideBlock {

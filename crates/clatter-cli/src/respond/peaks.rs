@@ -2,19 +2,29 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::respond::{Equivalent, Factors, HalfSine, LargestValues};
+use clatter_answer::respond::{Equivalent, Factors, HalfSine, LargestValues, NOTHING_FELT, ServiceCondition};
 
 use crate::numbers::figures;
 use crate::quantities::Show;
 
 /// The equivalent pulse for people.
 pub(super) fn equivalent_table(equivalent: Option<&Equivalent>, out: &mut dyn Write) -> io::Result<()> {
-    let Some(Equivalent { equivalent_pulse, no_equivalent_pulse, .. }) = equivalent else { return Ok(()) };
-    let Some(HalfSine { acceleration_g, duration_s, velocity_change_m_s, displacement_mismatch, .. }) =
-        equivalent_pulse
-    else {
-        return writeln!(out, "\nShock table: {}", no_equivalent_pulse.as_deref().unwrap_or_default());
+    let Some(Equivalent { equivalent_pulse, no_equivalent_pulse, service_condition, .. }) = equivalent else {
+        return Ok(());
     };
+    match equivalent_pulse {
+        Some(pulse) => half_sine(pulse, out)?,
+        None => writeln!(out, "\nShock table: {}", no_equivalent_pulse.as_deref().unwrap_or_default())?,
+    }
+    match service_condition {
+        Some(of) => covered(of, out),
+        None if no_equivalent_pulse.as_deref() == Some(NOTHING_FELT) => Ok(()),
+        None => writeln!(out, "Shock test: no service condition of JESD22-B110 does as much to the component"),
+    }
+}
+
+fn half_sine(pulse: &HalfSine, out: &mut dyn Write) -> io::Result<()> {
+    let HalfSine { acceleration_g, duration_s, velocity_change_m_s, displacement_mismatch, .. } = pulse;
     let (g, ms) = (figures(acceleration_g.0), figures(1e3 * duration_s.0));
     let velocity = figures(velocity_change_m_s.0);
     let off = figures(100.0 * displacement_mismatch.0);
@@ -22,6 +32,17 @@ pub(super) fn equivalent_table(equivalent: Option<&Equivalent>, out: &mut dyn Wr
         out,
         "\nShock table: a half-sine of {g} g and {ms} ms (velocity change {velocity} m/s) gives the component the\n\
          same acceleration, and a relative displacement that differs by {off} %"
+    )
+}
+
+/// The least service condition that covers a drop.
+fn covered(of: &ServiceCondition, out: &mut dyn Write) -> io::Result<()> {
+    let ServiceCondition { pulse, acceleration_g, duration_s, acceleration_ratio, displacement_ratio, .. } = of;
+    let [g, ms, a, z] = [acceleration_g.0, 1e3 * duration_s.0, acceleration_ratio.0, displacement_ratio.0].map(figures);
+    writeln!(
+        out,
+        "Shock test: {pulse} ({g} g, {ms} ms) is the least service condition that covers it, with {a} times the\n\
+         acceleration and {z} times the relative displacement"
     )
 }
 

@@ -4,15 +4,19 @@ use std::io::{self, Write};
 
 use clatter_answer::scatter::Answer;
 use clatter_assess::ProductFile;
-use clatter_assess::scatter::{ComponentScatter, Driver, Input, Pilot, Probability, Scatter, Settings};
+use clatter_assess::scatter::{
+    ComponentScatter, Driver, Input, LandingComponent, OfLanding, Pilot, Probability, Scatter, Settings,
+};
 
 use super::name_of;
-use crate::columns::Table;
+use crate::columns::{Table, sentence};
 use crate::numbers::{digits, figures, given};
 use crate::text::{field, shown};
 
 /// Inputs that explain less than this share are not named.
 const NAMED: f64 = 0.01;
+/// What chance makes of the share of an input that does nothing, times the samples: a standard deviation.
+const NOISE: f64 = 7.9;
 
 /// How an input is called in a table: its name; what a part alone has is the part's own.
 fn called(input: &Input) -> &'static str {
@@ -28,6 +32,12 @@ fn called(input: &Input) -> &'static str {
         Input::Gyration => "radius of gyration",
         other => other.name(),
     }
+}
+
+/// The same, with the drop of a box that it belongs to.
+fn of_drop(file: &ProductFile, input: &Input) -> String {
+    let name = called(input);
+    input.landing().map_or_else(|| name.to_owned(), |n| format!("{name} on {}", file.landings[n].attitude))
 }
 
 /// Which way it goes, where that accounts for at least half of what the input does.
@@ -53,7 +63,14 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     let Settings { samples, seed, confidence, .. } = scatter.settings;
     let (product, sure) = (shown(&file.product.name, 60), given(100.0 * confidence));
     let (drawn, followed) = (scatter.drawn, scatter.followed);
-    if followed < drawn {
+    let is_box = !scatter.landings.is_empty();
+    if is_box {
+        let drops = match scatter.landings.len() {
+            1 => "its drop".to_owned(),
+            n => format!("its {n} drops, one after the other"),
+        };
+        writeln!(out, "{product}: {samples} products drawn with seed {seed}; each goes through {drops}")?;
+    } else if followed < drawn {
         writeln!(out, "{product}: {drawn} drops drawn with seed {seed}, for the intervals of {samples}")?;
     } else {
         writeln!(out, "{product}: {samples} drops drawn with seed {seed}")?;
@@ -62,9 +79,10 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     let Probability { estimate, lo, at_least, .. } = scatter.survival;
     writeln!(
         out,
-        "All parts survive in {} % of them; in at least {} % of all drops ({sure} % confidence)",
+        "All parts survive in {} % of them; in at least {} % of all {} ({sure} % confidence)",
         hundredths(estimate),
-        hundredths(at_least)
+        hundredths(at_least),
+        if is_box { "products" } else { "drops" }
     )?;
     if let Some(target) = target {
         let word = if answer.is_met() { "met" } else { "MISSED" };
@@ -72,14 +90,56 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
         writeln!(out, "Target of {wanted} % {word}: the {sure} % interval begins at {low} %")?;
     }
     if let Some(reason) = &scatter.reason {
-        writeln!(out, "{} drops are not answered, and counted as failures: {reason}", scatter.unanswered)?;
+        let what = if is_box { "products" } else { "drops" };
+        writeln!(out, "{} {what} are not answered, and counted as failures: {reason}", scatter.unanswered)?;
+    }
+    if is_box && scatter.open > 0 {
+        let text = format!(
+            "{} products are open: how they come down again, by the energy left, may decide. They count by what was followed, as failures \
+             for the lower ends of intervals and for what is at least, as none for the upper ends",
+            scatter.open
+        );
+        sentence(out, "", &text)?;
     }
     if !scatter.assumed_even.is_empty() {
-        let names: Vec<_> = scatter.assumed_even.iter().map(|input| in_full(file, input)).collect();
+        let mut names: Vec<_> = scatter.assumed_even.iter().map(|input| in_full(file, input)).collect();
+        // Of all drops alike.
+        names.dedup();
         writeln!(out, "Taken as equally likely all over the range: {}", names.join(", "))?;
     }
     writeln!(out)?;
-    parts(scatter, &sure, out)
+    parts(file, scatter, &sure, out)?;
+    if is_box { landings(file, scatter, &sure, out) } else { Ok(()) }
+}
+
+/// A row for each drop of a box: how many survive it alone, and the part that the fewest do.
+fn landings(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
+    let row = |cells: [&str; 7]| cells.map(str::to_owned).to_vec();
+    let interval = format!("{sure} % interval");
+    let mut rows = vec![
+        row(["each drop alone", "survive", &interval, "", "least", "survives", "largest"]),
+        row(["", "%", "from, %", "to, %", "", "%", "utilization"]),
+    ];
+    for of in &scatter.landings {
+        let parts = file.components.iter().zip(&of.components);
+        let order = |of: &LandingComponent| (of.survival.estimate, -of.largest_utilization);
+        let least = parts.min_by(|(_, a), (_, b)| {
+            let ((a, most), (b, other)) = (order(a), order(b));
+            a.total_cmp(&b).then(most.total_cmp(&other))
+        });
+        let Some((component, least)) = least else { continue };
+        rows.push(vec![
+            of.landing.to_string(),
+            hundredths(of.survival.estimate),
+            hundredths(of.survival.lo),
+            hundredths(of.survival.hi),
+            shown(&component.name, 24),
+            hundredths(least.survival.estimate),
+            figures(least.largest_utilization),
+        ]);
+    }
+    writeln!(out)?;
+    Table { keys: 1, headings: 2, texts: 1, last_is_text: false, least: 8, rows }.write(out)
 }
 
 /// The model, and what the first batch says of the cheap one.
@@ -105,23 +165,28 @@ fn models(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
 fn in_full(file: &ProductFile, input: &Input) -> String {
     let name = input.name().replace('-', " ");
     match input.component() {
+        _ if matches!(input, Input::Landing(_, OfLanding::Tilt)) => "attitude within its tolerance".to_owned(),
         Some(i) => format!("{name} of {}", shown(name_of(file, i), 24)),
         None => name,
     }
 }
 
 /// A row for each part.
-fn parts(scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
+fn parts(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
     let row = |cells: [&str; 8]| cells.map(str::to_owned).to_vec();
     let interval = format!("{sure} % interval");
     let mut rows = vec![
         row(["part", "survives", "at least", &interval, "", "utilization", "largest", "driven by"]),
         row(["", "%", "%", "from, %", "to, %", "mean", "", ""]),
     ];
+    // Of many inputs of a box some stand out by chance.
+    #[expect(clippy::cast_precision_loss, reason = "a share")]
+    let by_chance = if scatter.landings.is_empty() { 0.0 } else { 3.0 * NOISE / scatter.followed as f64 };
+    let least = NAMED.max(by_chance);
     for component in &scatter.components {
         let Probability { estimate, lo, hi, at_least } = component.survival;
-        let named = component.drivers.iter().filter(|driver| driver.share.variance >= NAMED).take(4);
-        let driver = |d: &Driver| format!("{}{} {:.0} %", called(&d.input), way(d), 100.0 * d.share.variance);
+        let named = component.drivers.iter().filter(|driver| driver.share.variance >= least).take(4);
+        let driver = |d: &Driver| format!("{}{} {:.0} %", of_drop(file, &d.input), way(d), 100.0 * d.share.variance);
         let drivers: Vec<String> = named.map(driver).collect();
         let answered = component.worst_sample.is_some();
         let of = |utilization: f64| if answered { figures(utilization) } else { "-".to_owned() };

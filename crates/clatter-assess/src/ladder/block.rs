@@ -1,0 +1,133 @@
+//! Boxes that land on faces, edges and corners: what the plate and the bar of a face would say, and what the tolerance leaves open.
+
+use serde::Serialize;
+
+use super::plate::{BEYOND_PEAK, BLOCK, measured, reason};
+use super::{Groups, Ladder, Reference, Rung, cheapest, with};
+use crate::assess::Listed;
+use crate::drop::{Across, Followed, Model, SingleDrop, Until};
+use crate::engine::{Part, answer};
+use crate::{Assessment, Attitude, Axis, Error, Inside, LandingLimit, Limit, ProductFile, Width};
+
+/// One drop of a box: how late its last corner may come, beside a contact, and what it leaves least room.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LandingLadder {
+    /// What it lands on.
+    pub landing: Attitude,
+    /// How many corners that has.
+    pub corners: usize,
+    /// By how much it may be turned off that.
+    pub tolerance_deg: f64,
+    /// How much later than the first of these corners the last one comes down, if the first did nothing, at least and at most over the
+    /// tolerance and the speeds: the gap over the speed.
+    pub last_corner_s: [f64; 2],
+    /// How long a lone contact takes, at least and at most.
+    pub contact_time_s: [f64; 2],
+    /// So far it may be turned off, whatever the direction, that the last corner comes within the shortest contact; none where the
+    /// tolerance allows no more, so that it always lands as one.
+    pub as_one_to_deg: Option<f64>,
+    /// The limit with the smallest margin.
+    pub tightest: Option<LandingLimit>,
+}
+
+impl LandingLadder {
+    /// Whether the last of its corners may come when the contact of the first is over, so that the box clatters.
+    #[must_use]
+    pub fn may_clatter(&self) -> bool {
+        self.as_one_to_deg.is_some()
+    }
+}
+
+impl ProductFile {
+    /// What the tolerance leaves open of each drop of a box.
+    pub(super) fn landing_ladders(&self, assessment: &Assessment) -> Vec<LandingLadder> {
+        let Some(((faces_m, _), contact)) = self.product.faces_m().zip(self.product.contact_time_s) else {
+            return Vec::new();
+        };
+        let sides = faces_m.map(|[low, high]| low + high);
+        let listed = self.listed();
+        let each = self.landings.iter().zip(&listed).zip(&assessment.landings);
+        each.map(|((landing, Listed { drop, .. }), assessed)| {
+            // Corners that are landed on lie along the sides that are level.
+            let level = landing.attitude.level();
+            let reach_m = level.iter().fold(0.0, |all, axis| libm::hypot(all, sides[*axis]));
+            let [slow, _] = drop.speeds_m_s();
+            let tolerance = landing.tolerance_rad;
+            let as_one = libm::asin((contact.lo() * slow / reach_m).min(1.0));
+            LandingLadder {
+                landing: landing.attitude,
+                corners: 1 << level.len(),
+                tolerance_deg: tolerance.to_degrees(),
+                last_corner_s: [0.0, reach_m * libm::sin(tolerance) / slow],
+                contact_time_s: [contact.lo(), contact.hi()],
+                as_one_to_deg: (as_one < tolerance).then(|| as_one.to_degrees()),
+                tightest: assessed.tightest().cloned(),
+            }
+        })
+        .collect()
+    }
+}
+
+impl SingleDrop {
+    /// The same drop as one of the plate that the face of a box is, with its part; none of an edge, of a corner, and of a part that does not
+    /// move across the face.
+    fn as_plate(&self, part: &Part) -> Option<(Self, Part)> {
+        let across = self.across?;
+        let posture = across.posture?;
+        let normal = part.inside.axis as usize;
+        if part.inside.axis == Axis::Any || (0..3).any(|axis| axis != normal && posture.upward[axis] != 0.0) {
+            return None;
+        }
+        let half = 0.5 * posture.thickness_m;
+        let edges = [self.body.arms_m(), across.width.edges_m, [half; 2]];
+        let radii = [self.body.gyration_m(), across.width.gyration_m, posture.thickness_m / 12_f64.sqrt()];
+        let places = [part.position_m, part.across_m, part.inside.height_m];
+        let [x, y] = [[1, 2], [0, 2], [0, 1]][normal];
+        let upward = across.upward_of(&posture, self.tilt_rad);
+        let thickness_m = Some(edges[normal].iter().sum());
+        let width = Width { edges_m: edges[y], gyration_m: radii[y], product_of_inertia_m2: 0.0, thickness_m };
+        let across = Across { width, direction_rad: libm::atan2(upward[y], upward[x]), posture: None };
+        let body = clatter_flight::Body::off_center(edges[x][0], edges[x][1], radii[x]).ok()?;
+        let tilt_rad = libm::asin(libm::hypot(upward[x], upward[y]).min(1.0));
+        let part = Part { position_m: places[x], across_m: places[y], inside: Inside::default(), ..*part };
+        Some((Self { body, across: Some(across), first: across.first(), tilt_rad, ..*self }, part))
+    }
+}
+
+impl SingleDrop {
+    /// What the plate that a face of a box is lacks: turned off it, the center of mass leaves the middle of the face by its height.
+    fn leans(&self) -> String {
+        let width = self.across.map(|across| across.width);
+        let height_m = 0.5 * width.and_then(|width| width.thickness_m).unwrap_or(0.0);
+        let half_m = 0.5 * width.map_or(f64::INFINITY, |width| width.m()).min(self.body.length_m());
+        with("its height over the face counts", "φ h/b", Some(self.tilt_rad * height_m / half_m))
+    }
+}
+
+impl Ladder {
+    /// Of a box: itself, and where it lands on a face the plate that this is and the bar along it.
+    pub(super) fn of_box(drop: &SingleDrop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
+        let exact = answer(drop, part, limit, Model::Compliant, tolerance)?;
+        let until_s = (BEYOND_PEAK * exact.time_s).max(drop.clatter_s());
+        let until = |drop: &SingleDrop| Followed::until(drop, Model::Compliant, tolerance, Until::Past(until_s));
+        let plate = drop.as_plate(part);
+        let mut models = Vec::new();
+        if let Some((plate, part)) = &plate
+            && let Some(across) = &plate.across
+        {
+            let bar = (plate.along(across), Part { across_m: 0.0, ..*part });
+            // What a body refuses is left out.
+            models.extend(measured(Rung::Bar, &|| until(&bar.0), &bar.1, limit, &exact));
+            models.extend(measured(Rung::Plate, &|| until(plate), part, limit, &exact));
+        }
+        models.push(measured(Rung::Block, &|| until(drop), part, limit, &exact)?);
+        let groups = plate.as_ref().map_or_else(|| Groups::of(drop, part), |(plate, part)| Groups::of(plate, part))?;
+        let cheapest = cheapest(&models, tolerance).unwrap_or(Rung::Block);
+        let reason = match &plate {
+            Some((plate, _)) => reason(&models, cheapest, tolerance, &groups, plate.leans()),
+            None => "no bar and no plate lands so, or moves the part along this axis".to_owned(),
+        };
+        let reference = Reference { model: Rung::Block, value: exact.value, tolerance: BLOCK };
+        Ok(Self { unit: exact.unit, reference, models, cheapest, reason, groups })
+    }
+}

@@ -1,0 +1,116 @@
+//! The drops of a box, one by one and in sequence.
+
+use super::levels::Count;
+use super::{OfPart, Probability, SampleDemand, Settings};
+use crate::Attitude;
+
+/// What came of one of the drops of a box.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LandingScatter {
+    /// What it lands on.
+    pub landing: Attitude,
+    /// Probability that every component survives this drop alone.
+    pub survival: Probability,
+    /// In the order of the file.
+    pub components: Vec<LandingComponent>,
+}
+
+/// What one of the drops of a box does to a component, as of [`ComponentScatter`](super::ComponentScatter).
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LandingComponent {
+    /// Samples in which a limit did not hold.
+    pub failures: u64,
+    /// Samples in which what the answer may be off by, or the energy left, decides.
+    pub open: u64,
+    /// Samples that the model does not answer.
+    pub unanswered: u64,
+    /// Probability that all of its limits hold in this drop.
+    pub survival: Probability,
+    /// The largest utilization seen.
+    pub largest_utilization: f64,
+}
+
+/// What is drawn anew for each drop of a box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OfLanding {
+    /// Its height.
+    Height,
+    /// Its speed at the first touch.
+    Speed,
+    /// How far it is turned off what it lands on: every attitude within the tolerance is as likely.
+    Tilt,
+    /// Towards where it is turned.
+    Direction,
+}
+
+impl OfLanding {
+    /// Height and speed are one number, as of any drop.
+    pub(super) fn number(self) -> u32 {
+        match self {
+            Self::Height | Self::Speed => 0,
+            Self::Tilt => 1,
+            Self::Direction => 2,
+        }
+    }
+}
+
+/// What a sequence of drops asks of a part: as much as the one that asks most. Where one of them is not answered, neither is the sequence,
+/// unless the part has failed in another.
+pub(super) fn sequence<'a>(drops: impl Iterator<Item = &'a OfPart>) -> OfPart {
+    let (mut most, mut error) = (SampleDemand::default(), None);
+    for drop in drops {
+        match drop {
+            Ok(asked) => most = most.largest(asked),
+            Err(why) => error = error.or(Some(why)),
+        }
+    }
+    error.filter(|_| most.within[0] <= 1.0).map_or(Ok(most), |error| Err(error.clone()))
+}
+
+/// What is asked of all parts together; why, where one of them is not answered.
+pub(super) fn all_of(parts: &[OfPart]) -> OfPart {
+    let together =
+        |most: SampleDemand, asked: &OfPart| asked.as_ref().map(|asked| most.largest(asked)).map_err(Clone::clone);
+    parts.iter().try_fold(SampleDemand::default(), together)
+}
+
+/// What came of one of the drops of a box, so far: of all parts, and of each with the largest utilization.
+#[derive(Debug, Clone)]
+pub(super) struct LandingTally {
+    all: Count,
+    parts: Vec<(Count, f64)>,
+}
+
+impl LandingTally {
+    pub(super) fn new(parts: usize) -> Self {
+        Self { all: Count::default(), parts: vec![(Count::default(), 0.0); parts] }
+    }
+
+    pub(super) fn take(&mut self, parts: &[OfPart]) {
+        for ((count, largest), asked) in self.parts.iter_mut().zip(parts) {
+            count.take(None, Some(asked.as_ref().ok()));
+            *largest = asked.as_ref().map_or(*largest, |asked| asked.utilization.max(*largest));
+        }
+        self.all.take(None, Some(all_of(parts).as_ref().ok()));
+    }
+
+    pub(super) fn merge(&mut self, later: &Self) {
+        self.all.merge(&later.all);
+        for ((count, largest), later) in self.parts.iter_mut().zip(&later.parts) {
+            count.merge(&later.0);
+            *largest = largest.max(later.1);
+        }
+    }
+
+    pub(super) fn summary(&self, landing: Attitude, settings: &Settings) -> LandingScatter {
+        let of = |(count, largest_utilization): &(Count, f64)| {
+            let [failures, open, unanswered] = count.counts(settings.samples);
+            let survival = count.survival(settings.confidence);
+            LandingComponent { failures, open, unanswered, survival, largest_utilization: *largest_utilization }
+        };
+        let survival = self.all.survival(settings.confidence);
+        LandingScatter { landing, survival, components: self.parts.iter().map(of).collect() }
+    }
+}

@@ -1,0 +1,385 @@
+//! What `scatter`, the ladder of models and `design` say of boxes.
+
+use crate::boxes::{HANDHELD, on};
+use crate::plates::file;
+use clatter_assess::design::{Bounds, Lever, Outcome};
+use clatter_assess::ladder::Rung;
+use clatter_assess::scatter::{Column, Input, OfLanding, Progress, Sampler, Scatter, Settings};
+use clatter_assess::{
+    Across, Attitude, Law, Limit, LimitKind, Model, Mount, Part, Posture, ProductFile, SingleDrop, Spread, Verdict,
+    answer,
+};
+use clatter_shock::{DampingRatio, Suspension};
+
+fn settings(samples: u64) -> Settings {
+    Settings { samples, seed: 1, confidence: 0.95, merge_s: 1e-3 }
+}
+
+fn run(file: &ProductFile, samples: u64) -> Scatter {
+    Sampler::new(file, settings(samples)).unwrap().run::<()>(false, &|| true, |_| Ok(())).unwrap()
+}
+
+/// What every sample consists of.
+fn rows(file: &ProductFile, samples: u64) -> (Vec<Column>, Vec<Vec<f64>>) {
+    let sampler = Sampler::new(file, settings(samples)).unwrap();
+    let (columns, mut rows) = (sampler.columns(), Vec::new());
+    let keep = |progress: &Progress<'_>| {
+        rows.extend(progress.values.chunks(columns.len()).map(<[f64]>::to_vec));
+        Ok::<_, ()>(())
+    };
+    sampler.run(true, &|| true, keep).unwrap();
+    (columns, rows)
+}
+
+/// A product whose ranges leave much to chance, in the 26 drops.
+fn varied() -> String {
+    HANDHELD
+        .replace("restitution = 0.4", "restitution = [0.3, 0.5]")
+        .replace("\"0.4 ms\"", "{ uniform = [\"0.35 ms\", \"0.45 ms\"] }")
+        .replace("\"120 Hz\"", "{ normal = [\"120 Hz\", \"6 Hz\"], range = [\"100 Hz\", \"140 Hz\"] }")
+        .replace("5000 gn", "2200 gn")
+}
+
+/// A drop of a box that is turned off a face by hand, from the middle of its axes.
+fn single(
+    file: &ProductFile,
+    upward: [f64; 3],
+    [speed_m_s, tilt_deg, direction_deg, e, contact_s]: [f64; 5],
+) -> SingleDrop {
+    let width = file.product.width.unwrap();
+    let posture = Posture { upward, thickness_m: width.thickness_m.unwrap() };
+    SingleDrop {
+        body: file.product.body,
+        across: Some(Across { width, direction_rad: direction_deg.to_radians(), posture: Some(posture) }),
+        first: clatter::End::A,
+        tilt_rad: tilt_deg.to_radians(),
+        flat: false,
+        speed_m_s,
+        restitution: e,
+        gravity_m_s2: file.drop.gravity_m_s2,
+        contact_time_s: Some(contact_s),
+        contact_law: file.product.law(),
+    }
+}
+
+/// What a drop asks of the display and of the battery, each by its limit.
+fn asked(file: &ProductFile, drop: &SingleDrop, hz: f64) -> [f64; 2] {
+    [0, 1].map(|i| {
+        let component = &file.components[i];
+        let suspension = match component.mount {
+            Mount::Suspended { damping, .. } => {
+                Some(Suspension::from_hz(hz, DampingRatio::new(damping.ratios()[0]).unwrap()).unwrap())
+            }
+            Mount::Hard => None,
+        };
+        let used = |[position_m, across_m]: [f64; 2]| {
+            let part = Part { across_m, inside: component.inside, ..Part::new(position_m, suspension) };
+            answer(drop, &part, &Limit::of(component)[0], Model::Compliant, 0.01).unwrap().utilization()
+        };
+        component.ends_m().into_iter().map(used).fold(0.0, f64::max)
+    })
+}
+
+/// Without ranges all samples are one, and it says what an assessment says.
+#[test]
+fn a_flat_landing_without_ranges_survives_as_it_is_assessed() {
+    // Each part feels the fall along its own axis.
+    for (face, axis) in [("bottom", "z"), ("end-a", "x")] {
+        for (acceleration, rattle, verdicts) in [
+            ("1000 gn", "3 mm", [Verdict::Unsafe, Verdict::Unsafe]),
+            ("30000 gn", "60 mm", [Verdict::Safe, Verdict::Safe]),
+            ("1000 gn", "60 mm", [Verdict::Unsafe, Verdict::Safe]),
+        ] {
+            let text = on("face", face).replace("2 deg", "0 deg").replace("axis = \"x\"\n", "");
+            let along = format!("axis = \"{axis}\"\nmount =");
+            let text = text
+                .replace("mount =", &along)
+                .replace("natural_frequency", &format!("axis = \"{axis}\"\nnatural_frequency"));
+            let file = file(&text.replace("5000 gn", acceleration).replace("9 mm\"", &format!("{rattle}\"")));
+            let (assessment, scatter) = (file.assess().unwrap(), run(&file, 3));
+            assert!(scatter.inputs.is_empty() && scatter.unanswered == 0);
+            assert_eq!(assessment.components.iter().map(|c| c.verdict).collect::<Vec<_>>(), verdicts);
+            for (verdict, part) in verdicts.into_iter().zip(&scatter.components) {
+                let survives = if verdict == Verdict::Safe { 1.0 } else { 0.0 };
+                assert!((part.survival.estimate - survives).abs() < 1e-12 && part.open == 0, "{face}: {part:?}");
+            }
+        }
+    }
+}
+
+/// A sample survives its drops if it survives each: no more survive the sequence than any one of them.
+#[test]
+fn a_sequence_is_all_of_its_drops() {
+    let file = file(&varied());
+    let (columns, rows) = rows(&file, 40);
+    let scatter = run(&file, 40);
+    assert_eq!(scatter.landings.len(), 26);
+    let mut failed_in_some = [0; 2];
+    for row in &rows {
+        let of = |column| row[columns.iter().position(|c| *c == column).unwrap()];
+        for (i, failed) in failed_in_some.iter_mut().enumerate() {
+            let most = (0..26).map(|n| of(Column::LandingUtilization(n, i))).fold(0.0, f64::max);
+            assert_eq!(most.to_bits(), of(Column::Utilization(i)).to_bits());
+            *failed += u64::from(most > 1.0);
+        }
+    }
+    for (i, component) in scatter.components.iter().enumerate() {
+        assert_eq!(component.failures, failed_in_some[i]);
+        for landing in &scatter.landings {
+            let alone = &landing.components[i];
+            assert!(component.failures >= alone.failures && component.survival.hi <= alone.survival.hi);
+            assert!(scatter.survival.estimate <= landing.survival.estimate);
+            assert!(alone.largest_utilization <= component.largest_utilization);
+        }
+    }
+    assert!(scatter.components[0].failures > 0 && scatter.survival.estimate < 1.0);
+    // It takes several drops to fail as often.
+    let most = scatter.landings.iter().map(|landing| landing.components[0].failures).max().unwrap();
+    assert!(scatter.components[0].failures > most, "{} and {most}", scatter.components[0].failures);
+}
+
+/// Every drop of every sample once more, alone, by the engine of one drop: the product is the same in all of them.
+#[test]
+fn samples_of_boxes_are_single_drops() {
+    let file = file(&varied());
+    let (columns, rows) = rows(&file, 3);
+    let (a, b) = (75e-3, 35e-3);
+    let thick = 7e-3;
+    let (mut count, mut longer) = (0, 0);
+    for row in &rows {
+        let of = |column| row[columns.iter().position(|c| *c == column).unwrap()];
+        for (n, landing) in file.landings.iter().enumerate() {
+            // The center of mass is in the middle, over what is landed on.
+            let name = landing.attitude.to_string();
+            let down =
+                [("end-a", "end-b", a), ("front", "back", b), ("bottom", "top", thick)].map(|(low, high, side)| {
+                    f64::from(i8::from(name.contains(high)) - i8::from(name.contains(low))) * side
+                });
+            let size = down.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let given = [
+                of(Column::LandingSpeedMS(n)),
+                of(Column::LandingTiltDeg(n)),
+                of(Column::LandingDirectionDeg(n)),
+                of(Column::Restitution),
+                of(Column::ContactTimeS),
+            ];
+            assert!((given[0] - (2.0 * 9.806_65 * 1.22_f64).sqrt()).abs() < 1e-12);
+            assert!(given[1] <= landing.tolerance_rad.to_degrees() * (1.0 + 1e-12));
+            let drop = single(&file, down.map(|x| -x / size + 0.0), given);
+            for (i, one) in asked(&file, &drop, of(Column::FrequencyHz(1))).into_iter().enumerate() {
+                let used = of(Column::LandingUtilization(n, i));
+                count += 1;
+                // Where its energy might have decided it was followed on, and came down harder later; what is far below the limit is
+                // left early.
+                if (used / one - 1.0).abs() > 1e-9 {
+                    assert!(used > one || one < 0.01, "{name}, {i}: {used}, not {one}");
+                    longer += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(count, 3 * 26 * 2);
+    assert!(longer * 3 <= count, "{longer} of {count} are no first landing");
+}
+
+/// A part that is slow beside the whole clatter swings while the box flies: by (1 + e) v e^(−ζφ/tan φ)/ω, tan φ = √(1 − ζ²)/ζ.
+#[test]
+fn a_slow_part_is_seen_to_swing() {
+    let text = on("face", "end-a").replace("2 deg", "0 deg").replace("120 Hz", "12 Hz").replace("9 mm", "300 mm");
+    let scatter = run(&file(&text), 1);
+    let (omega, zeta, v) = (std::f64::consts::TAU * 12.0, 0.1_f64, (2.0 * 9.806_65 * 1.22_f64).sqrt());
+    let phase = ((1.0 - zeta * zeta).sqrt() / zeta).atan();
+    let swings = 1.4 * v / omega * (-zeta * phase / (1.0 - zeta * zeta).sqrt()).exp() / 0.3;
+    let used = scatter.components[1].largest_utilization;
+    // (ωτ)²/24 and less.
+    assert!((used / swings - 1.0).abs() < 0.01, "{used}, not {swings}");
+}
+
+/// As many fail as in plain sampling by a sequence that has nothing in common with the draws: all attitudes within the tolerance are
+/// equally likely.
+#[test]
+fn boxes_fail_as_often_as_in_plain_sampling() {
+    let text = on("face", "bottom").replace("extent = [\"20 mm\", \"10 mm\"]\n", "").replace("5000 gn", "1500 gn");
+    let file = file(&text.replace("restitution = 0.4", "restitution = { uniform = [0.2, 0.6] }"));
+    let (many, drops) = (1500, 300_u32);
+    let scatter = run(&file, many);
+    let of = [OfLanding::Tilt, OfLanding::Direction].map(|of| Input::Landing(0, of));
+    assert_eq!(scatter.inputs, [of[0], Input::Restitution, of[1]]);
+    assert_eq!((scatter.assumed_even.as_slice(), scatter.pilot), (&of[..1], None));
+    let shares = |k: u32| {
+        [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3].map(|a| (a * f64::from(k)).fract())
+    };
+    let v = (2.0 * 9.806_65 * 1.22_f64).sqrt();
+    let fails = (1..=drops).filter(|&k| {
+        // A point of the disk of the slopes.
+        let [r, turn, e] = shares(k);
+        let drop = single(&file, [0.0, 0.0, 1.0], [v, 2.0 * r.sqrt(), 360.0 * turn, 0.2 + 0.4 * e, 4e-4]);
+        asked(&file, &drop, 120.0)[0] > 1.0
+    });
+    #[expect(clippy::cast_precision_loss, reason = "a small count")]
+    let failed = fails.count() as f64 / f64::from(drops);
+    let found = 1.0 - scatter.components[0].survival.estimate;
+    assert!((0.2..0.8).contains(&failed), "{failed}");
+    // Four standard deviations of both.
+    let most = 4.0 * (failed * (1.0 - failed) * (1.0 / 1500.0 + 1.0 / f64::from(drops))).sqrt();
+    assert!((found - failed).abs() < most, "{found} beside {failed}");
+}
+
+/// What is drawn for one sample is the same however many there are, and so is all that is told on any number of threads.
+#[test]
+fn boxes_are_the_same_on_any_number_of_threads() {
+    let file = file(&varied());
+    let on = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| run(&file, 23));
+    let (one, seven) = (on(1), on(7));
+    assert_eq!(format!("{one:?}"), format!("{seven:?}"));
+    let (_, few) = rows(&file, 2);
+    let (_, more) = rows(&file, 12);
+    assert_eq!(format!("{few:?}"), format!("{:?}", &more[..2]));
+}
+
+/// Where the energy that is left may decide, a sample is open: its interval holds both verdicts.
+#[test]
+fn what_rebounds_may_decide_is_open() {
+    let text = on("face", "bottom").replace("restitution = 0.4", "restitution = 0.95").replace("9 mm", "60 mm");
+    let scatter = run(&file(&text), 20);
+    let display = &scatter.components[0];
+    assert!(display.failures == 0 && display.open == 20 && scatter.open == 20, "{display:?}");
+    let survival = display.survival;
+    assert_eq!([survival.estimate, survival.lo, survival.hi].map(f64::to_bits), [1.0, 0.0, 1.0].map(f64::to_bits));
+    // With less energy left it is followed to where that decides nothing.
+    let calm = run(&file(&on("face", "bottom").replace("9 mm", "60 mm")), 20);
+    assert!(calm.open == 0 && calm.components[0].survival.lo > 0.8, "{calm:?}");
+}
+
+/// Ranges as wide as files may have them end with an answer, or with one message.
+#[test]
+fn hostile_boxes_are_answered_or_refused() {
+    let corner = on("corner", "top back end-a").replace("5 deg", "15 deg");
+    let face = on("face", "end-b").replace("2 deg", "15 deg");
+    let wide = |text: &str| text.replace("restitution = 0.4", "restitution = [0, 1]");
+    let weightless = face.replace("height = \"1.22 m\"", "speed = [\"0.01 m/s\", \"5 m/s\"]\ngravity = \"0 m/s^2\"");
+    let slow = face.replace("\"0.4 ms\"", "[\"1 us\", \"40 ms\"]");
+    let cases =
+        [wide(&corner), face.replace("= 0.4", "= 1"), wide(&weightless), wide(&slow), face.replace("= 0.4", "= 0")];
+    for text in cases {
+        let read = ProductFile::read(&text, "box.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let scatter = run(&read, 6);
+        let [sums, least] = [scatter.survival.lo + scatter.survival.hi, scatter.survival.lo];
+        assert!(sums.is_finite() && least >= 0.0, "{scatter:?}");
+        assert_eq!(scatter.unanswered > 0, scatter.reason.is_some(), "{scatter:?}");
+    }
+}
+
+/// The axes of an attitude are those of the file: a box that is turned about its end feels it there.
+#[test]
+fn the_drops_of_a_list_have_their_names() {
+    let scatter = run(&file(HANDHELD), 2);
+    let names: Vec<_> = scatter.landings.iter().map(|landing| landing.landing).collect();
+    assert_eq!(names, [1, 2, 3].into_iter().flat_map(Attitude::all).collect::<Vec<_>>());
+    // The battery slides along the length: on the ends most, flat on its back next to nothing.
+    let battery = |name: &str| {
+        let on = Attitude::on(name).unwrap();
+        scatter.landings.iter().find(|landing| landing.landing == on).unwrap().components[1].largest_utilization
+    };
+    assert!(battery("end-a") > 4.0 * battery("bottom") && battery("end-b") > 4.0 * battery("top"));
+}
+
+/// How late the last corner may come, by hand: the diagonal of a face and the length of an edge over the speed.
+#[test]
+fn a_tolerance_leaves_open_whether_a_box_clatters() {
+    let file = file(&HANDHELD.replace("extent = [\"20 mm\", \"10 mm\"]\n", ""));
+    let ladders = file.ladders(&file.assess().unwrap(), 0.05).unwrap();
+    assert_eq!(ladders.landings.len(), 26);
+    let v = (2.0 * 9.806_65 * 1.22_f64).sqrt();
+    let of = |name: &str| {
+        let on = Attitude::on(name).unwrap();
+        ladders.landings.iter().find(|landing| landing.landing == on).unwrap()
+    };
+    for (name, corners, reach_m, degrees) in [
+        ("bottom", 4, 0.15_f64.hypot(0.07), 2.0_f64),
+        ("end-b", 4, 0.07_f64.hypot(0.014), 2.0),
+        ("front end-a", 2, 0.014, 5.0),
+        ("top back", 2, 0.15, 5.0),
+        ("top back end-b", 1, 0.0, 5.0),
+    ] {
+        let landing = of(name);
+        let latest = reach_m * degrees.to_radians().sin() / v;
+        assert_eq!((landing.corners, landing.contact_time_s), (corners, [4e-4; 2]), "{name}");
+        assert!((landing.last_corner_s[1] - latest).abs() < 1e-12 && landing.last_corner_s[0] == 0.0, "{landing:?}");
+        // Within the contact of the first it is one landing.
+        assert_eq!(landing.may_clatter(), latest > 4e-4, "{landing:?}");
+        if let Some(as_one) = landing.as_one_to_deg {
+            assert!((reach_m * as_one.to_radians().sin() / v - 4e-4).abs() < 1e-12, "{landing:?}");
+        }
+        assert!(landing.tightest.as_ref().is_some_and(|limit| limit.margin.is_some()));
+    }
+    assert!(of("bottom").may_clatter() && of("top back").may_clatter() && !of("front end-a").may_clatter());
+
+    // The worst drop of each part is on a face across which it moves: the plate that this face is says nearly as much where the box is
+    // low over it.
+    for (limit, most) in ladders.limits.iter().zip([0.02, 0.1]) {
+        let rungs: Vec<_> = limit.ladder.models.iter().map(|m| m.model).collect();
+        assert_eq!(rungs, [Rung::Bar, Rung::Plate, Rung::Block], "{limit:?}");
+        let [_, plate, block] = &limit.ladder.models[..] else { unreachable!() };
+        assert!(plate.error < most && block.error < 1e-9 && limit.ladder.reference.model == Rung::Block, "{limit:?}");
+    }
+    let faces: Vec<_> = ladders.limits.iter().map(|limit| limit.worst_case.landing.unwrap().to_string()).collect();
+    assert!(["face bottom", "face top"].contains(&faces[0].as_str()) && faces[1].starts_with("face end"), "{faces:?}");
+}
+
+/// On an edge no plate lands, and across a face none moves a part along it.
+#[test]
+fn a_box_alone_answers_what_no_plate_does() {
+    for (key, faces) in [("edge", "bottom end-a"), ("corner", "bottom back end-a")] {
+        let file = file(&on(key, faces));
+        let ladders = file.ladders(&file.assess().unwrap(), 0.05).unwrap();
+        for limit in &ladders.limits {
+            assert_eq!((limit.ladder.models.len(), limit.ladder.cheapest), (1, Rung::Block), "{limit:?}");
+            assert!(limit.ladder.reason.contains("no plate lands so"), "{}", limit.ladder.reason);
+        }
+    }
+}
+
+/// What each lever recommends holds when the box with these values is assessed as a whole, in all of its drops.
+#[test]
+fn changes_of_boxes_hold_when_assessed() {
+    let text =
+        on("face", "bottom").replace("axis = \"x\"\n", "").replace("= 0.4", "= 0.3").replace("5000 gn", "2700 gn");
+    let text = text.replace("\"14 mm\"", "\"40 mm\"").replace("extent = [\"20 mm\", \"10 mm\"]\n", "");
+    let text = text.replace("\"10 mm\", \"5 mm\"]", "\"30 mm\", \"15 mm\"]").replace("9 mm\"", "7.2 mm\"");
+    let file = file(&text);
+    let before = file.assess().unwrap();
+    assert!(before.components.iter().all(|component| component.verdict != Verdict::Safe), "{before:?}");
+    let margin = 0.05;
+    let found = file.remedies(&before, &Bounds::default(), margin).unwrap();
+    assert_eq!(found.len(), 2);
+    let mut held = Vec::new();
+    for part in &found {
+        for remedy in &part.levers {
+            let Outcome::Change { change, .. } = &remedy.outcome else { continue };
+            let [lo, hi] = change.to;
+            let to = Spread::new(lo, hi, if lo < hi { Law::Range } else { Law::Value }).unwrap();
+            let mut changed = file.clone();
+            let component = &mut changed.components[part.component];
+            match (remedy.lever, &mut component.mount) {
+                (Lever::Restitution, _) => changed.product.restitution = to,
+                (Lever::Position, _) => component.position_m = to,
+                (Lever::Across, _) => component.across_m = to,
+                (Lever::ContactTime, _) => changed.product.contact_time_s = Some(to),
+                (Lever::Limit(kind), _) => component.limits = component.limits.with(kind, to),
+                (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => *frequency_hz = to,
+                (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = clatter_assess::Damping::Ratio(to),
+                other => panic!("{other:?}"),
+            }
+            let after = changed.assess().unwrap();
+            let after = &after.components[part.component];
+            let room = after.limits[0].margin.unwrap();
+            assert!(after.verdict == Verdict::Safe && room >= margin, "{change:?}: {after:?}");
+            held.push((part.component, remedy.lever));
+        }
+    }
+    for lever in [Lever::Position, Lever::ContactTime, Lever::Limit(LimitKind::Acceleration)] {
+        assert!(held.contains(&(0, lever)), "{lever:?} is not among {held:?}");
+    }
+    assert!(held.contains(&(1, Lever::Frequency)), "{held:?}");
+}
