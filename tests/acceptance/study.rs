@@ -244,3 +244,18 @@ fn plans_and_arguments_that_are_wrong_are_told() {
     fs::write(folder.at("plan.toml"), PLAN.replace("bar.toml", "bar.parquet")).unwrap();
     refused(&folder.part("1/1", "bar.parquet"), &["bar.parquet is read by this command and would be lost"]);
 }
+
+/// A sample of a box goes through all of its drops, which no row holds.
+#[test]
+fn a_box_is_none_of_a_study() {
+    let folder = Folder::new(PLAN);
+    let thick = BAR
+        .replace("\"140 mm\"", "\"140 mm\"\nwidth = \"70 mm\"\nthickness = \"12 mm\"\ncontact_time = \"0.4 ms\"")
+        .replace("\"40 mm\"", "[\"40 mm\", \"20 mm\"]")
+        .replace("tilt = { triangular = [\"0.5 deg\", \"2 deg\", \"10 deg\"] }", "face = \"bottom\"")
+        .replace("\"60 mm\"", "[\"60 mm\", \"0 mm\"]")
+        .replace("velocity_change", "acceleration")
+        .replace("\"7.5 m/s\"", "\"900 gn\"");
+    fs::write(folder.at("bar.toml"), thick).unwrap();
+    refused(&folder.part("1/1", "part.parquet"), &["a box goes through all of its drops"]);
+}
