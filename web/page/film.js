@@ -190,7 +190,7 @@ function barsTold(impacts, zone) {
   const count = answer.count === 'infinite' ? 'without end' : String(answer.count);
   const rows = {
     Impacts: listed === answer.count ? count : `${count}; the film shows ${listed}`,
-    'Shock at the ends': `${digits(answer.peak.end)} v₀, at impact ${answer.peak.impact}`,
+    'Shock at the ends': `${digits(answer.peak.end)} v₀, no. ${answer.peak.impact}`,
     'Shock at the center': `${digits(answer.peak.center)} v₀`,
     'Last impact at': `${digits(answer.duration)} h₀/v₀`,
     [`Safe up to ${digits(threshold, 3)} v₀`]:
