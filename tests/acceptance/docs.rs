@@ -50,7 +50,7 @@ fn words(command: &str, dir: &std::path::Path) -> Vec<String> {
     let in_dir = |word: &str| {
         let (option, file) = word.rsplit_once('=').map_or(("", word), |(option, file)| (option, file));
         let equals = if option.is_empty() { "" } else { "=" };
-        let is_file = file.ends_with(".toml") || file.ends_with(".csv");
+        let is_file = std::path::Path::new(file).extension().is_some_and(|ending| ending == "toml" || ending == "csv");
         if is_file { format!("{option}{equals}{}", dir.join(file).display()) } else { word.to_owned() }
     };
     kept.collect::<String>().split('\n').map(in_dir).collect()
