@@ -34,10 +34,10 @@ use crate::{Exit, Failure, Streams, assess, budget, output, quantities};
 /// of a part that fails less often may be wider. Where that saves nothing, it says so and answers each by the fuller
 /// model.
 ///
-/// A sample of a box is one product that goes through all of its drops, and survives if it survives each: what \[product\] and
-/// \[\[component\]\] give is drawn once for it, height or speed and attitude for each drop, every attitude within the tolerance equally
-/// likely. Told are the survival of the whole sequence and of each drop. A drop is followed past its first landing where the energy left may
-/// decide; where it still may in the end, the sample is open, and widens the intervals.
+/// A sample of a box is one product that goes through all of its drops, and survives if it survives each: what the file says of
+/// product and parts is drawn once for it, height or speed and attitude for each drop, every attitude within the tolerance
+/// equally likely. Told are the survival of the whole sequence and of each drop. A drop is followed past its first landing
+/// where the energy left may decide; where it still may in the end, the sample is open, and widens the intervals.
 ///
 /// What drives a part: the share of the variance of its utilization (demand over allowed) that an input explains alone
 /// (first-order index of Sobol), and the way it goes: + more is worse, - less is worse, ~ neither throughout.

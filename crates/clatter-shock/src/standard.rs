@@ -193,7 +193,7 @@ pub struct ServiceCondition {
 /// let drop = Pulses::new(&[Pulse { shape: Shape::HalfSine, amplitude: 9046.0, duration: 1e-3, start: 0.0 }])?;
 /// let part = |hz| Suspension::from_hz(hz, DampingRatio::new(0.05).unwrap()).unwrap();
 /// let covers = |hz| covering_condition(&part(hz), &drop.respond(&part(hz))).map(|found| found.pulse.keyword);
-/// assert_eq!([covers(50.0), covers(5000.0)], [None, Some("JESD22-B110/B")]);
+/// assert_eq!([covers(50.0), covers(10_000.0)], [None, Some("JESD22-B110/B")]);
 /// # Ok::<(), clatter_shock::Error>(())
 /// ```
 #[must_use]

@@ -102,7 +102,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Samples unless said otherwise: 100 000 drops; of a box 1000 products, whose 26 drops take from some 6 s to a minute, by how often
+    /// Samples unless said otherwise: 100 000 drops; of a box 1000 products, whose 26 drops take from some 6 s to three minutes, by how often
     /// more than the first landing decides.
     #[must_use]
     pub fn samples_of(file: &ProductFile) -> u64 {
