@@ -238,26 +238,29 @@ function places(of) {
         element('th', { scope: 'row' }, thing.name, element('small', {}, thing.kind === 'mass' ? ' mass' : ' part')),
         ...[0, 1]
           .filter((side) => side === 0 || of.width_m)
-          .map((side) => element('td', {}, side && !thing.across_m ? '' : field(n, side))),
+          .map((side) => element('td', {}, side && !thing.across_m ? '' : field(thing, n, side))),
       );
     $('places').replaceChildren(element('thead', {}, element('tr', {}, ...heads)), element('tbody', {}, ...all.map(row)));
   }
   plan.things = all;
   for (const input of $('places').querySelectorAll('input')) {
-    if (input === document.activeElement && input.getAttribute('aria-invalid') === 'true') continue;
+    if ('typed' in input.dataset) continue;
+    input.removeAttribute('aria-invalid');
     input.value = middle(all[input.dataset.n])[input.dataset.side];
   }
 }
 
-function field(n, side) {
+function field({ name: of }, n, side) {
   const name = ['along', 'across'][side];
   return element('input', {
     type: 'number',
     step: 'any',
     'data-n': n,
     'data-side': side,
-    'aria-label': `Middle ${name}, mm`,
+    'aria-label': `${of}: middle ${name}, mm`,
+    oninput: ({ target }) => (target.dataset.typed = ''),
     onchange: ({ target }) => {
+      delete target.dataset.typed;
       const thing = plan.things[n];
       const mm = target.value.trim() === '' ? NaN : Number(target.value);
       target.setAttribute('aria-invalid', !Number.isFinite(mm));

@@ -232,6 +232,11 @@ test('what is no number is told, and the last bar stays', async () => {
   await page.fill('#places input >> nth=0', '');
   await page.keyboard.press('Tab');
   assert.match(await words('product-problem'), /no number/);
+  await changed(async () => {
+    await page.fill('#places input >> nth=3', '70');
+    await page.keyboard.press('Tab');
+  }, 'position = "70 mm"\nextent = "20 mm"');
+  assert.equal(await page.isVisible('#product-problem'), false);
 });
 
 test('q and e are dragged, typed and stepped, and the film goes from impact to impact', async () => {
