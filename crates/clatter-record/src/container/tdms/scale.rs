@@ -216,3 +216,16 @@ fn between(table: &[(f64, f64)], x: f64) -> f64 {
         (None, None) => f64::NAN,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    /// Straight lines between its values; beyond its ends those of the ends.
+    #[test]
+    fn a_table_holds_its_ends() {
+        let table = [(0.0, 10.0), (2.0, 20.0), (4.0, 10.0)];
+        assert_eq!(
+            [-1.0, 0.0, 1.0, 2.0, 3.5, 4.0, 9.0].map(|x| super::between(&table, x)),
+            [10.0, 10.0, 15.0, 20.0, 12.5, 10.0, 10.0]
+        );
+    }
+}
