@@ -24,10 +24,9 @@ fn nothing_after_rest_passes_its_bound() {
     let handheld = ([0.15, 0.07, 0.014], 0.3);
     let sheet = ([0.15, 0.06, 1.2e-3], 0.02);
     let mut rested = 0;
-    'drops: for (n, (size, speed)) in
-        [handheld, handheld, handheld, sheet, sheet].into_iter().cycle().take(40).enumerate()
-    {
-        let x = |k: usize| ((n * k + 7) % 41) as f64 / 41.0;
+    let kinds = [handheld, handheld, handheld, sheet, sheet];
+    'drops: for (n, (size, speed)) in (0_u32..40).zip(kinds.into_iter().cycle()) {
+        let x = |k: u32| f64::from((n * k + 7) % 41) / 41.0;
         let [across, along] = [x(11) - 0.5, x(17) - 0.5];
         let upward = if speed < 0.1 { [1e-3 * along, 1.0, 0.02 * across] } else { [0.6 * along, 0.6 * across, 0.5] };
         let drop = BlockDrop::upright(block(size), upward, speed, GRAVITY).unwrap();
