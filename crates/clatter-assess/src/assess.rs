@@ -492,3 +492,22 @@ fn verdict(component: &Component, is_plate: bool, mut limits: Vec<LimitAssessmen
         model,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A drop that went unanswered counts before one that leaves little room, and an unsafe one before both.
+    #[test]
+    fn the_governing_drop_is_the_one_of_the_worst_verdict() {
+        let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
+        let limit = file.assess().unwrap().components[0].limits[0].clone();
+        let of = |verdict, margin| LimitAssessment { margin, verdict, ..limit.clone() };
+        let (tight, open, over) =
+            (of(Verdict::Safe, Some(0.05)), of(Verdict::Undecided, None), of(Verdict::Unsafe, Some(-0.2)));
+        let (loose, worse) = (of(Verdict::Safe, Some(0.5)), of(Verdict::Unsafe, Some(-0.4)));
+        assert_eq!(governing(vec![loose.clone(), tight.clone()], &[]).margin, Some(0.05));
+        assert_eq!(governing(vec![open.clone(), tight.clone()], &[]).verdict, Verdict::Undecided);
+        assert_eq!(governing(vec![worse, open, over, loose, tight], &[]).margin, Some(-0.4));
+    }
+}

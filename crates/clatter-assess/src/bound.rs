@@ -128,3 +128,46 @@ fn of_plate(
         Source::Response(_) => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ProductFile;
+
+    /// A box that is set on its end falls over: from 75 mm to 7 mm over the ground.
+    #[test]
+    fn a_box_that_stands_has_the_energy_to_fall_over() {
+        let text = r#"
+product = { name = "box", length = "150 mm", width = "70 mm", thickness = "14 mm", radius_of_gyration = ["43 mm", "20 mm"], restitution = 0.4, contact_time = "0.4 ms" }
+drop = { speed = "0.1 m/s", face = "end-a" }
+component = [{ name = "part", position = ["0 mm", "0 mm"], mount = "hard", velocity_change_limit = "9 m/s", angular_velocity_change_limit = "99 rad/s" }]
+"#;
+        let file = ProductFile::read(text, "box.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let (faces_m, thickness_m) = file.product.faces_m().unwrap();
+        let posture = Posture { upward: file.landings[0].attitude.upward(faces_m), thickness_m };
+        let component = &file.components[0];
+        let of = |limit: &Limit| bound(&file.product, &file.drop, Some(posture), component, limit, file.product.law());
+        let over_m_s = (0.1_f64.powi(2) + 2.0 * file.drop.gravity_m_s2 * (0.075 - 0.007)).sqrt();
+        let limits = Limit::of(component);
+        // Turned around by strikes that are one shock.
+        assert!(of(&limits[0]).unwrap() >= 2.0 * over_m_s, "{:?}", of(&limits[0]));
+        assert!(of(&limits[1]).unwrap() >= 2.0 * over_m_s / 0.0206, "{:?}", of(&limits[1]));
+    }
+
+    /// Off center, its heavy end 90 mm from the center of mass and up by 10°: contacts that overlap may turn its speed around.
+    #[test]
+    fn contacts_of_a_bar_may_turn_its_speed_around() {
+        let text = r#"
+product = { name = "bar", length = "150 mm", radius_of_gyration = "45 mm", center_of_mass = "15 mm", restitution = 0.3, contact_time = "0.4 ms" }
+drop = { speed = "3 m/s", tilt = ["1 deg", "10 deg"] }
+component = [{ name = "part", position = "0 mm", mount = "hard", velocity_change_limit = "9 m/s" }]
+"#;
+        let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let (component, g) = (&file.components[0], file.drop.gravity_m_s2);
+        let told = bound(&file.product, &file.drop, None, component, &Limit::of(component)[0], file.product.law());
+        let speed = (9.0 + 2.0 * g * 0.09 * 10.0_f64.to_radians().sin()).sqrt();
+        // A third of a radius of gyration from the center of mass.
+        let most = 2.0 * speed * (10.0_f64 / 9.0).sqrt() + g * 4e-4;
+        assert!((told.unwrap() / most - 1.0).abs() < 1e-9, "{told:?}, not {most}");
+    }
+}

@@ -171,3 +171,42 @@ impl Course {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clatter_flight::{Block, ContactLaw};
+
+    /// A box that lands flat, with μ = 1 + (60/Ry)² + (40/Rx)² of a corner.
+    fn flat() -> (BlockDrop, Contact, f64) {
+        let (across, along, turning) = (0.04_f64, 0.059_f64, 0.07_f64);
+        let block = Block::new([0.12, 0.08, 0.02], [0.0; 3], [across, along, turning]).unwrap();
+        let own = 1.0 + (0.06 / along).powi(2) + (0.04 / across).powi(2);
+        let drop = BlockDrop::tilted(block, 0.0, 0.0, 2.0, 9.81).unwrap();
+        (drop, Contact::new(ContactLaw::Hysteretic, 0.6, 2e-4).unwrap(), own)
+    }
+
+    /// It lands again with e times its speed, which changes the velocity of its center by (1 + e) e v.
+    #[test]
+    fn the_next_landing_is_within_what_is_told() {
+        let (drop, contact, own) = flat();
+        let motion = BlockMotion::new(&drop.with_time_limit_s(0.02).unwrap(), &contact).unwrap();
+        // Gravity works during the contact, by a thousandth.
+        assert!((motion.center_m_s / (1.6 * 0.6 * 2.0) - 1.0).abs() < 5e-3, "{}", motion.center_m_s);
+        let course = Course::Block(motion);
+        // Four springs at once, each of a lone contact at a corner.
+        let lasts = 2e-4 * (own / 4.0).sqrt();
+        assert!(
+            (course.parted_s() / lasts - 1.0).abs() < 5e-3 && course.struck_s() == [0.0; 4],
+            "{}",
+            course.parted_s()
+        );
+    }
+
+    #[test]
+    fn strikes_that_are_cut_off_have_no_bound() {
+        let (drop, contact, _) = flat();
+        let motion = BlockMotion::new(&drop.with_impact_limit(3), &contact).unwrap();
+        assert!(motion.center_m_s.is_infinite(), "{:?}", motion.stop);
+    }
+}

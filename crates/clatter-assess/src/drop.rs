@@ -502,3 +502,93 @@ impl Followed {
         self.motion.struck_s().partition_point(|s| begun(*s)).max(1) as u64
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dropped([length, width, thickness_m]: [f64; 3], [kx, ky]: [f64; 2], center: f64) -> SingleDrop {
+        let edges_m = [0.5 * width + center, 0.5 * width - center];
+        let width = Width { edges_m, gyration_m: ky, product_of_inertia_m2: 0.0, thickness_m: Some(thickness_m) };
+        let posture = Some(Posture { upward: [0.6, 0.0, 0.8], thickness_m });
+        SingleDrop {
+            body: Body::new(length, kx).unwrap(),
+            across: Some(Across { width, direction_rad: 0.3, posture }),
+            first: End::A,
+            tilt_rad: 0.05,
+            flat: false,
+            speed_m_s: 3.0,
+            restitution: 0.4,
+            gravity_m_s2: 9.81,
+            contact_time_s: Some(1e-4),
+            contact_law: ContactLaw::Hysteretic,
+        }
+    }
+
+    fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    }
+
+    /// A blow of 1 over the mass on a corner, along any line, does no more to a place than the arms of both allow.
+    #[test]
+    fn no_blow_on_a_corner_does_more_to_a_place_than_its_arms_allow() {
+        // Mass near the middle of a broad box, and near the sides of a tower.
+        let (broad, tower) = (([0.06, 0.15, 0.01], [0.03, 0.012]), ([0.05, 0.05, 0.2], [0.025, 0.025]));
+        let mut tightest = 0.0_f64;
+        for ((size, gyration), n) in [broad, tower].into_iter().flat_map(|of| (0..200).map(move |n| (of, n))) {
+            let x = |k: u32| f64::from((n * k + 7) % 199) / 199.0 - 0.5;
+            let drop = dropped(size, gyration, 0.1 * size[1] * x(3));
+            let (at_m, height_m) = ([size[0] * x(5), size[1] * x(11)], size[2] * x(17));
+            let block = drop.block_drop(&drop.across.unwrap(), size[2]).unwrap().block();
+            let place = block.place([at_m[0], at_m[1], height_m]);
+            let z = 2.0 * x(23);
+            let (sin, cos) = (TAU * x(29)).sin_cos();
+            let along = [(1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z];
+            for (axis, index) in [(Axis::X, Some(0)), (Axis::Y, Some(1)), (Axis::Z, Some(2)), (Axis::Any, None)] {
+                let (points, here) = drop.in_radii(&Spot { at_m, inside: Inside { height_m, axis } });
+                let root = |[x, y]: [f64; 2]| (1.0 + x * x + y * y).sqrt();
+                let most = points.iter().map(|point| root(*point) * root(here)).fold(0.0, f64::max);
+                for corner in block.corners_m() {
+                    let moment = cross(corner, along);
+                    let turn = std::array::from_fn(|i| moment[i] / block.gyration_m()[i].powi(2));
+                    let turned = cross(turn, place);
+                    let change: [f64; 3] = std::array::from_fn(|i| along[i] + turned[i]);
+                    let felt = index
+                        .map_or_else(|| change.iter().map(|c| c * c).sum::<f64>().sqrt(), |i: usize| change[i].abs());
+                    assert!(felt <= most * (1.0 + 1e-9), "{n}, {axis:?}: {felt} beyond {most}");
+                    tightest = tightest.max(felt / most);
+                }
+            }
+        }
+        assert!(tightest > 0.7, "{tightest}: far from what is allowed, nothing would be seen");
+    }
+
+    /// In radii of gyration a blow at one place does 1 + p·q to another: with masses askew 1 + r C⁻¹ r′, C their second moments.
+    #[test]
+    fn a_blow_on_a_plate_does_what_its_second_moments_say() {
+        let (kx, ky, c) = (0.043_f64, 0.02_f64, 5e-4);
+        let mut drop = dropped([0.15, 0.07, 0.004], [kx, ky], 0.01);
+        let across = drop.across.as_mut().unwrap();
+        (across.width.product_of_inertia_m2, across.posture) = (c, None);
+        let (corners, here) = drop.in_radii(&Spot::from([0.05, 0.02]));
+        let whole = kx * kx * ky * ky - c * c;
+        // The center of mass is 10 mm off across: the edges lie 45 mm in front and 25 mm behind.
+        let place = [0.05, 0.01];
+        for (corner, [x, y]) in corners.iter().zip([[-0.075, -0.045], [0.075, -0.045], [0.075, 0.025], [-0.075, 0.025]])
+        {
+            let moments = ky * ky * x * place[0] + kx * kx * y * place[1] - c * (x * place[1] + y * place[0]);
+            let [told, want] = [1.0 + corner[0] * here[0] + corner[1] * here[1], 1.0 + moments / whole];
+            assert!((told - want).abs() < 1e-12, "{x}, {y}: {told}, not {want}");
+        }
+    }
+
+    /// It has bounced clear before it comes down again: after 2 e v/g.
+    #[test]
+    fn a_body_is_clear_in_its_first_flight() {
+        let mut drop = dropped([0.15, 0.07, 0.004], [0.043, 0.02], 0.0);
+        drop.across = None;
+        drop.tilt_rad = 0.0;
+        let flight_s = 2.0 * drop.restitution * drop.speed_m_s / drop.gravity_m_s2;
+        assert!(drop.clear_s() > 2e-4 && drop.clear_s() < flight_s, "{} of {flight_s}", drop.clear_s());
+    }
+}

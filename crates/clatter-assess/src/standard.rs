@@ -66,6 +66,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn faces_land_flatter_than_edges_and_corners() {
+        let degrees = |faces| Attitude::all(faces).into_iter().map(|attitude| tolerance_rad(attitude).to_degrees());
+        for (faces, most) in [(1, 2.0), (2, 5.0), (3, 5.0)] {
+            assert!(degrees(faces).all(|degrees| (degrees - most).abs() < 1e-12), "{faces} faces");
+        }
+    }
+
+    #[test]
     fn a_transit_drop_goes_by_mass_and_size() {
         let of = |mass_kg, largest_m| drops("MIL-STD-810H/516.8-IV", Item { mass_kg: Some(mass_kg), largest_m });
         let counted = |mass_kg, largest_m| of(mass_kg, largest_m).map(|(drops, _)| (drops.len(), drops[0].1));

@@ -424,3 +424,28 @@ pub(crate) fn letter<S: Serializer>(end: &End, serializer: S) -> Result<S::Ok, S
         End::B => "b",
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{EXAMPLE, Fall, Spread};
+
+    /// What a landing says of all limits together is the worst of them, whichever comes last.
+    #[test]
+    fn a_landing_is_as_its_worst_limit() {
+        let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();
+        let mut limit = file.assess().unwrap().components[0].limits[0].clone();
+        let (attitude, fall) = (Attitude::on("bottom").unwrap(), Fall::HeightM(Spread::finite(1.0)));
+        let mut landing = LandingAssessment::new(&Landing { attitude, source: None, tolerance_rad: 0.0, fall }, 9.81);
+        for (own, all) in [
+            (Verdict::Safe, Verdict::Safe),
+            (Verdict::Unsafe, Verdict::Unsafe),
+            (Verdict::Undecided, Verdict::Unsafe),
+            (Verdict::Safe, Verdict::Unsafe),
+        ] {
+            limit.verdict = own;
+            landing.take(&file.components[0], &limit);
+            assert_eq!(landing.verdict, all);
+        }
+    }
+}

@@ -1,7 +1,9 @@
 //! Every kind of limit goes all the way: read, checked, assessed, drawn from, shown and repeated.
 
+use clatter::End;
 use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, LimitKind, ProductFile, Unit, Verdict, repeat};
+use clatter_assess::{Accuracy, Limit, LimitKind, Model, Part, ProductFile, SingleDrop, Unit, Verdict, answer, repeat};
+use clatter_flight::{Body, ContactLaw};
 
 /// A product of which one part has a limit of each kind, weak or strong.
 fn product(kind: LimitKind, factor: f64) -> String {
@@ -85,5 +87,59 @@ fn every_kind_has_names_of_its_own() {
         all.sort();
         all.dedup();
         assert_eq!(all.len(), LimitKind::ALL.len(), "{all:?}");
+    }
+}
+
+/// The closed form of the largest shock is that of the train that is followed strike by strike: of velocity and of turning, off center,
+/// with either end first.
+#[test]
+fn the_largest_shock_is_the_largest_of_the_train() {
+    for (first, e) in [(End::A, 0.1), (End::B, 0.1), (End::A, 0.4), (End::B, 0.4)] {
+        let drop = SingleDrop {
+            body: Body::off_center(0.09, 0.06, 0.045).expect("a body"),
+            across: None,
+            first,
+            tilt_rad: 0.02,
+            flat: false,
+            speed_m_s: 3.0,
+            restitution: e,
+            gravity_m_s2: 0.0,
+            contact_time_s: None,
+            contact_law: ContactLaw::Hysteretic,
+        };
+        for kind in [LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
+            let of =
+                |model| answer(&drop, &Part::new(-0.05, None), &Limit::new(kind, 1.0), model, 0.01).expect("an answer");
+            let [form, train] = [Model::LargestShock, Model::Map].map(|model| of(model).value);
+            assert!((form / train - 1.0).abs() < 1e-9, "{first:?}, e = {e}, {kind:?}: {form}, not {train}");
+        }
+    }
+}
+
+/// Damage needs both: a shock uses up as much of a damage boundary as of the limit that it uses less of, and is told in its unit.
+#[test]
+fn a_damage_boundary_is_used_up_by_the_lesser_share() {
+    let drop = SingleDrop {
+        body: Body::new(0.15, 0.045).expect("a body"),
+        across: None,
+        first: End::A,
+        tilt_rad: 0.0,
+        flat: false,
+        speed_m_s: 3.0,
+        restitution: 0.3,
+        gravity_m_s2: 0.0,
+        contact_time_s: Some(2e-4),
+        contact_law: ContactLaw::Hysteretic,
+    };
+    let of = |limit: &Limit| answer(&drop, &Part::new(0.0, None), limit, Model::Compliant, 0.01).expect("an answer");
+    for (change, acceleration, unit) in [(1.0, 1e5, Unit::MeterPerSecondSquared), (10.0, 1e3, Unit::MeterPerSecond)] {
+        let each = [(LimitKind::VelocityChange, change), (LimitKind::Acceleration, acceleration)];
+        let [by_change, by_acceleration] = each.map(|(kind, allowed)| of(&Limit::new(kind, allowed)).utilization());
+        let boundary =
+            Limit { critical_acceleration_m_s2: acceleration, ..Limit::new(LimitKind::DamageBoundary, change) };
+        let found = of(&boundary);
+        let least = by_change.min(by_acceleration);
+        assert!((found.utilization() / least - 1.0).abs() < 1e-9, "{found:?}: {by_change}, {by_acceleration}");
+        assert_eq!(found.unit, unit);
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use clatter::End;
-use clatter_assess::{Accuracy, LimitAssessment, LimitKind, ProductFile, Verdict};
+use clatter_assess::{Accuracy, Doubt, LimitAssessment, LimitKind, Model, Note, ProductFile, Verdict};
 
 pub(crate) const G: f64 = 9.806_65;
 
@@ -436,4 +436,47 @@ damping_ratio = 0.0227
 rattle_space = "90 mm"
 "#;
     close(only(text).demand.expect("a demand"), 8.188_931e-3, 2e-3);
+}
+
+/// Where the file names no law, a limit that is safe by one and within the uncertainty of the other is undecided, and says by which.
+#[test]
+fn a_doubt_by_the_other_law_is_a_doubt() {
+    let text = with(FLAT_500, "restitution = 0.3", "restitution = 0.05");
+    let told = only(&with(&text, "500 gn", "5000 gn"));
+    let (own, other) = (told.demand.expect("an answer"), told.other_law.expect("an answer"));
+    assert!(other > 1.1 * own, "a dashpot asks for more of what hardly rebounds: {other} beside {own}");
+    let limit = only(&with(&text, "500 gn", &format!("{} gn", 1.005 * other / G)));
+    assert_eq!(limit.verdict, Verdict::Undecided, "{limit:?}");
+    assert!(matches!(limit.undecided[..], [Doubt::OtherLaw { .. }]), "{limit:?}");
+}
+
+/// A range of damping leaves no more room than its least value alone.
+#[test]
+fn the_least_damping_of_a_range_rings_on() {
+    let most = |damping: &str| {
+        let text = with(ELASTIC, "damping_ratio = 0.02", &format!("damping_ratio = {damping}"));
+        let limit = limits(&text).remove(0);
+        limit.demand.expect("an answer") * (1.0 + limit.uncertainty)
+    };
+    let [least, range] = ["0.01", "[0.01, 0.5]"].map(most);
+    // Both are searched.
+    assert!(range > 0.96 * least, "{range} beside {least}");
+}
+
+/// What the model with the most physics asks for beyond the one that was named is among what drops may ask.
+#[test]
+fn what_a_named_model_lacks_is_told_as_doubt() {
+    let accuracy = Accuracy { model: Some(Model::Map), ..Accuracy::default() };
+    let mut most = 0.0_f64;
+    for text in [clatter_assess::EXAMPLE, LAPTOP, FLAT_500] {
+        let assessment = read(text).assess_to(&accuracy).expect("an assessment");
+        for limit in assessment.components.iter().flat_map(|component| &component.limits) {
+            let off =
+                limit.notes.iter().find_map(|note| if let Note::Model { off, .. } = note { Some(*off) } else { None });
+            let off = off.expect("the map is not the most physics");
+            assert!(limit.uncertainty > 0.02 + off.max(0.0) - 1e-12, "{limit:?}");
+            most = most.max(off);
+        }
+    }
+    assert!(most > 0.01, "no limit on which the map asks for too little: {most}");
 }

@@ -416,6 +416,22 @@ fn a_flat_drop_presses_as_four_springs() {
     assert!((sum - 1.5 * SPEED).abs() < 5e-3 * SPEED, "{sum}");
 }
 
+/// Contacts that lose nothing keep the energy of the drop, in rising, turning and height alike: all of it is left.
+#[test]
+fn what_is_left_of_an_elastic_drop_is_all_of_it() {
+    let case = Case { e: 1.0, center: [0.01, -0.005, 0.002], ..EVEN };
+    for (tilt, direction) in [(0.1, 0.3), (0.8, 2.0), (1.5, 4.0)] {
+        let drop = BlockDrop::tilted(case.block(), tilt, direction, SPEED, GRAVITY).unwrap();
+        let lowest =
+            case.block().corners_m().map(|corner| dot(drop.upward(), corner)).into_iter().reduce(f64::min).unwrap();
+        let flight = drop.with_time_limit_s(0.01).unwrap().contacts(&case.contact(), |_| ()).unwrap();
+        assert!(flight.strikes.iter().all(|strike| strike.until_s < 0.01), "in flight");
+        // Over where it lies lowest: 8 mm of its top below the center of mass.
+        let all = (SPEED * SPEED + 2.0 * GRAVITY * (-lowest - 0.008)).sqrt();
+        assert!((flight.left_m_s(&drop) / all - 1.0).abs() < 1e-6, "{tilt}: {} of {all}", flight.left_m_s(&drop));
+    }
+}
+
 /// A box comes to rest on a face: on the one that it stands on where it stands steadily, on a broad one where it falls over.
 #[test]
 fn a_box_comes_to_rest_on_the_face_under_its_center() {

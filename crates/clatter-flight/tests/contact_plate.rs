@@ -273,6 +273,24 @@ proptest! {
         }
     }
 
+    /// Masses askew couple both slopes: a press changes the angular momenta k_x² x + c y and c x + k_y² y by its lever arms, in phases that
+    /// keep the energy.
+    #[test]
+    fn momenta_add_up_with_masses_askew(drop in any_drop(any_e()), askew in -0.8..0.8_f64) {
+        let ([kx, ky], plain) = (drop.gyration, scene(&drop).plate());
+        let c = askew * kx * ky;
+        let plate = plain.with_product_of_inertia(c).expect("a plate");
+        let scene = PlateScene::new(plate, drop.speed, drop.gaps, drop.gravity).expect("a drop").with_impact_limit(500);
+        let flight = scene.contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
+        prop_assert!(flight.energy_error < 1e-8, "{:e} {askew} {drop:?}", flight.energy_error);
+        for strike in &flight.strikes {
+            let ([v, x, y], at) = (motion(&plate, strike.delta_v_m_s), plate.corners_m()[strike.point]);
+            let off = (kx * kx * x + c * y - at[0] * v).abs().max((ky * ky * y + c * x - at[1] * v).abs());
+            let size = drop.speed * drop.edges.iter().sum::<f64>();
+            prop_assert!(off <= 1e-11 * size, "{off:e} {strike:?} {askew} {drop:?}");
+        }
+    }
+
     /// At rest the forces carry the weight about the center of mass, and all strikes together have stopped the drop.
     #[test]
     fn at_rest_the_weight_is_carried(drop in any_drop(0.0..0.8_f64)) {

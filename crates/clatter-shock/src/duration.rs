@@ -168,6 +168,23 @@ mod tests {
         assert!((got.tenth_of_rms_s / step - want).abs() < 1e-6, "{got:?} {want}");
     }
 
+    /// A shock lasts as long forward as backward, also one that the record begins or ends with.
+    #[test]
+    fn a_shock_lasts_as_long_backward() {
+        for before in [0, 700] {
+            let record: Vec<f64> = (0..4000)
+                .map(|i: usize| {
+                    i.checked_sub(before).map_or(0.0, |i| (-float(i) / 400.0).exp() * (0.05 * float(i)).cos())
+                })
+                .collect();
+            let backward: Vec<f64> = record.iter().rev().copied().collect();
+            let [one, other] = [record, backward].map(|a| effective_duration(&a, 1.0).expect("a shock"));
+            assert!((one.third_of_peak_s - other.third_of_peak_s).abs() < 1e-9, "{one:?} {other:?}");
+            // Sums of squares are added the other way: by their roundings a sample more or less may count.
+            assert!((one.tenth_of_rms_s - other.tenth_of_rms_s).abs() < 1.5, "{one:?} {other:?}");
+        }
+    }
+
     #[test]
     fn the_shortest_records_have_a_duration() {
         let one = effective_duration(&[5.0], 1.0).expect("a shock");

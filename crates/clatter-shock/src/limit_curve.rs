@@ -129,6 +129,8 @@ mod tests {
         let level = LimitCurve::constant(3.0).expect("a limit");
         assert_eq!(level.corners(10.0, 50.0), [(10.0, 3.0), (50.0, 3.0)]);
         let curve = LimitCurve::new(vec![(10.0, 100.0), (1000.0, 10_000.0), (5000.0, 10_000.0)]).expect("a curve");
+        let near = curve.corners(100.0, 1001.0);
+        assert!(near.len() == 3 && near[1] == (1000.0, 10_000.0), "{near:?}");
         let corners = curve.corners(100.0, 1e5);
         assert_eq!(corners.len(), 3, "{corners:?}: nothing is allowed or not beyond its end");
         assert!((corners[0].1 - 1000.0).abs() < 1e-9 && corners[1..] == [(1000.0, 10_000.0), (5000.0, 10_000.0)]);

@@ -379,6 +379,28 @@ mod tests {
         }
     }
 
+    /// The duration that a standard states between points at a tenth of the peak is that between them, of any shape.
+    #[test]
+    fn a_pulse_is_as_long_between_its_tenths_as_stated() {
+        let shapes = [
+            Shape::HalfSine,
+            Shape::Haversine,
+            Shape::Triangle,
+            Shape::InitialPeakSawtooth,
+            Shape::TerminalPeakSawtooth,
+            Shape::Rectangle,
+            Shape::Trapezoid { ramp: 0.3 },
+        ];
+        for shape in shapes {
+            let pulse = base(&Pulse { shape, amplitude: 1.0, duration: 0.5, start: 0.0 });
+            let steps = 100_000;
+            let above = (0..steps).filter(|i| value(shape, (float(*i) + 0.5) / float(steps))[0] > 0.1).count();
+            let between = pulse.duration * float(above) / float(steps);
+            // A step at either end.
+            assert!((between / 0.5 - 1.0).abs() < 3e-5, "{shape:?}: {between}");
+        }
+    }
+
     #[test]
     fn what_cannot_be_compared_is_refused() {
         let iec = tolerance("IEC 60068-2-27");

@@ -226,3 +226,24 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         flight: felt.flight,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clatter_flight::{Block, ContactLaw};
+    use clatter_shock::DampingRatio;
+
+    /// A soft part without damping on a box that is set down swings under its weight, by twice its static deflection, and by no more
+    /// than the velocity of the box adds.
+    #[test]
+    fn a_part_of_a_box_at_rest_carries_its_weight() {
+        let block = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478]).unwrap();
+        let drop = BlockDrop::tilted(block, 0.0, 0.0, 0.05, 9.81).unwrap();
+        let contact = Contact::new(ContactLaw::Hysteretic, 0.1, 1e-4).unwrap();
+        let part = Suspension::from_hz(2.0, DampingRatio::new(0.0).unwrap()).unwrap();
+        let question = Question { suspension: Some(part), ..Question::new(drop, contact, [0.0; 3], Axis::Z) };
+        let swings = answer(&question).unwrap().part.unwrap().omega_peak_relative_displacement.0;
+        let weight = 2.0 * 9.81 / part.omega();
+        assert!((swings - weight).abs() < 1.1 * 0.05, "{swings}, not {weight}");
+    }
+}

@@ -161,3 +161,76 @@ impl PlaceHistory<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drop::{Across, Model, Posture, SingleDrop, Until};
+    use crate::{ContactLaw, Width};
+
+    /// Mass near the edges, landing flat: it lands again with e times its speed, all four corners along one line of their springs. Its
+    /// center feels (1 + e) e v, and √(4/μ) times the peak of a lone contact, 13 % more than one of its own.
+    #[test]
+    fn a_box_that_lands_again_stays_within_its_bounds() {
+        let (e, v, time_s) = (0.6, 2.0, 2e-4);
+        let width =
+            Width { edges_m: [0.04; 2], gyration_m: 0.039, product_of_inertia_m2: 0.0, thickness_m: Some(0.02) };
+        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02 });
+        let drop = SingleDrop {
+            body: clatter_flight::Body::new(0.12, 0.058).unwrap(),
+            across: Some(Across { width, direction_rad: 0.0, posture }),
+            first: clatter::End::A,
+            tilt_rad: 0.0,
+            flat: false,
+            speed_m_s: v,
+            restitution: e,
+            gravity_m_s2: 9.81,
+            contact_time_s: Some(time_s),
+            contact_law: ContactLaw::Hysteretic,
+        };
+        let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let later = PlaceHistory::new(&followed, [0.0; 2]).unwrap().later();
+        // Gravity works during the contact, by a thousandth.
+        let lands = 0.995 * e * v;
+        assert!(later.shock_m_s >= (1.0 + e) * lands && later.turned_m_s >= (1.0 + e) * lands, "{}", later.shock_m_s);
+        let thick = 0.02_f64.powi(2) / 12.0;
+        let own = 1.0 + 0.06_f64.powi(2) / (0.058_f64.powi(2) + thick) + 0.04_f64.powi(2) / (0.039_f64.powi(2) + thick);
+        let peak = lands * std::f64::consts::FRAC_PI_2 * (1.0 + e) / time_s * (4.0 / own).sqrt();
+        assert!(later.acceleration_m_s2 >= peak, "{} below {peak}", later.acceleration_m_s2);
+        // All of it in a turn about the axis of least inertia.
+        let least = (0.039_f64.powi(2) + thick).sqrt();
+        assert!(later.turn_rad_s >= (1.0 + e) * lands / least, "{}", later.turn_rad_s);
+    }
+
+    /// A part without damping rings on until the product lands again, in step with it or against it: followed on, it is never asked for
+    /// more than was said as the product was up.
+    #[test]
+    fn what_rings_on_adds_to_what_comes() {
+        let drop = SingleDrop {
+            body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
+            across: None,
+            first: clatter::End::A,
+            tilt_rad: 0.0,
+            flat: false,
+            speed_m_s: 1.0,
+            restitution: 0.9,
+            gravity_m_s2: 9.81,
+            contact_time_s: Some(2e-4),
+            contact_law: ContactLaw::Hysteretic,
+        };
+        let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let on = Followed::until(&drop, Model::Compliant, 0.01, Until::Past(0.3)).unwrap();
+        let [up, on] = [&up, &on].map(|followed| PlaceHistory::new(followed, [0.0; 2]).unwrap());
+        let limit = Limit::new(crate::LimitKind::RattleSpace, 1e-3);
+        let mut tightest = 0.0_f64;
+        for n in 0..60 {
+            let hz = 20.0 + 0.5 * f64::from(n);
+            let part = Suspension::from_hz(hz, clatter_shock::DampingRatio::new(0.0).unwrap()).unwrap();
+            let said = up.later_most(&limit, [&part], 0.0);
+            let asked = on.answer(&limit, Some(&part), 0.0).unwrap().unwrap().utilization();
+            assert!(asked <= said, "{hz} Hz: {asked}, not {said}");
+            tightest = tightest.max(asked / said);
+        }
+        assert!(tightest > 0.7, "{tightest}: none is in step");
+    }
+}

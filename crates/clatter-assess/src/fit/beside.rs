@@ -136,4 +136,25 @@ mod tests {
             assert_eq!(of(value, interval).agrees(stated), agrees, "{value} {interval:?} in {stated:?}");
         }
     }
+
+    /// The larger ρ, the smaller q = (L² − ρ²)/(L² + ρ²): a range of radii is one of ratios, from the least.
+    #[test]
+    fn a_range_of_radii_is_one_of_ratios() {
+        let text = r#"
+product = { name = "bar", length = "200 mm", radius_of_gyration = ["50 mm", "60 mm"], restitution = 0.3 }
+drop = { height = "1 m", tilt = "1 deg" }
+component = [{ name = "part", position = "0 mm", mount = "hard", velocity_change_limit = "9 m/s" }]
+"#;
+        let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let mut fit = crate::fit::bounces(&[0.0, 0.1, 0.15, 0.175], 9.81, None).unwrap();
+        let [least, most] = [60.0_f64, 50.0].map(|rho| (1e4 - rho * rho) / (1e4 + rho * rho));
+        for (value, agrees) in [(0.5, true), (0.7, false), (0.4, false)] {
+            let interval = Some([value - 0.01, value + 0.01]);
+            fit.estimates = vec![Estimate { quantity: Quantity::InertiaRatio, value, interval, note: None }];
+            let beside = fit.beside(&file)[0];
+            let [from, to] = beside.stated.unwrap();
+            assert!((from - least).abs() < 1e-12 && (to - most).abs() < 1e-12, "{from} to {to}");
+            assert_eq!(beside.agrees, Some(agrees), "{value}");
+        }
+    }
 }

@@ -138,3 +138,19 @@ fn check(times_s: &[f64], deviation_s: Option<f64>) -> Result<(), Error> {
         _ => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first touch, the first flight and the restitution are three unknowns: three bounces tell them and no scatter.
+    #[test]
+    fn what_is_more_than_three_bounces_tells_the_scatter() {
+        let times = [0.0, 0.1, 0.1503, 0.1749, 0.1875, 0.194];
+        for (count, spare) in [(3, 0), (4, 1), (6, 3)] {
+            let fit = bounces(&times[..count], 9.81, None).unwrap();
+            assert_eq!(fit.degrees_of_freedom, spare);
+            assert_eq!(fit.estimates[0].interval.is_some(), spare > 0, "{fit:?}");
+        }
+    }
+}

@@ -162,4 +162,18 @@ mod tests {
         assert_eq!(values.map(|x| four(x, Round::Down)), ["0.1234", "0.3", "38", "1234", "0", "0.00001234", "56780"]);
         assert_eq!(values.map(|x| four(x, Round::Up)), ["0.1235", "0.3", "38.01", "1235", "0", "0.00001235", "56790"]);
     }
+
+    /// Ends of two restitutions are written as one range that holds both.
+    #[test]
+    fn both_restitutions_are_within_what_is_written() {
+        let mut fit = crate::fit::bounces(&[0.0, 0.1, 0.15, 0.175], 9.81, None).unwrap();
+        let of = |quantity, [lo, hi]: [f64; 2]| Estimate {
+            quantity,
+            value: 0.5 * (lo + hi),
+            interval: Some([lo, hi]),
+            note: None,
+        };
+        fit.estimates = vec![of(Quantity::RestitutionA, [0.2, 0.25]), of(Quantity::RestitutionB, [0.3, 0.35])];
+        assert_eq!(restitution(&fit), Some([0.2, 0.35]));
+    }
 }

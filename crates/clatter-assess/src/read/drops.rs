@@ -42,8 +42,8 @@ impl Reader {
             );
         }
         if let (Some(keyword), Some(product)) = (self.text(section, "standard"), product) {
-            let sides = [Some(product.body.length_m()), product.width.map(|width| width.m())];
-            let largest_m = sides.into_iter().flatten().fold(0.0, f64::max);
+            let across = product.width.map_or([0.0; 2], |width| [width.m(), width.thickness_m.unwrap_or(0.0)]);
+            let largest_m = across.into_iter().fold(product.body.length_m(), f64::max);
             match standard::drops(&keyword.value, standard::Item { mass_kg: product.mass_kg, largest_m }) {
                 Ok((drops, source)) => {
                     landings.extend(drops.into_iter().map(|(attitude, height_m)| (attitude, height_m, Some(source))));

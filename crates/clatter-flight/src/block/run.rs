@@ -249,7 +249,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn run(mut self, mut each: impl FnMut(&BlockStep<'_>)) -> Result<BlockFlight, Error> {
+    fn first_touches(&mut self) {
         let near = 1e-12 * self.drop.block.reach();
         for i in 0..8 {
             let (height, velocity) = System::place(&self.y, self.system.corners[i]);
@@ -257,6 +257,10 @@ impl<'a> Run<'a> {
                 self.touch(i, velocity);
             }
         }
+    }
+
+    fn run(mut self, mut each: impl FnMut(&BlockStep<'_>)) -> Result<BlockFlight, Error> {
+        self.first_touches();
         if self.strikes.is_empty() {
             let (name, allowed) = ("spin in rad/s", "such that the lowest corner approaches");
             let value = dot(self.drop.spin, self.drop.spin).sqrt();
@@ -446,3 +450,6 @@ impl<'a> Run<'a> {
         Ok(BlockFlight { strikes: self.strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -175,3 +175,26 @@ impl Pose<4> for Level {
         Self { v: 0.0, rates: [0.0; 2], ..*self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Off center and askew, rising and turning both ways: what stops it on four corners or on three leaves no corner a velocity.
+    #[test]
+    fn what_stops_a_plate_stops_every_corner() {
+        let plate =
+            Plate::new([0.08, 0.07, 0.03, 0.045], [0.043, 0.02]).unwrap().with_product_of_inertia(4e-4).unwrap();
+        let mut level = Level::start(&PlateScene::new(plate, 1.0, [0.0; 2], 9.81).unwrap());
+        (level.v, level.rates) = (0.3, [4.0, -7.0]);
+        for idle in [None, Some(0), Some(1), Some(2), Some(3)] {
+            let carrying = std::array::from_fn(|i| idle != Some(i));
+            let impulses = level.stopping(&carrying).unwrap();
+            assert_eq!(impulses.map(|impulse| impulse.is_some()), carrying);
+            let impulse = impulses.map(|impulse| impulse.unwrap_or(0.0));
+            let stopped = level.after(0.0, &(), &Pushes { path: [0.0; 4], impulse });
+            let left = stopped.points().1;
+            assert!(left.iter().all(|v| v.abs() < 1e-14), "{idle:?}: {left:?}");
+        }
+    }
+}

@@ -216,3 +216,17 @@ fn between(table: &[(f64, f64)], x: f64) -> f64 {
         (None, None) => f64::NAN,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    /// Straight lines between its values; beyond its ends those of the ends.
+    #[test]
+    fn a_table_holds_its_ends() {
+        let table = [(0.0, 10.0), (2.0, 20.0), (4.0, 10.0)];
+        for (x, value) in
+            [(-1.0, 10.0), (0.0, 10.0), (1.0, 15.0), (2.0, 20.0), (3.5, 12.5), (4.0, 10.0), (9.0, 10.0_f64)]
+        {
+            assert_eq!(super::between(&table, x).to_bits(), value.to_bits(), "{x}");
+        }
+    }
+}

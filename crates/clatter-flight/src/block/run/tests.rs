@@ -1,0 +1,85 @@
+//! What is said of a box that comes to rest, beside what it does then.
+
+use super::*;
+use crate::ContactLaw;
+
+const GRAVITY: f64 = 9.81;
+
+/// Evenly spread mass.
+fn block(size: [f64; 3]) -> Block {
+    let [x, y, z] = size.map(|side| side * side / 12.0);
+    Block::new(size, [0.0; 3], [y + z, x + z, x + y].map(f64::sqrt)).unwrap()
+}
+
+/// The fastest corner, up or down.
+fn fastest(run: &Run<'_>) -> f64 {
+    let speed = |corner: [f64; 3]| System::place(&run.y, corner).1.abs();
+    run.system.corners.map(speed).into_iter().fold(0.0, f64::max)
+}
+
+/// Followed on after it was said to be at rest, no corner is ever faster than a shock of the bound makes it. A sheet that is set on its
+/// long edge stands for a while, and falls over.
+#[test]
+fn nothing_after_rest_passes_its_bound() {
+    let handheld = ([0.15, 0.07, 0.014], 0.3);
+    let sheet = ([0.15, 0.06, 1.2e-3], 0.02);
+    let mut rested = 0;
+    let kinds = [handheld, handheld, handheld, sheet, sheet];
+    'drops: for (n, (size, speed)) in (0_u32..40).zip(kinds.into_iter().cycle()) {
+        let x = |k: u32| f64::from((n * k + 7) % 41) / 41.0;
+        let [across, along] = [x(11) - 0.5, x(17) - 0.5];
+        let upward = if speed < 0.1 { [1e-3 * along, 1.0, 0.02 * across] } else { [0.6 * along, 0.6 * across, 0.5] };
+        let drop = BlockDrop::upright(block(size), upward, speed, GRAVITY).unwrap();
+        let law = if n % 2 == 0 { ContactLaw::Hysteretic } else { ContactLaw::Dashpot };
+        let contact = Contact::new(law, 0.1 + 0.5 * x(23), 1e-4).unwrap();
+        let mut run = Run::new(&drop, &contact);
+        run.first_touches();
+        let bound = loop {
+            match run.ends() {
+                // A sheet on its edge may rock for long.
+                None if run.now > 2.0 => continue 'drops,
+                None => assert!(!run.step(&mut |_| ()), "{n}: the time has no limit"),
+                Some(Stop::AtRest { shock_bound_m_s, .. }) => break shock_bound_m_s,
+                Some(stop) => panic!("{n}: {stop:?}"),
+            }
+        };
+        let until = run.now + 0.2;
+        while run.now < until {
+            run.step(&mut |_| ());
+            // A shock of the bound stops what comes at this speed and gives back the restitution of it.
+            let most = bound / (1.0 + run.restitution);
+            assert!(fastest(&run) <= most * (1.0 + 1e-6), "{n}: {} m/s at {} s, not {most}", fastest(&run), run.now);
+        }
+        rested += 1;
+    }
+    assert!(rested > 30, "{rested} of 40 came to rest");
+}
+
+/// What a pressed corner is said to part at is where it parts, also in the dent of an earlier press.
+#[test]
+fn dents_add_up() {
+    let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap();
+    let mut run = Run::new(&drop, &contact);
+    run.first_touches();
+    let i = run.strikes[0].corner;
+    // Two presses by 10 µm, of which a quarter springs back.
+    for dent in [-7.5e-6, -15e-6] {
+        run.system.holds[i].hold = Hold::Unloads(1e-5);
+        assert!((run.system.dent(i, &run.y) - dent).abs() < 1e-15);
+        run.happens(i);
+        assert!((run.system.holds[i].ground - dent).abs() < 1e-15, "{}", run.system.holds[i].ground);
+    }
+}
+
+/// Each step may be off by little: their sum ends the flight.
+#[test]
+fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
+    let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap();
+    for (off, ends) in [(0.0099, false), (0.0101, true)] {
+        let mut run = Run::new(&drop, &contact);
+        run.misfit = off * run.opened;
+        assert_eq!(matches!(run.ends(), Some(Stop::EnergyLimit { .. })), ends, "off by {off}");
+    }
+}
