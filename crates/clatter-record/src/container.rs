@@ -24,7 +24,7 @@ mod parquet;
 
 pub use kind::Kind;
 #[cfg(feature = "parquet")]
-pub use parquet::{Field, FieldKind, RowGroupWriter, RowGroups, Series, write as write_parquet};
+pub use parquet::{RowGroupWriter, RowGroups, Series, write as write_parquet};
 
 use crate::{Column, Error, Table, Values};
 use number::Number;

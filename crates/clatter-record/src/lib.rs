@@ -28,6 +28,7 @@ mod container;
 mod decimal;
 mod error;
 mod factor;
+mod field;
 mod finding;
 mod heading;
 mod integrate;
@@ -50,10 +51,11 @@ pub use axis::TimeAxis;
 pub use baseline::{Baseline, PRE_SHOCK_SHARE, Removed, remove_baseline};
 pub use between::BAND;
 pub use butterworth::{Pass, butterworth};
-#[cfg(feature = "parquet")]
-pub use container::{Field, FieldKind, RowGroupWriter, RowGroups, Series, write_parquet};
 pub use container::{Kind, read};
+#[cfg(feature = "parquet")]
+pub use container::{RowGroupWriter, RowGroups, Series, write_parquet};
 pub use error::{Bad, Error};
+pub use field::{Field, FieldKind};
 pub use finding::{At, Finding};
 pub use integrate::{Motion, integrate};
 pub use limit::{LimitPoints, read_limit};

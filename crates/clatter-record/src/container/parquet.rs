@@ -9,7 +9,7 @@ mod pages;
 mod write;
 
 pub use groups::RowGroups;
-pub use write::{Field, FieldKind, RowGroupWriter, Series, write};
+pub use write::{RowGroupWriter, Series, write};
 
 use super::number::Number;
 use super::{Room, arrow, column, joined, nulls, refuse};

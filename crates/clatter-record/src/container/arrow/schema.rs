@@ -2,9 +2,9 @@
 
 use super::damaged;
 use crate::container::number::Number;
-use crate::container::parquet::{Field as WrittenField, FieldKind};
 use crate::container::{column, refuse};
 use crate::{Column, Error, Values};
+use crate::{Field as WrittenField, FieldKind};
 use polars_arrow_format::ipc::{self, Endianness, FieldRef, Precision, SchemaRef, TimeUnit, TypeRef, UnionMode};
 
 /// Fields, those within fields too: more are no record.

@@ -2,8 +2,8 @@
 
 use super::pages::checksum;
 use super::{ARROW_SCHEMA, MAGIC, damaged};
-use crate::Error;
 use crate::container::{arrow, equal_length, refuse};
+use crate::{Error, Field, FieldKind};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use polars_parquet_format::thrift::protocol::TCompactOutputProtocol;
@@ -25,30 +25,6 @@ pub struct Series<'a> {
     pub unit: &'a str,
     /// Its numbers.
     pub values: &'a [f64],
-}
-
-/// A column of a file of row groups.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Field {
-    /// Its name.
-    pub name: String,
-    /// Its unit, such as `m/s2`; empty where it has none.
-    pub unit: String,
-    /// What its numbers are.
-    pub kind: FieldKind,
-}
-
-/// What the numbers of a column are, and so how they are stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FieldKind {
-    /// Any numbers.
-    Float,
-    /// Numbers of which some are missing: NaN.
-    FloatOrNone,
-    /// Whole numbers up to 2⁵³.
-    Whole,
-    /// 0 or 1: no or yes.
-    Flag,
 }
 
 /// The bytes of a Parquet file with these columns, as `name [unit]`; the unit stands in the metadata of each as well, as
