@@ -209,4 +209,19 @@ mod tests {
         let motion = BlockMotion::new(&drop.with_impact_limit(3), &contact).unwrap();
         assert!(motion.center_m_s.is_infinite(), "{:?}", motion.stop);
     }
+
+    /// Whatever a plate or a box turns about, one of the axes that are looked at is near it.
+    #[test]
+    fn axes_of_turning_lie_all_over() {
+        for k in 0..720 {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 720.0).sin_cos();
+            let along = directions().map(|[x, y]| (cos * x + sin * y).abs()).fold(0.0, f64::max);
+            assert!(along > 0.995, "{k}: {along}");
+            for z in [-0.9_f64, -0.5, 0.0, 0.3, 0.7, 1.0] {
+                let across = (1.0 - z * z).sqrt();
+                let about = axes().map(|[x, y, up]| (across * (cos * x + sin * y) + z * up).abs()).fold(0.0, f64::max);
+                assert!(about > 0.97, "{k}, {z}: {about}");
+            }
+        }
+    }
 }

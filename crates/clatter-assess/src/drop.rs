@@ -591,4 +591,16 @@ mod tests {
         let flight_s = 2.0 * drop.restitution * drop.speed_m_s / drop.gravity_m_s2;
         assert!(drop.clear_s() > 2e-4 && drop.clear_s() < flight_s, "{} of {flight_s}", drop.clear_s());
     }
+
+    /// The largest turn of a box is found wherever it is above what is asked for, and only there.
+    #[test]
+    fn the_largest_turn_of_a_box_is_not_passed_over() {
+        for tilt_rad in [0.02, 0.1, 0.25] {
+            let drop = SingleDrop { tilt_rad, ..dropped([0.15, 0.07, 0.02], [0.043, 0.02], 0.0) };
+            let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+            let most = followed.largest_turn(0.0).unwrap().change;
+            assert!(most > 1.0 && followed.largest_turn(0.999 * most).is_some(), "{tilt_rad}: {most}");
+            assert!(followed.largest_turn(1.001 * most).is_none(), "{tilt_rad}: {most}");
+        }
+    }
 }
