@@ -3,30 +3,30 @@
 use clatter::{Bar, Start};
 use clatter_answer::{impacts as impacts_of, zone as zone_of};
 
-use crate::{Told, json, text};
+use crate::{Reply, json, text};
 
 /// Values of q and of e, from 0 to 1.
 const POINTS: u32 = 61;
 
-pub(crate) fn impacts(q: f64, e: f64, limit: usize) -> Result<Told, String> {
+pub(crate) fn impacts(q: f64, e: f64, limit: usize) -> Result<Reply, String> {
     let mut question = impacts_of::Question::new(Bar::new(q, e).map_err(text)?, Start::default());
     question.limit = limit;
     let answer = json(&impacts_of::answer(&question).map_err(text)?)?;
     let command = format!("clatter impacts --q={q:?} --e={e:?} --limit={limit} --format=json");
-    Ok(Told { answer: Some(answer), command: Some(command), ..Told::default() })
+    Ok(Reply { answer: Some(answer), command: Some(command), ..Reply::default() })
 }
 
-pub(crate) fn zone(q: f64, e: f64, threshold: f64) -> Result<Told, String> {
+pub(crate) fn zone(q: f64, e: f64, threshold: f64) -> Result<Reply, String> {
     let question = zone_of::Question::new(Bar::new(q, e).map_err(text)?, vec![threshold]);
     let answer = json(&zone_of::answer(&question).map_err(text)?)?;
     let command = format!("clatter zone --q={q:?} --e={e:?} --threshold={threshold:?} --format=json");
-    Ok(Told { answer: Some(answer), command: Some(command), ..Told::default() })
+    Ok(Reply { answer: Some(answer), command: Some(command), ..Reply::default() })
 }
 
 /// The largest shock at the ends over the plane, in v0: a row for each q. What lies behind a point of the page, and no answer.
-pub(crate) fn plane() -> Result<Told, String> {
+pub(crate) fn plane() -> Result<Reply, String> {
     let points = || (0..POINTS).map(|i| f64::from(i) / f64::from(POINTS - 1));
     let shock = |q, e| Ok(Bar::new(q, e)?.summary(&Start::default()).peak.end);
     let row = |q| points().map(|e| shock(q, e)).collect::<Result<Vec<f64>, clatter::Error>>();
-    Told::shown(points().map(row).collect::<Result<Vec<_>, _>>().map_err(text)?)
+    Reply::shown(points().map(row).collect::<Result<Vec<_>, _>>().map_err(text)?)
 }

@@ -44,9 +44,9 @@ enum Question {
     Products,
 }
 
-/// What is told beside an answer.
+/// An answer, and what stands beside it.
 #[derive(Debug, Default, Serialize)]
-struct Told {
+struct Reply {
     /// The text that the command prints.
     #[serde(skip_serializing_if = "Option::is_none")]
     answer: Option<String>,
@@ -64,7 +64,7 @@ struct Told {
     shown: serde_json::Value,
 }
 
-impl Told {
+impl Reply {
     fn shown(value: impl Serialize) -> Result<Self, String> {
         Ok(Self { shown: serde_json::to_value(value).map_err(text)?, ..Self::default() })
     }
@@ -80,18 +80,18 @@ pub fn answer(question: &str, file: &[u8], progress: Progress<'_>) -> String {
     }
 }
 
-fn told(question: Question, file: &[u8], progress: Progress<'_>) -> Result<Told, String> {
+fn told(question: Question, file: &[u8], progress: Progress<'_>) -> Result<Reply, String> {
     match question {
         Question::Impacts { q, e, limit } => bars::impacts(q, e, limit),
         Question::Zone { q, e, threshold } => bars::zone(q, e, threshold),
         Question::Plane => bars::plane(),
         Question::Plan { name, text } => plan::plan(&name, &text),
-        Question::Move { text, item, by } => Told::shown(plan::moved(&text, item, by)?),
+        Question::Move { text, item, by } => Reply::shown(plan::moved(&text, item, by)?),
         Question::Assess { name, text, quick } => products::assess(&name, &text, quick, progress),
         Question::Figures { name, text } => products::figures(&name, &text, progress),
         Question::Record(source) => records::record(&source, file),
         Question::Spectrum(source) => records::spectrum(&source, file),
-        Question::Products => Told::shown(products::WORKED),
+        Question::Products => Reply::shown(products::WORKED),
     }
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::{Told, products, text};
+use crate::{Reply, products, text};
 
 /// A part or a mass, by its place in the file.
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -44,7 +44,7 @@ struct Place {
 }
 
 /// The plan of a product, with what is odd in its file.
-pub(crate) fn plan(name: &str, given: &str) -> Result<Told, String> {
+pub(crate) fn plan(name: &str, given: &str) -> Result<Reply, String> {
     let (file, warnings) = products::read(name, given)?;
     let body = &file.product.body;
     let [a, b] = body.arms_m();
@@ -62,7 +62,7 @@ pub(crate) fn plan(name: &str, given: &str) -> Result<Told, String> {
         components: file.components.iter().map(|part| component(part, width.is_some())).collect(),
         masses: masses(given, width.is_some()),
     };
-    Ok(Told { warnings, ..Told::shown(plan)? })
+    Ok(Reply { warnings, ..Reply::shown(plan)? })
 }
 
 fn component(part: &Component, has_width: bool) -> Place {

@@ -9,7 +9,7 @@ use clatter_assess::{
 use clatter_figures::{FigureError, Place};
 use serde::Serialize;
 
-use crate::{Progress, Told, json, quoted, text};
+use crate::{Progress, Reply, json, quoted, text};
 
 /// The worked products, each under the name of its file.
 pub(crate) const WORKED: [[&str; 2]; 5] = [
@@ -54,7 +54,7 @@ fn unit_of(component: &Component, limit: &LimitAssessment) -> (&'static str, f64
 }
 
 /// The verdicts, and what stands beside each limit.
-pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_>) -> Result<Told, String> {
+pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_>) -> Result<Reply, String> {
     let (file, warnings) = read(name, given)?;
     let accuracy = Accuracy { model: quick.then_some(Model::FiniteTilt), ..Accuracy::default() };
     let answer = assess_of::watched(&file, &accuracy, &|done, all| {
@@ -73,11 +73,11 @@ pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_
     let shown = serde_json::to_value(shown.collect::<Vec<_>>()).map_err(text)?;
     let model = if quick { format!(" --model={}", Model::FiniteTilt.name()) } else { String::new() };
     let command = format!("clatter assess {}{model} --format=json", quoted(name));
-    Ok(Told { answer: Some(json(&answer)?), command: Some(command), warnings, shown, ..Told::default() })
+    Ok(Reply { answer: Some(json(&answer)?), command: Some(command), warnings, shown, ..Reply::default() })
 }
 
 /// Where each part would be safe; of each its worst drop over time and its demand over the tilt.
-pub(crate) fn figures(name: &str, given: &str, progress: Progress<'_>) -> Result<Told, String> {
+pub(crate) fn figures(name: &str, given: &str, progress: Progress<'_>) -> Result<Reply, String> {
     let (file, _) = read(name, given)?;
     let watch = |done, all| {
         progress(done, all);
@@ -88,7 +88,7 @@ pub(crate) fn figures(name: &str, given: &str, progress: Progress<'_>) -> Result
     let zones_m: Vec<_> = portraits.iter().map(|portrait| portrait.zone_m).collect();
     let figures = drawn(&file, &assessment, &portraits).map_err(text)?;
     let command = format!("clatter assess {} -o report.pdf", quoted(name));
-    Ok(Told { figures, command: Some(command), ..Told::shown(zones_m)? })
+    Ok(Reply { figures, command: Some(command), ..Reply::shown(zones_m)? })
 }
 
 fn drawn(

@@ -9,7 +9,7 @@ use clatter_record::{Channel, Options, Record};
 use clatter_shock::DampingRatio;
 use serde::{Deserialize, Serialize};
 
-use crate::{Told, json, quoted, text};
+use crate::{Reply, json, quoted, text};
 
 /// A file by its name, and what it does not say of itself, as the flags of the command have it; empty where it says it.
 #[derive(Debug, Deserialize)]
@@ -65,10 +65,10 @@ struct OfFile<'a> {
 }
 
 /// What the file holds, and its channels over time.
-pub(crate) fn record(source: &Source, file: &[u8]) -> Result<Told, String> {
+pub(crate) fn record(source: &Source, file: &[u8]) -> Result<Reply, String> {
     let record = source.read(file)?;
     let answer = record_of::answer(&record_of::Question::new(&record)).map_err(|error| source.refused(&error))?;
-    Ok(Told {
+    Ok(Reply {
         answer: Some(json(&OfFile { file: &source.name, answer: &answer })?),
         command: Some(source.command("record")),
         warnings: answer.findings.iter().map(ToString::to_string).collect(),
@@ -102,7 +102,7 @@ fn picture(record: &Record) -> Result<String, clatter_figures::FigureError> {
 }
 
 /// Its shock response spectrum.
-pub(crate) fn spectrum(source: &Source, file: &[u8]) -> Result<Told, String> {
+pub(crate) fn spectrum(source: &Source, file: &[u8]) -> Result<Reply, String> {
     let record = source.read(file)?;
     let measured = Measured { file: source.name.clone(), name: None, record, shock: None };
     let damping = DampingRatio::from_quality_factor(QUALITY).map_err(text)?;
@@ -115,10 +115,10 @@ pub(crate) fn spectrum(source: &Source, file: &[u8]) -> Result<Told, String> {
             clatter_figures::spectra(&all, Against::default())
         }
     };
-    Ok(Told {
+    Ok(Reply {
         answer: Some(json(&answer)?),
         command: Some(source.command("spectrum")),
         figures: vec![(format!("Shock response spectrum, Q = {QUALITY}"), drawing.map_err(text)?)],
-        ..Told::default()
+        ..Reply::default()
     })
 }

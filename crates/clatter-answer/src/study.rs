@@ -34,7 +34,7 @@ use clatter_assess::scatter::{Column, PartRow, Sampler, Settings};
 use clatter_assess::{Accuracy, Assessment, Component, Family, Faults, LimitKind, Plan, ProductFile, Verdict};
 use clatter_record::{Field, FieldKind};
 
-pub use answer::{Answer, Member, SearchedLimit, Told};
+pub use answer::{Answer, Member, Outcome, SearchedLimit};
 pub use merge::Merge;
 pub use parts::{Parts, Shard};
 

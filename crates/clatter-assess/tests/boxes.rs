@@ -246,6 +246,10 @@ fn faults_of_boxes_are_told() {
         (HANDHELD.replace("axis = \"x\"", "axis = \"any\""), "`axis` = \"any\" is not that of this part"),
         (HANDHELD.replace("516.8-IV\"", "516.8-IV\"\nheight = \"1 m\""), "more than one of `standard`, `height`"),
     ];
+    // One fault is told once.
+    let twice = HANDHELD.replace("516.8-IV\"", "516.8-IV\"\ntilt = \"1 deg\"");
+    let said = ProductFile::read(&twice, "box.toml").unwrap_err().to_string();
+    assert_eq!(said.matches("more than one of").count(), 1, "{said}");
     for (text, told) in cases {
         let said = match ProductFile::read(&text, "box.toml") {
             Err(faults) => faults.to_string(),

@@ -21,7 +21,7 @@ pub struct Answer<'a> {
     pub members: Vec<Member>,
 }
 
-/// A product of the study, and what was told of it.
+/// A product of the study, and what came of it.
 #[derive(Debug, Clone)]
 pub struct Member {
     /// Its values of the grid, as a product file has them, without quotes.
@@ -29,12 +29,12 @@ pub struct Member {
     /// The product.
     pub file: ProductFile,
     /// What came of it.
-    pub told: Told,
+    pub outcome: Outcome,
 }
 
 /// What came of a product.
 #[derive(Debug, Clone)]
-pub enum Told {
+pub enum Outcome {
     /// Its drops.
     Drawn(Box<Scatter>),
     /// Its limits in their worst drops.
@@ -64,9 +64,9 @@ impl Member {
     /// Whether it holds: each limit is safe, and the interval of the survival lies above the target, if there is one.
     #[must_use]
     pub fn holds(&self, target: Option<f64>) -> bool {
-        match &self.told {
-            Told::Drawn(scatter) => target.is_none_or(|share| scatter.survival.lo >= share),
-            Told::Searched(limits) => limits.iter().all(|limit| limit.verdict == Verdict::Safe),
+        match &self.outcome {
+            Outcome::Drawn(scatter) => target.is_none_or(|share| scatter.survival.lo >= share),
+            Outcome::Searched(limits) => limits.iter().all(|limit| limit.verdict == Verdict::Safe),
         }
     }
 }
@@ -92,12 +92,12 @@ struct AnswerJson<'a> {
 struct MemberJson<'a> {
     values: &'a [String],
     #[serde(flatten)]
-    told: ToldJson<'a>,
+    outcome: OutcomeJson<'a>,
 }
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum ToldJson<'a> {
+enum OutcomeJson<'a> {
     Drawn(Box<scatter::Answer<'a>>),
     Searched { verdict: Verdict, limits: Vec<LimitJson<'a>> },
 }
@@ -116,13 +116,13 @@ struct LimitJson<'a> {
 
 impl<'a> MemberJson<'a> {
     fn new(member: &'a Member, target: Option<f64>) -> Self {
-        let told = match &member.told {
-            Told::Drawn(scatter) => {
+        let outcome = match &member.outcome {
+            Outcome::Drawn(scatter) => {
                 let mut answer = scatter::Answer::new(&member.file, (**scatter).clone());
                 answer.target = target;
-                ToldJson::Drawn(Box::new(answer))
+                OutcomeJson::Drawn(Box::new(answer))
             }
-            Told::Searched(limits) => {
+            Outcome::Searched(limits) => {
                 let limit = |limit: &SearchedLimit| LimitJson {
                     component: &member.file.components[limit.component].name,
                     limit: limit.limit.name(),
@@ -134,10 +134,10 @@ impl<'a> MemberJson<'a> {
                     verdict: limit.verdict,
                 };
                 let verdict = limits.iter().map(|limit| limit.verdict).max().unwrap_or(Verdict::Undecided);
-                ToldJson::Searched { verdict, limits: limits.iter().map(limit).collect() }
+                OutcomeJson::Searched { verdict, limits: limits.iter().map(limit).collect() }
             }
         };
-        Self { values: &member.values, told }
+        Self { values: &member.values, outcome }
     }
 }
 

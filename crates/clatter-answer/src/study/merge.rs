@@ -3,7 +3,7 @@
 use clatter_assess::scatter::{PartRow, Recount};
 use clatter_assess::{Component, LimitKind, ProductFile, Verdict};
 
-use super::answer::{Answer, Member, SearchedLimit, Told};
+use super::answer::{Answer, Member, Outcome, SearchedLimit};
 use super::{Error, Study, in_si};
 
 /// Takes in the rows of a study in order; what it holds does not grow with the drops of a product.
@@ -78,7 +78,7 @@ impl<'a> Merge<'a> {
     fn end(&mut self) {
         if let Some((file, recount)) = self.counting.take() {
             let values = self.values(self.members.len() as u64);
-            self.members.push(Member { values, file, told: Told::Drawn(Box::new(recount.finish())) });
+            self.members.push(Member { values, file, outcome: Outcome::Drawn(Box::new(recount.finish())) });
         }
     }
 
@@ -99,7 +99,7 @@ impl<'a> Merge<'a> {
         }
         let file = self.study.family.member(self.next)?;
         let values = self.values(self.next);
-        self.members.push(Member { values, file, told: Told::Searched(limits) });
+        self.members.push(Member { values, file, outcome: Outcome::Searched(limits) });
         Ok(())
     }
 

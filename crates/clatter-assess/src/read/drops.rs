@@ -73,10 +73,12 @@ impl Reader {
         }
         let gravity = self.quantity(section, "gravity");
         self.exactly_one(section, &["height", "speed"], !section.table.contains_key("standard"));
-        for name in &LANDS_ON[..3] {
-            self.exactly_one(section, &["tilt", name, "standard"], false);
+        let lands_on = LANDS_ON[..3].iter().copied().filter(|name| section.table.contains_key(*name));
+        match lands_on.collect::<Vec<_>>()[..] {
+            [] => self.exactly_one(section, &["tilt", "standard"], false),
+            // Faces, edges and corners may stand together.
+            [first, ..] => self.exactly_one(section, &["tilt", first, "standard"], false),
         }
-        self.exactly_one(section, &["tilt", "standard"], false);
         self.exactly_one(section, &["standard", "height"], false);
         self.exactly_one(section, &["standard", "speed"], false);
         let wrong =

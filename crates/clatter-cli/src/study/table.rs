@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use clatter_answer::scatter;
-use clatter_answer::study::{Answer, Member, SearchedLimit, Told};
+use clatter_answer::study::{Answer, Member, Outcome, SearchedLimit};
 use clatter_assess::scatter::ComponentScatter;
 use clatter_assess::{GridAxis, Verdict};
 
@@ -20,18 +20,18 @@ pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     let plan = answer.study.plan();
     let Some(first) = answer.members.first() else { return Ok(()) };
     let product = shown(&first.file.product.name, 60);
-    match &first.told {
-        Told::Drawn(scatter) if plan.grid.is_empty() => {
+    match &first.outcome {
+        Outcome::Drawn(scatter) if plan.grid.is_empty() => {
             let mut one = scatter::Answer::new(&first.file, (**scatter).clone());
             one.target = answer.target;
             return of_one::table(&one, out);
         }
-        Told::Drawn(scatter) => {
+        Outcome::Drawn(scatter) => {
             let (count, samples, seed) = (answer.members.len(), plan.samples, plan.seed);
             writeln!(out, "{product}: {count} products, of each {samples} drops drawn with seed {seed}")?;
             writeln!(out, "Each is answered by the model {}", scatter.model.name())?;
         }
-        Told::Searched(_) => {
+        Outcome::Searched(_) => {
             writeln!(out, "{product}: the worst drop of each of {} products", answer.members.len())?;
         }
     }
@@ -69,9 +69,9 @@ pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
 
 /// A row for each part, or of a search for each limit.
 fn cells(member: &Member) -> Vec<Vec<String>> {
-    match &member.told {
-        Told::Drawn(scatter) => scatter.components.iter().map(survival).collect(),
-        Told::Searched(limits) => limits.iter().map(|limit| verdict(member, limit)).collect(),
+    match &member.outcome {
+        Outcome::Drawn(scatter) => scatter.components.iter().map(survival).collect(),
+        Outcome::Searched(limits) => limits.iter().map(|limit| verdict(member, limit)).collect(),
     }
 }
 
@@ -114,9 +114,9 @@ pub(super) fn csv(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
             begin.extend([i.to_string().as_str(), ","]);
             begin.extend(member.values.iter().map(|value| format!("{},", field(value))));
         }
-        match &member.told {
-            Told::Drawn(scatter) => of_one::rows(scatter, &begin, out)?,
-            Told::Searched(limits) => {
+        match &member.outcome {
+            Outcome::Drawn(scatter) => of_one::rows(scatter, &begin, out)?,
+            Outcome::Searched(limits) => {
                 for limit in limits {
                     let name = field(&member.file.components[limit.component].name);
                     let number = |value: Option<f64>| value.map_or_else(String::new, digits);
