@@ -1,13 +1,23 @@
-//! How a box lands: on a face, an edge or a corner.
+//! How a box lands: on a face, an edge or a corner, or tilted by an angle.
 //!
 //! Axes x, y, z run along length, width and thickness. A face is named by its side of an axis: `end-a` −x, `end-b` +x, `front` −y,
 //! `back` +y, `bottom` −z, `top` +z. An edge is where two faces meet, a corner where three do.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use serde::{Serialize, Serializer};
 
-/// The sides of the axes on which a box lands: −1, 0 or 1 of each, not all 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Attitude([i8; 3]);
+/// What a box lands on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Attitude(Lands);
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Lands {
+    /// The center of mass over the faces on these sides of the axes: −1, 0 or 1 of each, not all 0.
+    On([i8; 3]),
+    /// The bottom so far off level, rising to this direction from the length.
+    Tilted { tilt_rad: f64, direction_rad: f64 },
+}
 
 /// Names of the faces, by axis and side.
 const FACES: [[&str; 2]; 3] = [["end-a", "end-b"], ["front", "back"], ["bottom", "top"]];
@@ -28,42 +38,71 @@ impl Attitude {
             let axis = FACES.iter().position(|names| names.contains(&name)).filter(|axis| sides[*axis] == 0)?;
             sides[axis] = if FACES[axis][0] == name { -1 } else { 1 };
         }
-        (sides != [0; 3]).then_some(Self(sides))
+        (sides != [0; 3]).then_some(Self(Lands::On(sides)))
+    }
+    /// Its bottom off level by an angle, rising to a direction that turns from the length, towards end b, to the width: what of the box is
+    /// lowest then lands. None unless the tilt is in [0, π/2] and the direction within a turn.
+    ///
+    /// ```
+    /// use clatter_assess::Attitude;
+    /// let tilted = Attitude::tilted(45_f64.to_radians(), 30_f64.to_radians()).unwrap();
+    /// assert_eq!(tilted.to_string(), "tilt 45 deg to 30 deg");
+    /// ```
+    #[must_use]
+    pub fn tilted(tilt_rad: f64, direction_rad: f64) -> Option<Self> {
+        let given = (0.0..=FRAC_PI_2).contains(&tilt_rad) && (-TAU..=TAU).contains(&direction_rad);
+        given.then_some(Self(Lands::Tilted { tilt_rad, direction_rad }))
     }
     /// All of those on so many faces at once: the 6 faces, the 12 edges or the 8 corners.
     #[must_use]
     pub fn all(faces: usize) -> Vec<Self> {
         let side = |k: usize| [-1, 1, 0][k];
-        let every = (0..27).map(|k| Self([side(k / 9), side(k / 3 % 3), side(k % 3)]));
+        let every = (0..27).map(|k| Self(Lands::On([side(k / 9), side(k / 3 % 3), side(k % 3)])));
         every.filter(|attitude| attitude.faces() == faces).collect()
     }
-    /// On how many faces at once: 1 a face, 2 an edge, 3 a corner.
+    /// On how many faces at once: 1 a face, 2 an edge, 3 a corner; 0 of one that is tilted by an angle.
     #[must_use]
     pub fn faces(self) -> usize {
-        self.0.iter().filter(|side| **side != 0).count()
+        let Lands::On(sides) = self.0 else { return 0 };
+        sides.iter().filter(|side| **side != 0).count()
     }
     /// The axes of a box along which what it lands on lies level: two of a face, one of an edge, none of a corner.
-    pub(crate) fn level(self) -> Vec<usize> {
-        (0..3).filter(|axis| self.0[*axis] == 0).collect()
+    pub(crate) fn level(self, faces_m: [[f64; 2]; 3]) -> Vec<usize> {
+        let upward = self.upward(faces_m);
+        (0..3).filter(|axis| upward[*axis] == 0.0).collect()
     }
     /// The vertical in axes of a box whose faces have these distances from the center of mass, −x, +x, −y and so on: the center of mass
     /// is over the face, or straight over the edge or corner.
     pub(crate) fn upward(self, faces_m: [[f64; 2]; 3]) -> [f64; 3] {
-        let down = [0, 1, 2].map(|axis| match self.0[axis] {
-            -1 => -faces_m[axis][0],
-            1 => faces_m[axis][1],
-            _ => 0.0,
-        });
-        let size = libm::hypot(libm::hypot(down[0], down[1]), down[2]);
-        down.map(|x| -x / size + 0.0)
+        let up = match self.0 {
+            Lands::On(sides) => [0, 1, 2].map(|axis| match sides[axis] {
+                -1 => faces_m[axis][0],
+                1 => -faces_m[axis][1],
+                _ => 0.0,
+            }),
+            Lands::Tilted { tilt_rad, direction_rad } => {
+                let ((sin, cos), (across, along)) = (libm::sincos(tilt_rad), libm::sincos(direction_rad));
+                // A right angle has roundings.
+                [sin * along, sin * across, cos].map(|x| if x.abs() < 1e-15 { 0.0 } else { x })
+            }
+        };
+        let size = libm::hypot(libm::hypot(up[0], up[1]), up[2]);
+        up.map(|x| x / size + 0.0)
     }
 }
 
 impl std::fmt::Display for Attitude {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let sides = match self.0 {
+            Lands::On(sides) => sides,
+            Lands::Tilted { tilt_rad, direction_rad } => {
+                let [tilt, direction] = [tilt_rad, direction_rad].map(|angle| (1e6 * angle.to_degrees()).round() / 1e6);
+                return write!(f, "tilt {tilt} deg to {direction} deg");
+            }
+        };
         f.write_str(["", "face", "edge", "corner"][self.faces()])?;
         for axis in [2, 1, 0] {
-            match self.0[axis] {
+            match sides[axis] {
                 -1 => write!(f, " {}", FACES[axis][0])?,
                 1 => write!(f, " {}", FACES[axis][1])?,
                 _ => {}
@@ -127,6 +166,19 @@ mod tests {
         for (upward, way) in corner.into_iter().zip([x, y, z]) {
             assert!((upward + way / size).abs() < 1e-15);
         }
+    }
+
+    /// Tilted by all of a right angle towards end b it stands on end a; towards the back at 45° on the edge in front.
+    #[test]
+    fn what_is_tilted_lands_on_what_is_lowest() {
+        let faces = [[0.05, 0.1], [0.03, 0.04], [0.01, 0.02]];
+        let of = |tilt: f64, direction: f64| Attitude::tilted(tilt.to_radians(), direction.to_radians()).unwrap();
+        assert_eq!(of(90.0, 0.0).upward(faces), [1.0, 0.0, 0.0]);
+        assert_eq!(of(90.0, 0.0).level(faces), [1, 2]);
+        let edge = of(45.0, 90.0).upward(faces);
+        assert!(edge[0] == 0.0 && (edge[1] - 0.5_f64.sqrt()).abs() < 1e-15 && (edge[2] - edge[1]).abs() < 1e-15);
+        assert_eq!((of(45.0, 30.0).level(faces).len(), of(45.0, 30.0).faces()), (0, 0));
+        assert!(Attitude::tilted(1.6, 0.0).is_none() && Attitude::tilted(f64::NAN, 0.0).is_none());
     }
 
     #[test]

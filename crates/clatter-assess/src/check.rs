@@ -59,6 +59,11 @@ impl ProductFile {
     }
 }
 
+/// Bars and plates are tilted by no more.
+pub(crate) const FLAT: [&str; 2] = ["0 deg", "30 deg"];
+/// The same, but for roundings.
+pub(crate) const STEEPEST_RAD: f64 = std::f64::consts::FRAC_PI_6 * (1.0 + ROUNDINGS);
+
 /// Products of inertia up to this share of both radii of gyration are left out of a box: they change what a strike does to a corner by
 /// about as much, well within what the search may miss.
 const ASKEW: f64 = 0.01;
@@ -77,7 +82,10 @@ impl ProductFile {
         if self.drop.direction_rad.is_some() {
             return Err(DataFault::OfPlate { field: "direction" });
         }
-        for landing in &self.landings {
+        for (n, landing) in self.landings.iter().enumerate() {
+            if self.landings[..n].iter().any(|other| other.is_same(landing)) {
+                return Err(DataFault::Twice(landing.attitude));
+            }
             match &landing.fall {
                 Fall::HeightM(height) => spread(keys::DROP, "height", Some(height))?,
                 Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
@@ -168,6 +176,10 @@ impl Drop {
             Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
         }
         spread(keys::DROP, "tilt", Some(&self.tilt_rad))?;
+        let steepest = self.tilt_rad.hi();
+        if steepest > STEEPEST_RAD {
+            return Err(DataFault::Value { field: "tilt", value: steepest, unit: "rad", allowed: keys::allowed(FLAT) });
+        }
         one(keys::DROP, "gravity", self.gravity_m_s2)?;
         if matches!(self.fall, Fall::HeightM(_)) && self.gravity_m_s2 == 0.0 {
             return Err(DataFault::NoGravity);

@@ -1,8 +1,8 @@
 //! What data of a product may be wrong by: the words that messages of product files and errors of the library share.
 
-use crate::LimitKind;
 use crate::keys::MOST_COMPONENTS;
 use crate::standard;
+use crate::{Attitude, LimitKind};
 
 /// What is wrong with data of a product.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,6 +73,8 @@ pub enum DataFault {
         /// ∫x y dm over the mass, over the product of both radii of gyration.
         share: f64,
     },
+    /// A box that lands twice on the same.
+    Twice(Attitude),
     /// What an attitude is not called.
     Attitude {
         /// The key.
@@ -242,6 +244,10 @@ impl DataFault {
             Self::Askew { share } => [
                 format!("the masses of a box lie askew of its sides: their product of inertia is {share:.3} of both radii of gyration"),
                 "allowed: up to 0.01, which is left out".to_owned(),
+            ],
+            Self::Twice(attitude) => [
+                format!("two drops are the same: {attitude}, from as high"),
+                "allowed: each drop once, or from another height".to_owned(),
             ],
             Self::Attitude { field, value } => [
                 format!("`{field}` cannot be {value:?}"),

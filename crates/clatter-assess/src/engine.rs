@@ -299,7 +299,7 @@ impl<'a> PlaceHistory<'a> {
         }
         let spot = spot.into();
         let history = followed.drop.felt(&followed.motion, &spot);
-        let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2())?;
+        let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2(&spot))?;
         Ok(Self { followed, history, pulses, spot, fastest_rad_s, shocks: OnceLock::new(), known: None })
     }
 
@@ -355,7 +355,8 @@ impl<'a> PlaceHistory<'a> {
     /// The answer for one limit; 0 where nothing is asked of it.
     pub(crate) fn answer_or_nothing(&self, limit: &Limit, suspension: Option<&Suspension>) -> Result<Answer, Error> {
         let (allowed, unit) = (limit.allowed, limit.kind.unit());
-        let nothing = || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: self.later_of(limit) };
+        let nothing =
+            || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: self.later_of(limit, suspension) };
         Ok(self.answer(limit, suspension, 0.0)?.unwrap_or_else(nothing))
     }
 

@@ -29,6 +29,8 @@ pub(crate) enum Kind {
     /// One of these of a bar; of a plate, a product with a width, two: along the length and across it.
     Sides(&'static Kind),
     Table(&'static [Key]),
+    /// A table or several.
+    OneOrMore(&'static [Key]),
     /// At least one table.
     Tables(&'static [Key]),
 }
@@ -44,7 +46,7 @@ const fn key(name: &'static str, required: bool, kind: Kind, doc: &'static str) 
     Key { name, kind, required, doc }
 }
 
-use Kind::{Choice, Flag, Quantity, Sides, Spread, Table, Tables, Text, Texts};
+use Kind::{Choice, Flag, OneOrMore, Quantity, Sides, Spread, Table, Tables, Text, Texts};
 
 /// Bounds that several keys share.
 const PLACES: [&str; 2] = ["-100 m", "100 m"];
@@ -54,7 +56,7 @@ const MASSES: [&str; 2] = ["1 mg", "1000 kg"];
 pub(crate) const MOST_COMPONENTS: usize = 1000;
 pub(crate) static FILE: &[Key] = &[
     key("product", true, Table(PRODUCT), "What falls: a flat body, seen from the side as a bar with ends a and b."),
-    key("drop", true, Table(DROP), "How it falls."),
+    key("drop", true, OneOrMore(DROP), "How it falls; of a box one table [[drop]] for each of its drops, or [drop]."),
     key("component", true, Tables(COMPONENT), "The fragile parts, one table [[component]] each."),
     key("record", false, Tables(RECORD), "Measured drops of the product, one table [[record]] for each file."),
 ];
@@ -153,8 +155,9 @@ pub(crate) static DROP: &[Key] = &[
     key(
         "tilt",
         false,
-        Spread(&units::ANGLE, ["0 deg", "30 deg"]),
-        "Angle to the ground at the first touch; needed but for a box that lands on a face, edge or corner.",
+        Spread(&units::ANGLE, ["0 deg", "90 deg"]),
+        "Angle to the ground at the first touch, up to 30 deg; needed but for a box that lands on a face, edge or corner. Of a box, with \
+         attitude_tolerance and direction: how far its bottom is off level, up to 90 deg.",
     ),
     key(
         "face",
@@ -184,8 +187,8 @@ pub(crate) static DROP: &[Key] = &[
         "attitude_tolerance",
         false,
         Quantity(&units::ANGLE, ["0 deg", "15 deg"]),
-        "By how much a box may be turned off its face, edge or corner, in any direction; as in ASTM D5276 2 deg of a face and 5 deg of \
-         an edge or a corner unless given.",
+        "By how much a box may be turned off its face, edge, corner or tilt, in any direction; as in ASTM D5276 2 deg of a face and 5 deg \
+         of an edge or a corner unless given.",
     ),
     key(
         "first",

@@ -165,6 +165,13 @@ pub struct Landing {
     pub fall: Fall,
 }
 
+impl Landing {
+    /// Whether another drop lands likewise from as high; how far off either may be does not count.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        self.attitude == other.attitude && self.fall == other.fall
+    }
+}
+
 /// How it falls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drop {

@@ -16,7 +16,6 @@ use crate::check::{named, told_apart};
 use crate::fault::{Fault, Faults};
 use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::{DataFault, ProductFile};
-use drops::LANDS_ON;
 use quantities::written;
 
 pub use plan::{Axis as GridAxis, Family, Plan};
@@ -153,7 +152,7 @@ impl Reader {
             if !section.table.contains_key(key.name) && !meant.contains(&key.name) {
                 let message = format!("{} has no `{}`", section.title, key.name);
                 let how = match *key.kind.of_side() {
-                    Kind::Table(_) => format!("[{}]", key.name),
+                    Kind::Table(_) | Kind::OneOrMore(_) => format!("[{}]", key.name),
                     Kind::Tables(_) => format!("[[{}]]", key.name),
                     Kind::Text | Kind::Texts => format!("{} = \"…\"", key.name),
                     Kind::Flag => format!("{} = true", key.name),
@@ -214,7 +213,9 @@ impl Reader {
     }
 
     fn table<'a>(&mut self, section: &Section<'a>, name: &str) -> Option<Section<'a>> {
-        let (Key { kind: Kind::Table(keys), .. }, value) = Self::get(section, name)? else { return None };
+        let (Key { kind: Kind::Table(keys) | Kind::OneOrMore(keys), .. }, value) = Self::get(section, name)? else {
+            return None;
+        };
         let DeValue::Table(table) = value.get_ref() else {
             self.wrong_type(value, name, &format!("a table [{name}]"));
             return None;
@@ -225,7 +226,10 @@ impl Reader {
     }
 
     fn tables<'a>(&mut self, section: &Section<'a>, name: &str) -> Vec<Section<'a>> {
-        let Some((Key { kind: Kind::Tables(keys), .. }, value)) = Self::get(section, name) else { return Vec::new() };
+        let Some((Key { kind: Kind::Tables(keys) | Kind::OneOrMore(keys), .. }, value)) = Self::get(section, name)
+        else {
+            return Vec::new();
+        };
         let DeValue::Array(items) = value.get_ref() else {
             self.wrong_type(value, name, &format!("one table [[{name}]] each"));
             return Vec::new();
@@ -271,17 +275,7 @@ impl Reader {
             self.data(key.span(), &DataFault::OfPlate { field: "record" }, "here");
         }
         let product = product.and_then(|section| self.product(&section));
-        let drop = self.table(root, "drop");
-        self.is_box = drop.as_ref().is_some_and(|drop| LANDS_ON.iter().any(|key| drop.table.contains_key(*key)));
-        let is_standard = drop.as_ref().is_some_and(|drop| drop.table.contains_key("standard"));
-        let mut landings = drop.as_ref().map(|section| self.landings(section, product.as_ref())).unwrap_or_default();
-        let mut drop = drop.and_then(|section| self.drop(&section));
-        // A standard has heights of its own; else every drop falls as the file says.
-        match (&mut drop, landings.first()) {
-            (Some(drop), Some(first)) if is_standard => drop.fall = first.fall,
-            (Some(drop), _) => landings.iter_mut().for_each(|landing| landing.fall = drop.fall),
-            (None, _) => {}
-        }
+        let (drop, landings) = self.drops(root, product.as_ref());
         let mut components = Vec::new();
         let sections = self.tables(root, "component");
         self.distinct(&sections);

@@ -64,6 +64,7 @@ fn kind(of: &Kind) -> Value {
             json!({ "anyOf": [one, both] })
         }
         Kind::Table(keys) => table(keys),
+        Kind::OneOrMore(keys) => json!({ "anyOf": [table(keys), kind(&Kind::Tables(keys))] }),
         Kind::Tables(keys) => json!({ "type": "array", "items": table(keys), "minItems": 1 }),
     }
 }

@@ -82,6 +82,7 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 const REBOUNDS: [f64; 2] = [3.0, 6.0];
 /// Drops that are followed besides those of the grid where rebounds count.
 const SAMPLE: u32 = 128;
+const SAMPLE_OF_BOX: u32 = 16;
 /// About as many drops are followed in a climb.
 const CLIMB: usize = 72;
 /// Drops that are followed side by side, knowing the worst of those before.
@@ -109,30 +110,35 @@ impl Ranges<'_> {
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
         // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
         // any number of threads.
-        let ask = |all: &mut Candidates, drops: &[(u32, Place)], only: Option<&[bool]>| {
+        let ask = |all: &mut Candidates, drops: &[(u32, Place)], only: Option<&[bool]>, to_rest: bool| {
             for wave in drops.chunks(WAVE) {
                 let best = all.best();
                 let of_one = |(k, drop): &(u32, Place)| {
-                    work.go_on(1).and_then(|()| self.ask(tasks, *k, drop, best.clone(), only))
+                    work.go_on(1).and_then(|()| self.ask(tasks, *k, drop, best.clone(), only, to_rest))
                 };
                 all.take(wave.par_iter().map(of_one).collect());
                 self.passes(tasks, all, &best, most).map_or(Ok(()), Err)?;
             }
             Ok(())
         };
-        ask(&mut all, &grid, None)?;
-        ask(&mut all, &overlaps, Some(&shocks))?;
+        // A box is followed to its rest in some drops only: it is slow.
+        let of_all = self.posture.is_none();
+        ask(&mut all, &grid, None, of_all)?;
+        ask(&mut all, &overlaps, Some(&shocks), of_all)?;
         let edged: Vec<bool> = tasks.iter().map(|task| self.has_edges(task)).collect();
         if edged.contains(&true) {
-            ask(&mut all, &self.edges(&grid, &work), Some(&edged))?;
+            ask(&mut all, &self.edges(&grid, &work), Some(&edged), of_all)?;
         }
         // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
-        if all.later.iter().any(|most| *most > 0.0) {
-            let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
-            let sample = if self.posture.is_some() { 0 } else { SAMPLE };
+        let best = all.best();
+        // Those of a box, which take long, where they may decide.
+        let open = |(later, worst): (&f64, &f64)| if of_all { *later > 0.0 } else { *worst <= 1.0 && *later > 1.0 };
+        let only: Vec<bool> = all.later.iter().zip(&best).map(open).collect();
+        if only.contains(&true) {
+            let sample = if of_all { SAMPLE } else { SAMPLE_OF_BOX };
             let sample: Vec<(u32, Place)> = (1..=sample).map(|k| (k, self.spread_out(k))).collect();
-            ask(&mut all, &sample, Some(&only))?;
+            ask(&mut all, &sample, Some(&only), true)?;
         }
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
@@ -142,7 +148,11 @@ impl Ranges<'_> {
         let climbs: Vec<(usize, Candidate)> = found
             .iter_mut()
             .enumerate()
-            .flat_map(|(n, found)| starts(found).into_iter().take(most_starts).map(move |s| (n, s)))
+            .flat_map(|(n, found)| {
+                // How a box tumbles changes too much from try to try to be climbed.
+                let such = starts(found).into_iter().filter(|start| of_all || !start.late);
+                such.take(most_starts).map(move |start| (n, start))
+            })
             .collect();
         let each_climb = climbing / climbs.len().max(1);
         let climb = |(n, start): (usize, Candidate)| {
@@ -209,6 +219,7 @@ impl Ranges<'_> {
         drop: &Place,
         mut best: Vec<f64>,
         only: Option<&[bool]>,
+        to_rest: bool,
     ) -> Result<OfDrop, Error> {
         let (mut of_drop, is_plate) = (OfDrop::default(), self.product.width.is_some());
         let early = self.follow(drop, Until::Lands)?;
@@ -260,8 +271,7 @@ impl Ranges<'_> {
                     if later > 0.0 {
                         of_drop.later.push((number, later));
                     }
-                    // A box is followed for its first landing alone.
-                    if later > 0.0 && self.posture.is_none() {
+                    if later > 0.0 && to_rest {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
                         let longer = felt.longer(rebounded)?;
                         let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());

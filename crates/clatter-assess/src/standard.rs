@@ -25,7 +25,7 @@ pub(crate) struct Item {
     pub(crate) largest_m: f64,
 }
 
-/// Of ASTM D5276: flat within 2°, on edges and corners within 5°.
+/// Of ASTM D5276: flat within 2°, on edges and corners within 5°; what is tilted by hand too.
 pub(crate) fn tolerance_rad(attitude: Attitude) -> f64 {
     if attitude.faces() == 1 { 2_f64.to_radians() } else { 5_f64.to_radians() }
 }

@@ -100,6 +100,52 @@ fn a_list_of_drops_is_each_of_them() {
     }
 }
 
+/// Each drop with a height of its own: a corner from 2 m, a face at 1 m/s, and a tilt by hand, which at a right angle is the face there.
+#[test]
+fn drops_of_a_file_have_their_own_heights() {
+    let of = |drops: &str| {
+        HANDHELD.replace("[drop]\nstandard = \"MIL-STD-810H/516.8-IV\"\n", drops).replace("0.4\n", "0.25\n")
+    };
+    let corner = "[[drop]]\nheight = \"2 m\"\ncorner = \"top back end-a\"\n";
+    let slow = "[[drop]]\nspeed = \"1 m/s\"\nface = \"end-a\"\n";
+    let tilted =
+        "[[drop]]\nheight = \"1.22 m\"\ntilt = \"90 deg\"\ndirection = \"0 deg\"\nattitude_tolerance = \"2 deg\"\n";
+    let demands = |text: &str| {
+        let assessment = file(text).assess().expect("an assessment");
+        let of = |limits: &[clatter_assess::LandingLimit]| limits.iter().map(|l| l.demand).collect::<Vec<_>>();
+        assessment.landings.iter().map(|landing| (landing.landing.to_string(), of(&landing.limits))).collect::<Vec<_>>()
+    };
+    let all = demands(&of(&format!("{corner}{slow}{tilted}")));
+    let alone: Vec<_> = [corner, slow, tilted].into_iter().flat_map(|drop| demands(&of(drop))).collect();
+    assert_eq!(all, alone);
+    assert_eq!(all[2].0, "tilt 90 deg to 0 deg");
+    let standing = demands(&on("face", "end-a").replace("0.4\n", "0.25\n"));
+    assert_eq!((&all[2].1, standing.len()), (&standing[0].1, 1));
+    // The same from another height is another drop.
+    let twice = file(&of(&format!("{corner}{}", corner.replace("2 m", "1 m"))));
+    let governs = twice.assess().expect("an assessment").components[0].limits[0].demand;
+    assert_eq!(governs, all[0].1[0]);
+}
+
+/// On its bottom, 45° towards the front: the edge there lands, and shakes what moves upward and outward alike.
+#[test]
+fn a_tilted_box_lands_on_what_is_lowest() {
+    let drop = "height = \"1.22 m\"\ntilt = \"45 deg\"\ndirection = \"90 deg\"\nattitude_tolerance = \"0 deg\"\n";
+    let text = HANDHELD.replace("standard = \"MIL-STD-810H/516.8-IV\"\n", drop);
+    let part = "position = [\"0 mm\", \"0 mm\"]\nmount = \"hard\"\nvelocity_change_limit = \"99 m/s\"\n";
+    let parts =
+        ["y", "z"].map(|axis| format!("\n[[component]]\nname = \"{axis}\"\naxis = \"{axis}\"\n{part}")).concat();
+    let assessment = file(&format!("{text}{parts}")).assess().expect("an assessment");
+    let [y, z] = [2, 3].map(|n: usize| assessment.components[n].limits[0].demand.expect("an answer"));
+    // The edge alone turns the box about the length, ρ² = 20² + 14²/12 mm²: its arm is (35 − 7)/√2 mm, its share 1/(1 + arm²/ρ²).
+    let v = (2.0 * 9.806_65 * 1.22_f64).sqrt();
+    let struck = 1.4 * v / (1.0 + (28.0_f64.powi(2) / 2.0) / (20.0_f64.powi(2) + 14.0_f64.powi(2) / 12.0));
+    for felt in [y, z] {
+        // Later landings may ask for more.
+        assert!(felt > 0.97 * struck / 2.0_f64.sqrt(), "{felt} beside {struck}");
+    }
+}
+
 /// Within 2 degrees of its bottom a box is the plate of the same masses, but for real tilt.
 #[test]
 fn a_box_on_its_bottom_is_a_plate() {
@@ -237,7 +283,28 @@ fn faults_of_boxes_are_told() {
         (face.replace("\"bottom\"", "[\"top\", \"under\"]"), "`face` cannot be \"under\""),
         (face.replace("\"bottom\"", "[\"top\", 2]"), "expected text in quotes, or a list of it"),
         (face.replace("\"bottom\"", "[]"), "expected text in quotes, or a list of it"),
-        (face.replace("\"bottom\"", &format!("[{}]", "\"top\",".repeat(101))), "[drop] has 101 drops"),
+        (
+            face.replace("\"bottom\"", &format!("[{}]", "\"top\",".repeat(101))),
+            "two drops are the same: face top, from as high",
+        ),
+        (face.replace("face = \"bottom\"", "tilt = \"1 deg\""), "[drop] has no `direction`"),
+        (
+            face.replace("face = \"bottom\"", "tilt = [\"1 deg\", \"50 deg\"]\ndirection = \"0 deg\""),
+            "a box lands at one tilt to one direction",
+        ),
+        (
+            face.replace("face = \"bottom\"\nattitude_tolerance = \"2 deg\"", "tilt = \"50 deg\""),
+            "`tilt` = 50 deg is out of its range",
+        ),
+        (
+            face.replace("face = \"bottom\"", "face = \"bottom\"\ndirection = \"9 deg\""),
+            "`direction` is that of a `tilt`",
+        ),
+        (face.replace("face = \"bottom\"\n", ""), "none of `face`, `edge`, `corner`, `tilt`, `standard`"),
+        (
+            face.replace("[drop]\n", "[[drop]]\nheight = \"1 m\"\nface = \"top\"\ngravity = \"0.5 gn\"\n[[drop]]\n"),
+            "gravity differs from drop to drop",
+        ),
         (face.replace("face = \"bottom\"", "tilt = \"1 deg\"\nface = \"bottom\""), "more than one of `tilt`, `face`"),
         (face.replace("face = \"bottom\"\nattitude_tolerance = \"2 deg\"", ""), "[drop] has no `tilt`"),
         (HANDHELD.replace("MIL-STD-810H/516.8-IV", "ISTA 3A"), "the drops of \"ISTA 3A\" are not built in"),

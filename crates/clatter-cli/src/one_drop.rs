@@ -87,7 +87,7 @@ impl OneDrop {
         if !file.landings.is_empty() {
             let path = crate::text::path(path);
             return Err(Failure::Wrong(format!(
-                "{path} lands on a face, an edge or a corner: give the drop by --thickness and --orientation, as the command below a worst drop does"
+                "{path} is that of a box: give the drop by --thickness and --orientation, as the command below a worst drop does"
             )));
         }
         let found = match component {

@@ -36,8 +36,12 @@ impl Breakers {
         limits.sort_by(|a, b| b.room().total_cmp(&a.room()));
         let worst = limits.into_iter().filter_map(|limit| limit.worst_case.as_ref());
         let breaker = |worst: &WorstCase| {
-            let on = |landing: &Landing| Some(landing.attitude) == worst.landing;
-            let n = file.landings.iter().position(on).unwrap_or_default();
+            // The same attitude may be dropped from several heights.
+            let on = |(landing, listed): (&Landing, &Listed)| {
+                let [slow, fast] = listed.drop.speeds_m_s();
+                Some(landing.attitude) == worst.landing && (slow..=fast).contains(&worst.drop.speed_m_s)
+            };
+            let n = file.landings.iter().zip(&listed).position(on).unwrap_or_default();
             let ranges = case.ranges(file, &listed[n]);
             Breaker { other_law: false, listed: n, place: ranges.place_of(case.component, worst) }
         };

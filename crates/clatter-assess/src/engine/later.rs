@@ -151,13 +151,16 @@ impl PlaceHistory<'_> {
         self.followed.drop.is_box()
     }
     /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
-    pub(super) fn later_of(&self, limit: &Limit) -> f64 {
-        let Later { turned_m_s, turn_rad_s, acceleration_m_s2, .. } = self.later();
-        match limit.kind.source() {
-            Source::Turn => turn_rad_s,
-            Source::Shock | Source::Boundary => turned_m_s,
-            Source::Response(peak) if peak.is_acceleration() => acceleration_m_s2,
-            Source::Response(_) => f64::INFINITY,
+    pub(super) fn later_of(&self, limit: &Limit, suspension: Option<&Suspension>) -> f64 {
+        let later = self.later();
+        match (limit.kind.source(), suspension) {
+            (Source::Turn, _) => later.turn_rad_s,
+            (Source::Shock | Source::Boundary, _) => later.turned_m_s,
+            (Source::Response(peak), Some(part)) => {
+                let unit = peak.of_velocity(peak.after_impulse(part.damping()), part.omega());
+                self.rings_most(unit, part, later.shock_of(part), 0.0)
+            }
+            (Source::Response(_), None) => later.acceleration_m_s2,
         }
     }
 }
@@ -166,6 +169,7 @@ impl PlaceHistory<'_> {
 mod tests {
     use super::*;
     use crate::drop::{Across, Model, Posture, SingleDrop, Until};
+    use crate::engine::Spot;
     use crate::{ContactLaw, Width};
 
     /// Mass near the edges, landing flat: it lands again with e times its speed, all four corners along one line of their springs. Its
@@ -200,6 +204,35 @@ mod tests {
         // All of it in a turn about the axis of least inertia.
         let least = (0.039_f64.powi(2) + thick).sqrt();
         assert!(later.turn_rad_s >= (1.0 + e) * lands / least, "{}", later.turn_rad_s);
+    }
+
+    /// Along a box that lands flat nothing is felt, until it lands otherwise: that is bounded.
+    #[test]
+    fn where_nothing_is_felt_what_may_come_is_bounded() {
+        let width =
+            Width { edges_m: [0.04; 2], gyration_m: 0.025, product_of_inertia_m2: 0.0, thickness_m: Some(0.02) };
+        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02 });
+        let drop = SingleDrop {
+            body: clatter_flight::Body::new(0.12, 0.04).unwrap(),
+            across: Some(Across { width, direction_rad: 0.0, posture }),
+            first: clatter::End::A,
+            tilt_rad: 0.0,
+            flat: false,
+            speed_m_s: 2.0,
+            restitution: 0.5,
+            gravity_m_s2: 9.81,
+            contact_time_s: Some(2e-4),
+            contact_law: ContactLaw::Hysteretic,
+        };
+        let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let along = crate::Inside { height_m: 0.0, axis: crate::Axis::X };
+        let place = PlaceHistory::new(&up, Spot { at_m: [0.0; 2], inside: along }).unwrap();
+        let limit = Limit::new(crate::LimitKind::RattleSpace, 1e-3);
+        let part = Suspension::from_hz(40.0, clatter_shock::DampingRatio::new(0.05).unwrap()).unwrap();
+        let asked = place.answer_or_nothing(&limit, Some(&part)).unwrap();
+        // It comes down with e v = 1 m/s: on its end that would be one blow of (1 + e) e v, by which the part swings v/ω, less e^(−ζ π/2).
+        let swing = 1.5 * 0.995 / part.omega() * (-0.05 * std::f64::consts::FRAC_PI_2).exp();
+        assert!(asked.value.abs() < 1e-12 && (swing..4.0 * swing).contains(&asked.off_by), "{asked:?}, {swing}");
     }
 
     /// A part without damping rings on until the product lands again, in step with it or against it: followed on, it is never asked for

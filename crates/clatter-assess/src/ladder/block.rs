@@ -49,7 +49,7 @@ impl ProductFile {
         let each = self.landings.iter().zip(&listed).zip(&assessment.landings);
         each.map(|((landing, Listed { drop, .. }), assessed)| {
             // Corners that are landed on lie along the sides that are level.
-            let level = landing.attitude.level();
+            let level = landing.attitude.level(faces_m);
             let reach_m = level.iter().fold(0.0, |all, axis| libm::hypot(all, sides[*axis]));
             let [slow, _] = drop.speeds_m_s();
             let tolerance = landing.tolerance_rad;

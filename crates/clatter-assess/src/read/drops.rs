@@ -3,26 +3,81 @@
 use clatter::End;
 
 use super::{Reader, Section, shown};
+use crate::check::{FLAT, STEEPEST_RAD};
+use crate::data_fault::out_of_range;
 use crate::keys;
 use crate::standard;
 use crate::{Attitude, DataFault, Drop, Fall, First, Landing, Product, Spread};
 
-/// Keys of what a box lands on: by so many faces at once, and by a standard.
-pub(super) const LANDS_ON: [&str; 4] = ["face", "edge", "corner", "standard"];
+/// Keys of what a box lands on, by so many faces at once.
+const LANDS_ON: [&str; 3] = ["face", "edge", "corner"];
 
 /// Drops of a file that are listed by hand: each takes a tenth of a second.
 const MOST_DROPS: usize = 100;
 
 impl Reader {
-    /// What a box lands on; none where a fault was told.
-    pub(super) fn landings(&mut self, section: &Section<'_>, product: Option<&Product>) -> Vec<Landing> {
-        let tolerance = self.quantity(section, "attitude_tolerance");
-        if let (Some(tolerance), false) = (&tolerance, self.is_box) {
-            let message = "`attitude_tolerance` is that of a box that lands on a face, edge or corner";
-            self.fault(tolerance.span.clone(), message, "here", "add `face`, `edge`, `corner` or `standard`");
+    /// How it falls, and what a box lands on in one drop after the other.
+    pub(super) fn drops(&mut self, root: &Section<'_>, product: Option<&Product>) -> (Option<Drop>, Vec<Landing>) {
+        let several = root.table.get("drop").is_some_and(|drops| drops.get_ref().as_array().is_some());
+        let sections = if several { self.tables(root, "drop") } else { self.table(root, "drop").into_iter().collect() };
+        let is_of_box = |section: &Section<'_>| {
+            LANDS_ON.iter().chain(&["standard", "attitude_tolerance"]).any(|key| section.table.contains_key(*key))
+        };
+        self.is_box = sections.len() > 1 || sections.iter().any(is_of_box);
+        let (mut drops, mut all) = (Vec::new(), Vec::<Landing>::new());
+        for section in &sections {
+            let mut landings = self.landings(section, product);
+            let drop = self.drop(section);
+            if let (Some(drop), false) = (&drop, section.table.contains_key("standard")) {
+                landings.iter_mut().for_each(|landing| landing.fall = drop.fall);
+            }
+            for landing in landings {
+                if all.iter().any(|other| other.is_same(&landing)) {
+                    self.data(section.span.clone(), &DataFault::Twice(landing.attitude), "here again");
+                    break;
+                }
+                all.push(landing);
+            }
+            drops.extend(drop);
         }
+        if all.len() > MOST_DROPS {
+            let (message, label) = (format!("the file has {} drops", all.len()), format!("at most {MOST_DROPS}"));
+            let at = sections.last().map_or(0..0, |section| section.span.clone());
+            self.fault(at, message, label, "put the others into another file");
+        }
+        let gravity = |drop: &Drop| drop.gravity_m_s2.to_bits();
+        if let Some(n) = drops.windows(2).position(|two| gravity(&two[0]) != gravity(&two[1])) {
+            let help = "give all drops the same, or another file";
+            self.fault(sections[n + 1].span.clone(), "gravity differs from drop to drop", "in this drop", help);
+        }
+        // What is common to all.
+        let drop =
+            drops.into_iter().next().map(|drop| Drop { fall: all.first().map_or(drop.fall, |l| l.fall), ..drop });
+        (drop, all)
+    }
+
+    /// Of a box whose bottom is off level by an angle, to one direction.
+    fn tilted(&mut self, section: &Section<'_>) -> Option<Attitude> {
+        let [tilt, direction] = ["tilt", "direction"].map(|name| self.spread(section, name));
+        if !section.table.contains_key("direction") {
+            let help = "add direction = \"30 deg\": where it rises to, from the length towards end b to the width";
+            self.fault(section.span.clone(), format!("{} has no `direction`", section.title), "in this table", help);
+        }
+        for angle in [&tilt, &direction].into_iter().flatten().filter(|angle| !angle.value.is_value()) {
+            let help = "give one angle; `attitude_tolerance` says how far off it may be";
+            self.fault(angle.span.clone(), "a box lands at one tilt to one direction", "this range", help);
+        }
+        Attitude::tilted(tilt?.value.hi(), direction?.value.hi())
+    }
+
+    /// What a box lands on; none where a fault was told.
+    fn landings(&mut self, section: &Section<'_>, product: Option<&Product>) -> Vec<Landing> {
+        if !self.is_box {
+            return Vec::new();
+        }
+        let tolerance = self.quantity(section, "attitude_tolerance");
         let mut landings = Vec::new();
-        for (faces, name) in (1..).zip(&LANDS_ON[..3]) {
+        for (faces, name) in (1..).zip(&LANDS_ON) {
             for text in self.texts(section, name) {
                 let one = Attitude::on(&text.value).filter(|attitude| attitude.faces() == faces);
                 let these = if text.value == "all" { Attitude::all(faces) } else { one.into_iter().collect() };
@@ -32,14 +87,8 @@ impl Reader {
                 landings.extend(these.into_iter().map(|attitude| (attitude, 1.0, None)));
             }
         }
-        if landings.len() > MOST_DROPS {
-            let message = format!("{} has {} drops", section.title, landings.len());
-            self.fault(
-                section.span.clone(),
-                message,
-                format!("at most {MOST_DROPS}"),
-                "put the others into another file",
-            );
+        if section.table.contains_key("tilt") {
+            landings.extend(self.tilted(section).map(|attitude| (attitude, 1.0, None)));
         }
         if let (Some(keyword), Some(product)) = (self.text(section, "standard"), product) {
             let across = product.width.map_or([0.0; 2], |width| [width.m(), width.thickness_m.unwrap_or(0.0)]);
@@ -60,12 +109,24 @@ impl Reader {
         landings.into_iter().map(landing).collect()
     }
 
-    pub(super) fn drop(&mut self, section: &Section<'_>) -> Option<Drop> {
+    fn drop(&mut self, section: &Section<'_>) -> Option<Drop> {
         let height = self.spread(section, "height");
         let speed = self.spread(section, "speed");
-        let tilt = self.spread(section, "tilt");
+        // Those of a box are what it lands on.
+        let [tilt, direction] =
+            ["tilt", "direction"].map(|name| if self.is_box { None } else { self.spread(section, name) });
+        if let Some(tilt) = tilt.as_ref().filter(|tilt| tilt.value.hi() > STEEPEST_RAD) {
+            let degrees = (1e6 * tilt.value.hi().to_degrees()).round() / 1e6;
+            let help = "a box, with `thickness`, `direction` and `attitude_tolerance`, lands at up to 90 deg";
+            let message = out_of_range("tilt", format!("{degrees} deg"));
+            self.fault(tilt.span.clone(), message, keys::allowed(FLAT), help);
+        }
         let first = self.choice(section, "first");
-        let direction = self.spread(section, "direction");
+        if let (true, false, Some((key, _))) =
+            (self.is_box, section.table.contains_key("tilt"), section.table.get_key_value("direction"))
+        {
+            self.fault(key.span(), "`direction` is that of a `tilt`", "here", "add `tilt`, or leave it out");
+        }
         if !(self.is_box || section.table.contains_key("tilt")) {
             let key = keys::find(keys::DROP, "tilt").map_or("", |key| key.doc);
             let message = format!("{} has no `tilt`", section.title);
@@ -73,8 +134,9 @@ impl Reader {
         }
         let gravity = self.quantity(section, "gravity");
         self.exactly_one(section, &["height", "speed"], !section.table.contains_key("standard"));
-        let lands_on = LANDS_ON[..3].iter().copied().filter(|name| section.table.contains_key(*name));
+        let lands_on = LANDS_ON.iter().copied().filter(|name| section.table.contains_key(*name));
         match lands_on.collect::<Vec<_>>()[..] {
+            [] if self.is_box => self.exactly_one(section, &["face", "edge", "corner", "tilt", "standard"], true),
             [] => self.exactly_one(section, &["tilt", "standard"], false),
             // Faces, edges and corners may stand together.
             [first, ..] => self.exactly_one(section, &["tilt", first, "standard"], false),

@@ -284,7 +284,7 @@ impl Reader {
                 return None;
             };
             table = match (&key.kind, value.get_ref()) {
-                (Kind::Table(below), DeValue::Table(inner)) => {
+                (Kind::Table(below) | Kind::OneOrMore(below), DeValue::Table(inner)) => {
                     keys = below;
                     inner
                 }

@@ -43,7 +43,7 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     } else {
         writeln!(
             out,
-            "Flat drop: what the worst drop would ask if the box were not turned off its face, edge or corner."
+            "Flat drop: what the worst drop would ask if the box were not turned off what it lands on."
         )?;
     }
     let all = assessment.components.iter().flat_map(|component| &component.limits);

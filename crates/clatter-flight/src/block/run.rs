@@ -64,6 +64,9 @@ pub struct BlockFlight {
     pub upward: [f64; 3],
     /// Spin in axes of the box, at the end.
     pub spin_rad_s: [f64; 3],
+    /// The speed of the center of mass that all of the energy left would give it: what the box has over lying still, on the face under
+    /// it where it cannot fall over an edge, else on the broadest.
+    pub left_m_s: f64,
 }
 
 impl BlockFlight {
@@ -71,16 +74,6 @@ impl BlockFlight {
     #[must_use]
     pub fn largest_m_s(&self) -> f64 {
         self.strikes.iter().flat_map(|strike| strike.delta_v_m_s).fold(0.0, |most, v| most.max(v.abs()))
-    }
-    /// The speed of the center of mass that all of the energy left would give it, the box at its lowest.
-    #[must_use]
-    pub fn left_m_s(&self, drop: &BlockDrop) -> f64 {
-        let (block, spin) = (&drop.block, self.spin_rad_s);
-        let turning: f64 = spin.iter().zip(block.gyration_m()).map(|(spin, radius)| (spin * radius).powi(2)).sum();
-        let lowest =
-            (0..3).map(|axis| block.face_at(axis, -1.0).min(block.face_at(axis, 1.0))).fold(f64::INFINITY, f64::min);
-        let falls = 2.0 * drop.gravity * (self.center_m - lowest).max(0.0);
-        (self.center_m_s * self.center_m_s + turning + falls).sqrt()
     }
     /// What a place from the center of mass feels along the axes of a box that lies and turns on about the vertical.
     #[must_use]
@@ -111,12 +104,23 @@ impl BlockStep<'_> {
     /// What an accelerometer at a place from the center of mass feels along the axes of the box, at a share of the step.
     #[must_use]
     pub fn felt_m_s2(&self, place_m: [f64; 3], share: f64) -> [f64; 3] {
+        self.felt_everywhere(share).map(|[center, x, y, z]| center + dot([x, y, z], place_m))
+    }
+    /// The same of every place: along each axis of the box what the center of mass feels, and what a meter along x, y and z adds.
+    #[must_use]
+    pub fn felt_everywhere(&self, share: f64) -> [[f64; 4]; 3] {
         let y = self.state(share);
         let (_, _, n, spin) = parts(&y);
         let (force, moment) = self.system.load(&y);
-        let turning = cross(self.system.turning(spin, moment), place_m);
-        let around = cross(spin, cross(spin, place_m));
-        std::array::from_fn(|axis| force * n[axis] + turning[axis] + around[axis])
+        let [tx, ty, tz] = self.system.turning(spin, moment);
+        let turning = [[0.0, -tz, ty], [tz, 0.0, -tx], [-ty, tx, 0.0]];
+        let square = dot(spin, spin);
+        std::array::from_fn(|i| {
+            // Towards the axis of the spin: ω (ω·r) − ω² r.
+            let around = |j: usize| spin[i] * spin[j] - if i == j { square } else { 0.0 };
+            let [x, y, z] = [0, 1, 2].map(|j| turning[i][j] + around(j));
+            [force * n[i], x, y, z]
+        })
     }
     /// Height and vertical velocity of a place from the center of mass, at a share of the step.
     #[must_use]
@@ -302,7 +306,7 @@ impl<'a> Run<'a> {
 
     /// Whether nothing of weight can follow.
     fn ends(&self) -> Option<Stop> {
-        let (z, v, n, spin) = parts(&self.y);
+        let (z, v, _, _) = parts(&self.y);
         if self.misfit > ENERGY * self.opened {
             return Some(Stop::EnergyLimit { time_s: self.now });
         }
@@ -312,17 +316,22 @@ impl<'a> Run<'a> {
             let is_clear = is_up && v > 0.0 && z > self.drop.block.reach();
             return is_clear.then_some(Stop::BouncedClear { time_s: self.now });
         }
-        let energy = self.system.energy(&self.y) + self.system.stored(&self.y);
-        let momentum = (0..3).map(|axis| n[axis] * self.system.inertia[axis] * spin[axis]).sum();
-        let ground = std::array::from_fn(|i| self.system.dent(i, &self.y));
-        let left = (energy - self.drop.block.kept(n, energy, gravity, momentum, ground)).max(0.0);
-        let bound = (1.0 + self.restitution) * (2.0 * left * self.most_coupling).sqrt();
+        let bound = (1.0 + self.restitution) * (2.0 * self.left() * self.most_coupling).sqrt();
         let weight = WEIGHT * gravity * self.contact.time_s();
         (bound <= (REST * self.fastest).max(weight)).then_some(Stop::AtRest {
             time_s: self.now,
             time_bound_s: f64::INFINITY,
             shock_bound_m_s: bound,
         })
+    }
+
+    /// The energy over the mass that later presses can take.
+    fn left(&self) -> f64 {
+        let (_, _, n, spin) = parts(&self.y);
+        let energy = self.system.energy(&self.y) + self.system.stored(&self.y);
+        let momentum = (0..3).map(|axis| n[axis] * self.system.inertia[axis] * spin[axis]).sum();
+        let ground = std::array::from_fn(|i| self.system.dent(i, &self.y));
+        (energy - self.drop.block.kept(n, energy, self.drop.gravity, momentum, ground)).max(0.0)
     }
 
     /// One step, to the next event at most. Whether the time is over.
@@ -446,8 +455,9 @@ impl<'a> Run<'a> {
     fn finish(self, stop: Stop) -> Result<BlockFlight, Error> {
         self.check_depth()?;
         let (center_m, center_m_s, upward, spin_rad_s) = parts(&self.y);
-        let energy_error = self.misfit / self.opened;
-        Ok(BlockFlight { strikes: self.strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s })
+        let (energy_error, left_m_s) = (self.misfit / self.opened, (2.0 * self.left()).sqrt());
+        let strikes = self.strikes;
+        Ok(BlockFlight { strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s, left_m_s })
     }
 }
 
