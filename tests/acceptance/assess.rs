@@ -174,7 +174,7 @@ fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {
     assert!(wrong.stderr.contains("a plate is followed by the model compliant, not by map"), "{}", wrong.stderr);
 }
 
-/// Of a box that goes through the drops of a standard; what it feels is joined by straight lines in one of both.
+/// Of a box whose masses lie askew, through the drops of a standard; what it feels is joined by straight lines in one of both.
 #[test]
 fn the_command_below_a_worst_drop_of_a_box_says_the_same() {
     let outcome = clatter(["assess", &example("handheld-transit.toml"), "--format=json"]);
@@ -184,6 +184,7 @@ fn the_command_below_a_worst_drop_of_a_box_says_the_same() {
         let limit = &component["limits"][0];
         let (worst, demand) = (&limit["worst_case"], limit["demand"].as_f64().unwrap());
         assert!(worst["landing"].as_str().is_some_and(|on| on.contains(' ')), "{worst}");
+        assert!(worst["command"].as_str().is_some_and(|said| said.contains(" --product-of-inertia-m2=")), "{worst}");
         let again = answer(words(worst["command"].as_str().unwrap()));
         let again = match again["omega_peak_relative_displacement"].as_f64() {
             Some(peak) => peak / again["omega"].as_f64().unwrap(),

@@ -64,20 +64,13 @@ pub(crate) const FLAT: [&str; 2] = ["0 deg", "30 deg"];
 /// The same, but for roundings.
 pub(crate) const STEEPEST_RAD: f64 = std::f64::consts::FRAC_PI_6 * (1.0 + ROUNDINGS);
 
-/// Products of inertia up to this share of both radii of gyration are left out of a box: they change what a strike does to a corner by
-/// about as much, well within what the search may miss.
-const ASKEW: f64 = 0.01;
-
 impl ProductFile {
     fn check_landings(&self) -> Result<(), DataFault> {
         if self.landings.is_empty() {
             return Ok(());
         }
-        let width = self.product.width.filter(|width| width.thickness_m.is_some());
-        let width = width.ok_or(DataFault::BoxWithoutThickness)?;
-        let share = width.product_of_inertia_m2 / (self.product.gyration_m.lo() * width.gyration_m);
-        if share.abs() > ASKEW {
-            return Err(DataFault::Askew { share });
+        if self.product.width.is_none_or(|width| width.thickness_m.is_none()) {
+            return Err(DataFault::BoxWithoutThickness);
         }
         if self.drop.direction_rad.is_some() {
             return Err(DataFault::OfPlate { field: "direction" });

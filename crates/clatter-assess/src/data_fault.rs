@@ -68,11 +68,6 @@ pub enum DataFault {
     },
     /// A box without its thickness.
     BoxWithoutThickness,
-    /// A box whose masses lie askew of its sides.
-    Askew {
-        /// ∫x y dm over the mass, over the product of both radii of gyration.
-        share: f64,
-    },
     /// A box that lands twice on the same.
     Twice(Attitude),
     /// What an attitude is not called.
@@ -240,10 +235,6 @@ impl DataFault {
             Self::BoxWithoutThickness => [
                 "a drop on a face, an edge or a corner is that of a box".to_owned(),
                 "add `width` and `thickness` to [product]".to_owned(),
-            ],
-            Self::Askew { share } => [
-                format!("the masses of a box lie askew of its sides: their product of inertia is {share:.3} of both radii of gyration"),
-                "allowed: up to 0.01, which is left out".to_owned(),
             ],
             Self::Twice(attitude) => [
                 format!("two drops are the same: {attitude}, from as high"),

@@ -268,7 +268,7 @@ impl SingleDrop {
         let [a, b] = self.body.arms_m();
         [x - 0.5 * (a - b), y - self.across.map_or(0.0, |across| across.width.center_m())]
     }
-    /// The same drop of a box of this thickness, its center of mass midway and its axes those of the sides. One that stands for a plate
+    /// The same drop of a box of this thickness, its center of mass midway. One that stands for a plate
     /// goes on upward, so that what lands are the corners of its bottom, however far they sink in.
     pub(crate) fn block_drop(&self, across: &Across, thickness_m: f64) -> Result<BlockDrop, Error> {
         let ([a, b], width) = (self.body.arms_m(), &across.width);
@@ -276,6 +276,7 @@ impl SingleDrop {
         let height_m = if across.posture.is_some() { thickness_m } else { thickness_m.max(a + b).max(width.m()) };
         let center_m = [0.5 * (a - b), width.center_m(), 0.5 * (thickness_m - height_m)];
         let block = Block::new([a + b, width.m(), height_m], center_m, radii)?;
+        let block = block.with_products_of_inertia([width.product_of_inertia_m2, 0.0, 0.0])?;
         let (speed, gravity) = (self.speed_m_s, self.gravity_m_s2);
         Ok(match &across.posture {
             Some(posture) => BlockDrop::upright(block, across.upward_of(posture, self.tilt_rad), speed, gravity)?,
@@ -313,16 +314,20 @@ impl SingleDrop {
         let ([x, y], least) = (self.about_center(at_m), self.least_gyration_m());
         let norm = |[x, y, z]: [f64; 3]| libm::hypot(libm::hypot(x, y), z);
         let far = norm([a.max(b), front.max(back), 0.5 * posture.thickness_m]) / least;
-        let (place, radii) = ([x, y, inside.height_m], self.radii_of_box(width, posture));
+        let [x, y, z] = [x, y, inside.height_m];
         let here = match inside.axis {
-            Axis::Any => [norm(place) / least, 0.0],
-            axis => {
-                let [i, j] = [1, 2].map(|next| (axis as usize + next) % 3);
-                // What lies along one side is turned about the other.
-                [place[i] / radii[j], place[j] / radii[i]]
-            }
+            Axis::X => self.arm_of_box(width, posture, [0.0, z, -y]),
+            Axis::Y => self.arm_of_box(width, posture, [-z, 0.0, x]),
+            Axis::Z => self.arm_of_box(width, posture, [y, -x, 0.0]),
+            Axis::Any => norm([x, y, z]) / least,
         };
-        (vec![[far, 0.0]; 4], here)
+        (vec![[far, 0.0]; 4], [here, 0.0])
+    }
+    /// What turning adds to a blow with this arm about the center of mass, as a lever arm over radii of gyration: √(a J⁻¹ a).
+    fn arm_of_box(&self, width: &Width, posture: &Posture, [x, y, z]: [f64; 3]) -> f64 {
+        let [xx, yy, zz] = self.radii_of_box(width, posture).map(|radius| radius * radius);
+        let xy = width.product_of_inertia_m2;
+        ((yy * x * x + 2.0 * xy * x * y + xx * y * y) / (xx * yy - xy * xy) + z * z / zz).sqrt()
     }
     /// Radii of gyration of a box about its axes.
     fn radii_of_box(&self, width: &Width, posture: &Posture) -> [f64; 3] {
@@ -334,7 +339,11 @@ impl SingleDrop {
         let along = self.body.gyration_m();
         let Some(Across { width, posture, .. }) = &self.across else { return along };
         match posture {
-            Some(posture) => self.radii_of_box(width, posture).into_iter().fold(f64::INFINITY, f64::min),
+            Some(posture) => {
+                let [xx, yy, zz] = self.radii_of_box(width, posture).map(|radius| radius * radius);
+                let across = 0.5 * (xx + yy) - libm::hypot(0.5 * (xx - yy), width.product_of_inertia_m2);
+                across.min(zz).sqrt()
+            }
             None => width.least_gyration_m(along),
         }
     }
@@ -550,7 +559,10 @@ mod tests {
         let mut tightest = 0.0_f64;
         for ((size, gyration), n) in [broad, tower].into_iter().flat_map(|of| (0..200).map(move |n| (of, n))) {
             let x = |k: u32| f64::from((n * k + 7) % 199) / 199.0 - 0.5;
-            let drop = dropped(size, gyration, 0.1 * size[1] * x(3));
+            let mut drop = dropped(size, gyration, 0.1 * size[1] * x(3));
+            if let Some(across) = &mut drop.across {
+                across.width.product_of_inertia_m2 = x(31) * gyration[0] * gyration[1];
+            }
             let (at_m, height_m) = ([size[0] * x(5), size[1] * x(11)], size[2] * x(17));
             let block = drop.block_drop(&drop.across.unwrap(), size[2]).unwrap().block();
             let place = block.place([at_m[0], at_m[1], height_m]);
@@ -563,8 +575,7 @@ mod tests {
                 let most = points.iter().map(|point| root(*point) * root(here)).fold(0.0, f64::max);
                 for corner in block.corners_m() {
                     let moment = cross(corner, along);
-                    let turn = std::array::from_fn(|i| moment[i] / block.gyration_m()[i].powi(2));
-                    let turned = cross(turn, place);
+                    let turned = cross(block.turned_by(moment), place);
                     let change: [f64; 3] = std::array::from_fn(|i| along[i] + turned[i]);
                     let felt = index
                         .map_or_else(|| change.iter().map(|c| c * c).sum::<f64>().sqrt(), |i: usize| change[i].abs());

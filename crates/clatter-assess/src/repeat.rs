@@ -148,6 +148,9 @@ impl WorstCase {
         add("width-m", &[width.m()]);
         add("thickness-m", &[posture.thickness_m]);
         add("gyration-m", &[libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)]);
+        if width.product_of_inertia_m2 != 0.0 {
+            add("product-of-inertia-m2", &[width.product_of_inertia_m2]);
+        }
         add("center-of-mass-m", &[0.5 * (a - b), width.center_m(), 0.0]);
         add("orientation", &quaternion);
         add("e", &[drop.restitution]);

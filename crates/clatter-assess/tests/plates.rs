@@ -153,8 +153,15 @@ fn masses_that_lie_askew_have_a_product_of_inertia() {
 #[test]
 fn a_box_at_real_tilt_says_nearly_the_same() {
     let mut most = 0.0_f64;
-    for (tilts, nearly) in [("[\"0.5 deg\", \"4 deg\"]", 0.03), ("[\"6 deg\", \"10 deg\"]", 0.15)] {
-        for limit in limits(&HANDHELD.replace("[\"0.5 deg\", \"4 deg\"]", tilts)) {
+    let masses = r#"masses = [
+    { mass = "100 g", from = ["-75 mm", "-35 mm"], to = ["75 mm", "35 mm"] },
+    { mass = "40 g", position = ["40 mm", "20 mm"] },
+]"#;
+    let even = "radius_of_gyration = [\"43 mm\", \"20 mm\"]\ncenter_of_mass = [\"0 mm\", \"0 mm\"]";
+    let askew = HANDHELD.replace(even, masses);
+    let cases = [(HANDHELD, "[\"0.5 deg\", \"4 deg\"]", 0.03), (HANDHELD, "[\"6 deg\", \"10 deg\"]", 0.15)];
+    for (text, tilts, nearly) in cases.into_iter().chain([(&askew[..], "[\"0.5 deg\", \"3 deg\"]", 0.03)]) {
+        for limit in limits(&text.replace("[\"0.5 deg\", \"4 deg\"]", tilts)) {
             let tilt =
                 limit.notes.iter().find_map(|note| if let Note::Tilt { off, .. } = note { Some(*off) } else { None });
             let off = tilt.expect("a box beside it");

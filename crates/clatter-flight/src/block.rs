@@ -2,10 +2,10 @@
 //!
 //! Forces are vertical, as the ground has no friction: neither the place of the box over the ground nor its turn about the vertical
 //! does anything. So its state is the height z of the center of mass, the direction n of the vertical in axes of the box, and the
-//! spin ω in these axes. With the corners r_i from the center of mass, the principal radii of gyration k and forces F_i over the mass:
+//! spin ω in these axes. With the corners r_i from the center of mass, the moments of inertia J and forces F_i, both over the mass:
 //!
 //! ```text
-//! z″ = Σ F_i − g,    n′ = n × ω,    k² ω′ = Σ F_i r_i × n − ω × k² ω
+//! z″ = Σ F_i − g,    n′ = n × ω,    J ω′ = Σ F_i r_i × n − ω × J ω
 //! height and velocity of a place p:  z + n·p,  z′ + n·(ω × p)
 //! ```
 //!
@@ -22,14 +22,30 @@ pub use run::{BlockFlight, BlockStep, BlockStrike, LEAST_OF_BLOCKS};
 
 use clatter::Error;
 
+use crate::contact::eigen;
 use crate::scene::within;
 
-/// A rectangular box: its corners, center of mass and principal radii of gyration, all along its own axes x, y, z.
+type Matrix = [[f64; 3]; 3];
+
+fn diagonal(of: [f64; 3]) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { of[i] } else { 0.0 }))
+}
+
+fn times(matrix: &Matrix, vector: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| system::dot(row, vector))
+}
+
+/// A rectangular box: its corners, center of mass and moments of inertia, all along its own axes x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Block {
     half: [f64; 3],
     center: [f64; 3],
     gyration: [f64; 3],
+    /// Moments of inertia over the mass about the center of mass, and their inverse.
+    inertia: Matrix,
+    inverse: Matrix,
+    /// The smallest radius of gyration about any axis.
+    least: f64,
 }
 
 impl Block {
@@ -71,7 +87,40 @@ impl Block {
             let allowed = "such that no square is more than the sum of the other two: no body has such moments";
             within("radius of gyration in m", own.sqrt(), 0.0, (others * (1.0 + 1e-9)).sqrt(), allowed)?;
         }
-        Ok(Self { half, center: center_of_mass_m, gyration: gyration_m })
+        let (inertia, inverse) = (diagonal([x, y, z]), diagonal([x, y, z].map(f64::recip)));
+        let least = gyration_m.into_iter().fold(f64::INFINITY, f64::min);
+        Ok(Self { half, center: center_of_mass_m, gyration: gyration_m, inertia, inverse, least })
+    }
+
+    /// The same with mass that lies askew of its sides: ∫x y dm/m, ∫x z dm/m and ∫y z dm/m about the center of mass, 0 unless given.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless a body has them: each is within 0.99 of the product of the radii of gyration of the mass along both
+    /// axes, √(∫x² dm/m) and so on, and the radius of gyration about no axis is below a hundredth of the largest size.
+    pub fn with_products_of_inertia(self, products_m2: [f64; 3]) -> Result<Self, Error> {
+        let squares = self.gyration.map(|radius| radius * radius);
+        let all = 0.5 * squares.iter().sum::<f64>();
+        let along = squares.map(|about| (all - about).max(0.0).sqrt());
+        let name = "product of inertia over the mass in m²";
+        for (product, [i, j]) in products_m2.into_iter().zip([[0, 1], [0, 2], [1, 2]]) {
+            let most = 0.99 * along[i] * along[j];
+            within(name, product, -most, most, "within 0.99 of both radii of gyration of the mass")?;
+        }
+        let ([xy, xz, yz], [x, y, z]) = (products_m2, squares);
+        let inertia = [[x, -xy, -xz], [-xy, y, -yz], [-xz, -yz, z]];
+        let (principal, axes) = eigen(inertia);
+        let largest = self.half.iter().fold(0.0_f64, |most, half| most.max(2.0 * half));
+        let least = principal.into_iter().fold(f64::INFINITY, f64::min).max(0.0).sqrt();
+        let half = 0.5 * principal.iter().sum::<f64>();
+        // No mass along an axis is less than none.
+        if least < 0.01 * largest || principal.iter().any(|about| *about > half * (1.0 + 1e-9)) {
+            let worst = products_m2.into_iter().fold(0.0, |most: f64, p| if p.abs() > most.abs() { p } else { most });
+            return Err(Error::Quantity { name, value: worst, allowed: "such that a body has them" });
+        }
+        let inverse = std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..3).map(|k| axes[i][k] * axes[j][k] / principal[k]).sum())
+        });
+        Ok(Self { inertia, inverse, least, ..self })
     }
 
     /// Corners from the center of mass: `---`, `+--`, `-+-`, `++-`, `--+` and so on, x first.
@@ -101,6 +150,18 @@ impl Block {
     #[must_use]
     pub fn gyration_m(&self) -> [f64; 3] {
         self.gyration
+    }
+
+    /// The smallest radius of gyration about any axis through the center of mass.
+    #[must_use]
+    pub fn least_gyration_m(&self) -> f64 {
+        self.least
+    }
+
+    /// What a moment of 1 over the mass does to the spin.
+    #[must_use]
+    pub fn turned_by(&self, moment: [f64; 3]) -> [f64; 3] {
+        times(&self.inverse, moment)
     }
 
     /// Size from face to face.

@@ -43,6 +43,7 @@ use crate::motion::{Ahead, Course, Motion};
 use crate::scene::{Scene, within};
 use phase::Phase;
 
+pub(crate) use eigen::eigen;
 pub(crate) use level::Level;
 pub(crate) use planar::Planar;
 pub(crate) use pose::Pose;

@@ -18,6 +18,8 @@ struct Case {
     size: Vector,
     center: Vector,
     gyration: Vector,
+    /// ∫x y, ∫x z and ∫y z over the mass.
+    products: Vector,
     /// Unit quaternion.
     turned: [f64; 4],
     spin: Vector,
@@ -31,7 +33,27 @@ const GRAVITY: f64 = 9.80665;
 
 impl Case {
     fn block(&self) -> Block {
-        Block::new(self.size, self.center, self.gyration).unwrap()
+        Block::new(self.size, self.center, self.gyration).unwrap().with_products_of_inertia(self.products).unwrap()
+    }
+    /// Moments of inertia over the mass.
+    fn moments(&self) -> [Vector; 3] {
+        let ([x, y, z], [xy, xz, yz]) = (self.gyration.map(|k| k * k), self.products);
+        [[x, -xy, -xz], [-xy, y, -yz], [-xz, -yz, z]]
+    }
+    /// The angular momentum over the mass of a spin, in axes of the box.
+    fn momentum(&self, spin: Vector) -> Vector {
+        self.moments().map(|row| dot(row, spin))
+    }
+    /// The spin of an angular momentum, by Cramer's rule.
+    fn spin_of(&self, momentum: Vector) -> Vector {
+        let moments = self.moments();
+        let det = |m: [Vector; 3]| dot(m[0], cross(m[1], m[2]));
+        // Symmetric: a column in place of a row.
+        std::array::from_fn(|i| {
+            let mut with = moments;
+            with[i] = momentum;
+            det(with) / det(moments)
+        })
     }
     fn drop(&self) -> BlockDrop {
         let drop = BlockDrop::new(self.block(), self.turned, SPEED, GRAVITY).unwrap();
@@ -50,6 +72,7 @@ prop_compose! {
         size in prop::array::uniform3(0.01..0.2_f64),
         center in prop::array::uniform3(-0.15..0.15_f64),
         spread in prop::array::uniform3(0.3..1.0_f64),
+        askew in prop::array::uniform3(-0.45..0.45_f64),
         turned in prop::array::uniform4(-1.0..1.0_f64),
         small in any::<bool>(),
         spin in prop::array::uniform3(-4.0..4.0_f64),
@@ -60,6 +83,8 @@ prop_compose! {
         // Moments of masses that are spread over a part of the box.
         let squares: Vector = std::array::from_fn(|i| spread[i] * size[i] * size[i] / 12.0);
         let gyration = std::array::from_fn(|i| (squares[(i + 1) % 3] + squares[(i + 2) % 3]).sqrt());
+        let lean = |k: usize, i: usize, j: usize| askew[k] * (squares[i] * squares[j]).sqrt();
+        let products = [lean(0, 0, 1), lean(1, 0, 2), lean(2, 1, 2)];
         let turned = if small { [1.0, 0.03 * turned[1], 0.03 * turned[2], 0.0] } else { turned };
         let length = turned.iter().map(|x| x * x).sum::<f64>().sqrt().max(0.1);
         let mut turned = turned.map(|x| x / length);
@@ -69,7 +94,7 @@ prop_compose! {
         let [least, most] = [f64::min, f64::max].map(|of| size.into_iter().reduce(of).unwrap());
         let time = (time * most).min(1e-3).min(0.03 * least);
         let law = if dashpot { ContactLaw::Dashpot } else { ContactLaw::Hysteretic };
-        Case { size, center, gyration, turned, spin, e, time, law }
+        Case { size, center, gyration, products, turned, spin, e, time, law }
     }
 }
 
@@ -95,8 +120,8 @@ impl World {
             [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)],
         ];
         let spin = case.drop().spin_rad_s();
-        let momentum =
-            std::array::from_fn(|k| (0..3).map(|i| axes[i][k] * case.gyration[i] * case.gyration[i] * spin[i]).sum());
+        let own = case.momentum(spin);
+        let momentum = std::array::from_fn(|k| (0..3).map(|i| axes[i][k] * own[i]).sum());
         let corners = case.block().corners_m();
         let mut world = Self { height: 0.0, velocity: -SPEED, axes, momentum };
         world.height = -corners.map(|corner| world.arm(corner)[2]).into_iter().fold(f64::INFINITY, f64::min);
@@ -106,10 +131,9 @@ impl World {
     fn arm(&self, place: Vector) -> Vector {
         std::array::from_fn(|k| (0..3).map(|i| self.axes[i][k] * place[i]).sum())
     }
-    /// Spin in the world: along each axis of the box the momentum over its moment.
+    /// Spin in the world.
     fn spin(&self, case: &Case) -> Vector {
-        let along = |i: usize| dot(self.axes[i], self.momentum) / (case.gyration[i] * case.gyration[i]);
-        std::array::from_fn(|k| (0..3).map(|i| self.axes[i][k] * along(i)).sum())
+        self.arm(case.spin_of(self.axes.map(|axis| dot(axis, self.momentum))))
     }
     fn corner(&self, case: &Case, place: Vector) -> (f64, f64) {
         let arm = self.arm(place);
@@ -218,8 +242,8 @@ impl Brute<'_> {
             return None;
         }
         let turned = cross(world.arm(self.corners[i]), [0.0, 0.0, 1.0]);
-        let along = |axis: usize| dot(world.axes[axis], turned) / self.case.gyration[axis];
-        let own = 1.0 + (0..3).map(|axis| along(axis).powi(2)).sum::<f64>();
+        let turned = world.axes.map(|axis| dot(axis, turned));
+        let own = 1.0 + dot(turned, self.case.spin_of(turned));
         self.springs[i].stiffness = self.omega * self.omega / own;
         Some(velocity)
     }
@@ -329,8 +353,8 @@ proptest! {
     #[test]
     fn momentum_about_the_vertical_is_kept_and_energy_is_not_made(case in case()) {
         let (drop, flight) = (case.drop(), case.flight(0.05));
-        let about = |n: Vector, spin: Vector| -> f64 { (0..3).map(|i| n[i] * case.gyration[i].powi(2) * spin[i]).sum() };
-        let turning = |spin: Vector| -> f64 { (0..3).map(|i| (case.gyration[i] * spin[i]).powi(2)).sum() };
+        let about = |n: Vector, spin: Vector| dot(n, case.momentum(spin));
+        let turning = |spin: Vector| dot(spin, case.momentum(spin));
         let before = about(drop.upward(), drop.spin_rad_s());
         let after = about(flight.upward, flight.spin_rad_s);
         let scale = case.gyration.iter().fold(0.0_f64, |most, k| most.max(*k)) * SPEED;
@@ -348,6 +372,8 @@ proptest! {
         let [w, x, y, z] = case.turned;
         let mut mirrored = case.clone();
         mirrored.center[0] = -mirrored.center[0];
+        let [xy, xz, yz] = case.products;
+        mirrored.products = [-xy, -xz, yz];
         // A mirror across x: a turn keeps its part along x and changes the sign of those along y and z.
         mirrored.turned = [w, x, -y, -z];
         mirrored.spin = [case.spin[0], -case.spin[1], -case.spin[2]];
@@ -390,6 +416,7 @@ const EVEN: Case = Case {
     size: [0.12, 0.06, 0.02],
     center: [0.0; 3],
     gyration: [0.018_257, 0.035_119, 0.038_730],
+    products: [0.0; 3],
     turned: [1.0, 0.0, 0.0, 0.0],
     spin: [0.0; 3],
     e: 0.5,
@@ -465,6 +492,7 @@ fn a_box_that_turns_about_the_vertical_comes_to_rest() {
 fn what_is_no_box_is_refused() {
     let of = |size, center, gyration| Block::new(size, center, gyration).expect_err("no box").to_string();
     let ([size, gyration], zero) = ([EVEN.size, EVEN.gyration], [0.0; 3]);
+    let leaning = |products| EVEN.block().with_products_of_inertia(products).expect_err("no body").to_string();
     for (said, error) in [
         ("size of the box in m", of([0.12, 0.0, 0.02], zero, gyration)),
         ("size of the box in m", of([0.12, 1e-5, 0.02], zero, gyration)),
@@ -472,6 +500,9 @@ fn what_is_no_box_is_refused() {
         ("center of mass", of(size, [0.0, 0.031, 0.0], gyration)),
         ("no body has such moments", of(size, zero, [0.018, 0.035, 0.08])),
         ("radius of gyration", of(size, zero, [0.018, 0.035, 1e-4])),
+        ("within 0.99 of both radii of gyration of the mass", leaning([7e-4, 0.0, 0.0])),
+        ("product of inertia over the mass in m²", leaning([f64::NAN, 0.0, 0.0])),
+        ("such that a body has them", leaning([5e-4, -1.6e-4, 8e-5])),
     ] {
         assert!(error.contains(said), "{error}");
     }

@@ -17,6 +17,8 @@ pub struct Solid {
     pub center: Vector,
     /// Radii of gyration about the three axes.
     pub radii: Vector,
+    /// The mean of x y over its mass, about the center of mass.
+    pub askew: f64,
     /// Restitution of the corners.
     pub e: f64,
     /// Law and time of a lone contact.
@@ -135,13 +137,21 @@ impl Body {
     fn turning(&self, s: &State) -> (Matrix, Vector) {
         let r = Self::attitude(s);
         let spin = back(&r, [s[11], s[12], s[13]]);
-        (r, out(&r, std::array::from_fn(|i| spin[i] / self.solid.radii[i].powi(2))))
+        (r, out(&r, self.over(spin)))
+    }
+
+    /// In axes of the box, a torque over the moments of inertia (over the mass): by Gauss' elimination.
+    fn over(&self, torque: Vector) -> Vector {
+        let [a, b, c] = self.solid.radii.map(|k| k * k);
+        let off = -self.solid.askew;
+        let y = (torque[1] - off / a * torque[0]) / (b - off / a * off);
+        [(torque[0] - off * y) / a, y, torque[2] / c]
     }
 
     /// What a torque in axes of the world turns.
     fn turned(&self, r: &Matrix, torque: Vector) -> Vector {
         let own = back(r, torque);
-        out(r, std::array::from_fn(|i| own[i] / self.solid.radii[i].powi(2)))
+        out(r, self.over(own))
     }
 
     /// Height, velocity and mobility of a corner.
@@ -238,8 +248,10 @@ impl Body {
 
     /// A time in which no corner can come to the ground, in free flight.
     fn clear(&self, s: &State) -> f64 {
-        let fastest = dot([s[11], s[12], s[13]], [s[11], s[12], s[13]]).sqrt()
-            / self.solid.radii.iter().fold(f64::INFINITY, |a, b| a.min(*b)).powi(2);
+        let [a, b, c] = self.solid.radii.map(|k| k * k);
+        // No radius of gyration is smaller.
+        let least = (0.5 * (a + b) - (0.5 * (a - b)).hypot(self.solid.askew)).min(c);
+        let fastest = dot([s[11], s[12], s[13]], [s[11], s[12], s[13]]).sqrt() / least;
         let one = |k: usize| {
             let (height, velocity, _) = self.corner(k, s);
             if velocity < 0.0 && height <= DOWN {

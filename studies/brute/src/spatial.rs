@@ -52,6 +52,39 @@ fn round(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
 }
 
+/// Where mass is: as the file has it, its center, its radii of gyration along the length and the width, and the mean of x y.
+fn spread(r: &mut Random, sides: [f64; 2]) -> (String, [f64; 2], [f64; 2], f64) {
+    if r.chance(0.5) {
+        let [kx, ky] = sides.map(|side| round(side * r.within(0.22, 0.36)));
+        let off = r.chance(0.5);
+        let center = sides.map(|side| if off { round(side * r.within(-0.08, 0.08)) } else { 0.0 });
+        let text = format!(
+            "radius_of_gyration = [\"{kx} m\", \"{ky} m\"]\ncenter_of_mass = [\"{} m\", \"{} m\"]\n",
+            center[0], center[1]
+        );
+        return (text, center, [kx, ky], 0.0);
+    }
+    // A case all over, and two parts that are small.
+    let [half_x, half_y] = sides.map(|side| 0.5 * side);
+    let mut text = format!(
+        "masses = [{{ mass = \"1 kg\", from = [\"{} m\", \"{} m\"], to = [\"{half_x} m\", \"{half_y} m\"] }}",
+        -half_x, -half_y
+    );
+    let small: Vec<(f64, [f64; 2])> =
+        (0..2).map(|_| (round(r.within(0.05, 0.5)), sides.map(|side| round(side * r.within(-0.4, 0.4))))).collect();
+    for (mass, [x, y]) in &small {
+        let _ = write!(text, ", {{ mass = \"{mass} kg\", position = [\"{x} m\", \"{y} m\"] }}");
+    }
+    text.push_str("]\n");
+    let all = 1.0 + small.iter().map(|(mass, _)| mass).sum::<f64>();
+    let center = [0, 1].map(|i| small.iter().map(|(mass, at)| mass * at[i]).sum::<f64>() / all);
+    let mean = |i: usize, j: usize| {
+        let case = if i == j { sides[i] * sides[i] / 12.0 } else { 0.0 };
+        (case + small.iter().map(|(mass, at)| mass * at[i] * at[j]).sum::<f64>()) / all - center[i] * center[j]
+    };
+    (text, center, [0, 1].map(|i| mean(i, i).sqrt()), mean(0, 1))
+}
+
 impl Product {
     /// A random product and its file, its limits far above any demand.
     fn new(kind: &str, seed: u64) -> Self {
@@ -60,10 +93,8 @@ impl Product {
         let length = round(r.log(0.08, 0.3));
         let width = round(length * r.within(0.3, 1.0));
         let thickness = round(length * if is_box { r.within(0.06, 0.4) } else { r.within(0.03, 0.1) });
-        let [kx, ky] = [length, width].map(|side| round(side * r.within(0.22, 0.36)));
         let kz = thickness / 12_f64.sqrt();
-        let off = r.chance(0.5);
-        let center = [length, width].map(|side| if off { round(side * r.within(-0.08, 0.08)) } else { 0.0 });
+        let (mass, center, [kx, ky], askew) = spread(r, [length, width]);
         let e = round(r.within(0.05, 0.5));
         let e = [e, if r.chance(0.5) { round(e * r.within(1.05, 1.3)) } else { e }];
         let law = if r.chance(0.3) { Law::Dashpot } else { Law::Hysteretic };
@@ -72,9 +103,8 @@ impl Product {
         let named = if law == Law::Dashpot { "dashpot" } else { "hysteretic" };
         let mut text = format!(
             "[product]\nname = \"{kind} {seed}\"\nlength = \"{length} m\"\nwidth = \"{width} m\"\nthickness = \"{thickness} m\"\n\
-             radius_of_gyration = [\"{kx} m\", \"{ky} m\"]\ncenter_of_mass = [\"{} m\", \"{} m\"]\nrestitution = [{}, {}]\n\
-             contact_time = \"{time} s\"\ncontact_law = \"{named}\"\n[drop]\nheight = \"{height} m\"\n",
-            center[0], center[1], e[0], e[1]
+             {mass}restitution = [{}, {}]\ncontact_time = \"{time} s\"\ncontact_law = \"{named}\"\n[drop]\nheight = \"{height} m\"\n",
+            e[0], e[1]
         );
         let (mut direction, mut upward) = ([0.0, TAU], [0.0, 0.0, 1.0]);
         let tilt: Range;
@@ -111,6 +141,7 @@ impl Product {
             sides: [length, width, thickness],
             center: [center[0], center[1], 0.0],
             radii: [ky.hypot(kz), kx.hypot(kz), kx.hypot(ky)],
+            askew,
             e: e[0],
             contact: (law, time),
             speed: 0.0,
@@ -245,6 +276,7 @@ fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
         format!("--width-m={}", drop.sides[1]),
         format!("--thickness-m={}", drop.sides[2]),
         format!("--gyration-m={}", list(drop.radii)),
+        format!("--product-of-inertia-m2={}", drop.askew),
         format!("--center-of-mass-m={}", list(drop.center)),
         format!("--orientation={}", turn.map(|x| (x / size).to_string()).join(",")),
         format!("--e={}", drop.e),

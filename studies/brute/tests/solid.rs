@@ -10,7 +10,18 @@ fn solid(upward: [f64; 3], e: f64, law: Law) -> Solid {
     let sides = [0.15, 0.07, 0.02];
     let k = [0.043, 0.02, 0.02 / 12_f64.sqrt()];
     let radii = [k[1].hypot(k[2]), k[0].hypot(k[2]), k[0].hypot(k[1])];
-    Solid { sides, center: [0.004, -0.002, 0.0], radii, e, contact: (law, 4e-4), speed: 4.0, upward, gravity: 9.806_65 }
+    Solid {
+        sides,
+        center: [0.004, -0.002, 0.0],
+        radii,
+        askew: 0.0,
+        askew: 0.0,
+        e,
+        contact: (law, 4e-4),
+        speed: 4.0,
+        upward,
+        gravity: 9.806_65,
+    }
 }
 
 #[test]

@@ -85,7 +85,9 @@ impl SingleDrop {
         let [x, y] = [[1, 2], [0, 2], [0, 1]][normal];
         let upward = across.upward_of(&posture, self.tilt_rad);
         let thickness_m = Some(edges[normal].iter().sum());
-        let width = Width { edges_m: edges[y], gyration_m: radii[y], product_of_inertia_m2: 0.0, thickness_m };
+        // Over the thickness mass is even.
+        let product_of_inertia_m2 = if normal == 2 { across.width.product_of_inertia_m2 } else { 0.0 };
+        let width = Width { edges_m: edges[y], gyration_m: radii[y], product_of_inertia_m2, thickness_m };
         let across = Across { width, direction_rad: libm::atan2(upward[y], upward[x]), posture: None };
         let body = clatter_flight::Body::off_center(edges[x][0], edges[x][1], radii[x]).ok()?;
         let tilt_rad = libm::asin(libm::hypot(upward[x], upward[y]).min(1.0));

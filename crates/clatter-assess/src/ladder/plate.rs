@@ -34,9 +34,7 @@ impl Ladder {
         let until_s = (BEYOND_PEAK * peak.time_s).max(drop.clatter_s());
         let as_block = || Followed::as_block(drop, thickness_m, until_s);
         let until = |drop| Followed::until(drop, Model::Compliant, tolerance, Until::Past(until_s));
-        // The box has its axes along its sides.
-        let is_askew = across.width.product_of_inertia_m2 != 0.0;
-        let block = if is_askew { None } else { as_block().and_then(|block| of_followed(&block, part, limit)).ok() };
+        let block = as_block().and_then(|block| of_followed(&block, part, limit)).ok();
         let (fullest, exact) = match block {
             Some(block) => (Rung::Block, block),
             None => (Rung::Plate, answer(drop, part, limit, Model::Compliant, FINER * tolerance)?),
@@ -52,10 +50,7 @@ impl Ladder {
         let groups = Groups::of(drop, part)?;
         let cheapest = cheapest(&models, tolerance).unwrap_or(fullest);
         let steep = with("real tilt counts", "φ²", Some(groups.geometry));
-        let mut reason = reason(&models, cheapest, tolerance, &groups, steep);
-        if is_askew {
-            reason.push_str("; no box is followed whose masses lie askew");
-        }
+        let reason = reason(&models, cheapest, tolerance, &groups, steep);
         let worked_out = if block.is_some() { BLOCK } else { FINER * tolerance };
         let reference = Reference { model: fullest, value: exact.value, tolerance: worked_out };
         Ok(Self { unit: exact.unit, reference, models, cheapest, reason, groups })

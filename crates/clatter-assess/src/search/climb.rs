@@ -134,8 +134,7 @@ impl Ranges<'_> {
 
 impl Ranges<'_> {
     /// The utilization that a box of this thickness with full rotation asks for at most: in the worst drop of a plate, in other drops
-    /// from which the search climbed, and in drops next to each, which real tilt shifts. Where masses lie askew, which no box knows,
-    /// what both ask without that is scaled.
+    /// from which the search climbed, and in drops next to each, which real tilt shifts.
     ///
     /// # Errors
     /// That of the worst drop, of a box that is not followed so.
@@ -154,17 +153,10 @@ impl Ranges<'_> {
     }
 
     fn as_block_next_to(&self, task: &Task<'_>, at: &Candidate, thickness_m: f64, count: u32) -> Result<f64, Error> {
-        let of = |place: &Place, as_block: bool| -> Result<f64, Error> {
-            let mut drop = self.single(place);
-            if let Some(across) = &mut drop.across {
-                across.width.product_of_inertia_m2 = 0.0;
-            }
+        let of = |place: &Place| -> Result<f64, Error> {
+            let drop = self.single(place);
             let until_s = (BEYOND_PEAK * at.answer.time_s).max(drop.clatter_s());
-            let followed = if as_block {
-                Followed::as_block(&drop, thickness_m, until_s)?
-            } else {
-                Followed::until(&drop, self.model, self.tolerance, Until::Past(until_s))?
-            };
+            let followed = Followed::as_block(&drop, thickness_m, until_s)?;
             let part = Candidate { place: *place, ..*at }.part_there(task.component);
             Ok(of_followed(&followed, &part, &task.limit)?.utilization())
         };
@@ -177,13 +169,8 @@ impl Ranges<'_> {
             }
             place
         };
-        let most = |as_block: bool| -> Result<f64, Error> {
-            let here = of(&at.place, as_block)?;
-            Ok((1..=count).into_par_iter().map(|k| of(&next(k), as_block).unwrap_or(0.0)).reduce(|| here, f64::max))
-        };
-        let (block, is_askew) = (most(true)?, self.product.width.is_some_and(|w| w.product_of_inertia_m2 != 0.0));
-        let straight = if is_askew { most(false)? } else { 0.0 };
-        Ok(if straight > 0.0 { block / straight * at.answer.utilization() } else { block })
+        let here = of(&at.place)?;
+        Ok((1..=count).into_par_iter().map(|k| of(&next(k)).unwrap_or(0.0)).reduce(|| here, f64::max))
     }
 }
 

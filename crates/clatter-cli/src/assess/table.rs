@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use clatter_answer::assess::Answer;
 use clatter_assess::{
-    Accuracy, Assessment, Component, ComponentAssessment, LimitAssessment, ProductFile, Verdict, repeat,
+    Accuracy, Assessment, Component, ComponentAssessment, LandingAssessment, LimitAssessment, ProductFile, Verdict,
+    repeat,
 };
 
 use crate::columns::{Table, sentence};
@@ -41,10 +42,7 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
             "Flat drop: what the worst drop would ask if both ends landed at once, as drop standards assume."
         )?;
     } else {
-        writeln!(
-            out,
-            "Flat drop: what the worst drop would ask if the box were not turned off what it lands on."
-        )?;
+        writeln!(out, "Flat drop: what the worst drop would ask if the box were not turned off what it lands on.")?;
     }
     let all = assessment.components.iter().flat_map(|component| &component.limits);
     if all.clone().any(|limit| limit.other_law.is_some()) {
@@ -119,14 +117,21 @@ fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> i
 fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     let heads = ["drop", "off, deg", "verdict", "tightest", "limit", "demand", "margin"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    let speeds = |landing: &LandingAssessment| landing.speed_m_s.map(f64::to_bits);
+    let alike = assessment.landings.windows(2).all(|two| speeds(&two[0]) == speeds(&two[1]));
     for landing in &assessment.landings {
         let Some(tightest) = landing.tightest() else { continue };
         let name = |component: &&Component| component.name == tightest.component;
         let Some(component) = file.components.iter().find(name) else { continue };
         let unit = tightest.limit.unit();
         let of = |value: f64| in_words(unit, component.limits.unit(tightest.limit, unit), value);
+        let [slow, fast] = landing.speed_m_s.map(four);
         rows.push(vec![
-            landing.landing.to_string(),
+            match &landing.landing {
+                on if alike => on.to_string(),
+                on if slow == fast => format!("{on}, {slow} m/s"),
+                on => format!("{on}, {slow} to {fast} m/s"),
+            },
             format!("{}", neat(landing.tolerance_deg)),
             verdict(landing.verdict).to_owned(),
             shown(&tightest.component, 24),
@@ -137,7 +142,10 @@ fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) ->
     }
     writeln!(out)?;
     if let Some(source) = assessment.landings.iter().find_map(|landing| landing.source) {
-        sentence(out, "Drops of ", source)?;
+        let by_hand = assessment.landings.iter().filter(|landing| landing.source.is_none()).count();
+        let first =
+            if by_hand > 0 { format!("Drops: {by_hand} by hand, the others of ") } else { "Drops of ".to_owned() };
+        sentence(out, &first, source)?;
     }
     Table { keys: 1, headings: 1, texts: 5, last_is_text: false, least: 9, rows }.write(out)
 }

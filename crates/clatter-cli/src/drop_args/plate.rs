@@ -36,9 +36,9 @@ pub(crate) struct PlateArgs {
     /// --gaps in m
     #[arg(long, value_name = "HX,HY", allow_hyphen_values = true, value_parser = quantities::gaps_m, conflicts_with_all = ["tilt", "tilt_deg", "direction", "direction_deg", "product"], help_heading = IN_SI, hide_short_help = true)]
     gaps_m: Option<[f64; 2]>,
-    /// Of a plate whose contacts take time: product of inertia over its mass, about the center of mass; 0 unless given
+    /// Of a plate or a box whose contacts take time: ∫x y dm over its mass, about the center of mass; 0 unless given
     #[arg(long, value_name = "M2", allow_hyphen_values = true, value_parser = inputs::number, help_heading = IN_SI, hide_short_help = true)]
-    product_of_inertia_m2: Option<f64>,
+    pub(super) product_of_inertia_m2: Option<f64>,
 }
 
 impl PlateArgs {

@@ -4,7 +4,7 @@ use clatter::Error as Wrong;
 
 use super::dormand_prince::{SIZE, Step, Vector};
 use super::system::{Corner, Hold, System, cross, dot, parts};
-use super::{Block, BlockDrop};
+use super::{Block, BlockDrop, times};
 use crate::Error;
 use crate::contact::Contact;
 use crate::flight::Stop;
@@ -223,18 +223,16 @@ impl<'a> Run<'a> {
         let has_dents = contact.law().leaves_a_dent();
         let restitution = contact.restitution().max(if has_dents { LEAST_OF_BLOCKS } else { 0.0 });
         let (corners, reach) = (block.corners_m(), block.reach());
-        let inertia = block.gyration_m().map(|radius| radius * radius);
         let loss = if has_dents { restitution * restitution } else { 1.0 };
         let delay = 2.0 * contact.damping_ratio() / contact.frequency_rad_s();
         let up = Corner { hold: Hold::Up, ground: 0.0, stiffness: 0.0, strike: 0 };
-        let system = System { corners, inertia, gravity: drop.gravity, delay, loss, holds: [up; 8] };
+        let system = System { corners, block, gravity: drop.gravity, delay, loss, holds: [up; 8] };
         let n = drop.upward;
         let lowest = corners.iter().map(|corner| dot(n, *corner)).fold(f64::INFINITY, f64::min);
         let y = [-lowest, -drop.speed, n[0], n[1], n[2], drop.spin[0], drop.spin[1], drop.spin[2]];
         let (fastest, time) = (drop.fastest(), contact.time_s());
         let (depth, turn) = (fastest * time, fastest * time / reach);
         let (fast, spin) = (fastest, fastest / reach);
-        let least = inertia.iter().copied().fold(f64::INFINITY, f64::min);
         Self {
             drop,
             contact,
@@ -248,7 +246,7 @@ impl<'a> Run<'a> {
             fastest: 0.0,
             opened: system.energy(&y) + drop.gravity * reach,
             misfit: 0.0,
-            most_coupling: 1.0 + reach * reach / least,
+            most_coupling: 1.0 + (reach / block.least).powi(2),
             sunk: 0.0,
         }
     }
@@ -329,7 +327,7 @@ impl<'a> Run<'a> {
     fn left(&self) -> f64 {
         let (_, _, n, spin) = parts(&self.y);
         let energy = self.system.energy(&self.y) + self.system.stored(&self.y);
-        let momentum = (0..3).map(|axis| n[axis] * self.system.inertia[axis] * spin[axis]).sum();
+        let momentum = dot(n, times(&self.drop.block.inertia, spin));
         let ground = std::array::from_fn(|i| self.system.dent(i, &self.y));
         (energy - self.drop.block.kept(n, energy, self.drop.gravity, momentum, ground)).max(0.0)
     }

@@ -1,6 +1,7 @@
 //! A box and what presses on it: forces at its corners, and what they accelerate it by.
 
 use super::dormand_prince::Vector;
+use super::{Block, times};
 
 pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -37,7 +38,7 @@ pub(super) struct Corner {
 pub(super) struct System {
     pub(super) corners: [[f64; 3]; 8],
     /// Squares of the radii of gyration.
-    pub(super) inertia: [f64; 3],
+    pub(super) block: Block,
     pub(super) gravity: f64,
     /// θ of a dashpot, and e² of a hysteretic contact.
     pub(super) delay: f64,
@@ -85,9 +86,8 @@ impl System {
     }
     /// Angular acceleration.
     pub(super) fn turning(&self, spin: [f64; 3], moment: [f64; 3]) -> [f64; 3] {
-        let momentum = std::array::from_fn(|axis| self.inertia[axis] * spin[axis]);
-        let gyration = cross(spin, momentum);
-        std::array::from_fn(|axis| (moment[axis] - gyration[axis]) / self.inertia[axis])
+        let gyration = cross(spin, times(&self.block.inertia, spin));
+        times(&self.block.inverse, std::array::from_fn(|axis| moment[axis] - gyration[axis]))
     }
     pub(super) fn slope(&self, y: &Vector) -> Vector {
         let (_, v, n, spin) = parts(y);
@@ -98,7 +98,7 @@ impl System {
     /// What a force on a corner over the mass accelerates another corner by.
     pub(super) fn coupling(&self, n: [f64; 3], i: usize, j: usize) -> f64 {
         let [a, b] = [i, j].map(|k| cross(self.corners[k], n));
-        1.0 + (0..3).map(|axis| a[axis] * b[axis] / self.inertia[axis]).sum::<f64>()
+        1.0 + dot(a, times(&self.block.inverse, b))
     }
     /// Height at which a corner parts from the ground, as far as it is pressed in now.
     pub(super) fn dent(&self, i: usize, y: &Vector) -> f64 {
@@ -113,8 +113,7 @@ impl System {
     /// Kinetic and potential energy over the mass.
     pub(super) fn energy(&self, y: &Vector) -> f64 {
         let (z, v, _, spin) = parts(y);
-        let turning: f64 = (0..3).map(|axis| self.inertia[axis] * spin[axis] * spin[axis]).sum();
-        0.5 * (v * v + turning) + self.gravity * z
+        0.5 * (v * v + dot(spin, times(&self.block.inertia, spin))) + self.gravity * z
     }
     /// What pressed corners may give back.
     pub(super) fn stored(&self, y: &Vector) -> f64 {

@@ -1,7 +1,7 @@
 //! Eigenvalues and eigenvectors of a small symmetric matrix.
 
 /// Eigenvalues and eigenvectors (columns), by Jacobi's rotations.
-pub(super) fn eigen<const N: usize>(mut a: [[f64; N]; N]) -> ([f64; N], [[f64; N]; N]) {
+pub(crate) fn eigen<const N: usize>(mut a: [[f64; N]; N]) -> ([f64; N], [[f64; N]; N]) {
     let mut v = [[0.0; N]; N];
     for (i, row) in v.iter_mut().enumerate() {
         row[i] = 1.0;

@@ -1,6 +1,6 @@
 //! What an assessment was made from, in words: the product, its drop, how a part is held.
 
-use clatter_assess::{Assessment, Axis, Component, Damping, Fall, First, Mount, ProductFile, Spread, Width};
+use clatter_assess::{Assessment, Axis, Component, Damping, Drop, Fall, First, Mount, ProductFile, Spread, Width};
 use clatter_figures::{model_words as model, three};
 
 use crate::Pages;
@@ -42,7 +42,9 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
             [one] => one.attitude.to_string(),
             all => format!("{} of them", all.len()),
         };
-        add("Lands on", source.map_or(drops.clone(), |source| format!("{drops}: {source}")));
+        let listed = file.landings.iter().filter(|landing| landing.source.is_some()).count();
+        let of = if listed < file.landings.len() { format!(", {listed} of them of") } else { ":".to_owned() };
+        add("Lands on", source.map_or(drops.clone(), |source| format!("{drops}{of} {source}")));
     }
     let gravity = file.drop.gravity_m_s2;
     add(
@@ -122,6 +124,12 @@ fn ratio(file: &ProductFile) -> String {
 
 /// The fall.
 fn drop(file: &ProductFile) -> String {
+    let falls = || file.landings.iter().map(|landing| landing.fall);
+    if falls().any(|fall| fall != file.drop.fall) {
+        let speeds = falls().map(|fall| Drop { fall, ..file.drop }.speeds_m_s());
+        let widest = speeds.reduce(|[lo, hi], [slow, fast]| [lo.min(slow), hi.max(fast)]).unwrap_or_default();
+        return format!("each from its own height, at {}", span(widest, 1.0, "m/s"));
+    }
     match file.drop.fall {
         Fall::HeightM(height) => {
             format!("from {}, which gives {}", range(&height, 1.0, "m"), span(file.drop.speeds_m_s(), 1.0, "m/s"))

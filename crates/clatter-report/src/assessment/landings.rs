@@ -4,13 +4,13 @@ use clatter_assess::{Assessment, LandingAssessment, ProductFile, Spread};
 use clatter_figures::three;
 use serde_json::{Value, json};
 
-use crate::words::{name, percent, shown};
+use crate::words::{name, percent, shown, span};
 
 /// What the pages of a box leave out.
 pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
     [
         "Landing again",
-        "A box is followed for the clatter of its first landing. How it comes down again is sensitive to every input: what it may do then is bounded by the energy that is left, and where that is too much a limit is undecided.",
+        "The worst drops are followed until the box lies, others for the clatter of their first landing. How a box comes down again is sensitive to every input: what it may do then is bounded by the energy that is left, and where that is too much a limit is undecided.",
     ],
     [
         "Drops between",
@@ -31,13 +31,19 @@ pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
 
 /// Of a box, a row for each drop: what it lands on, how far off it may be, verdict, and the limit that it leaves least room.
 pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
+    let speeds = |landing: &LandingAssessment| landing.speed_m_s.map(f64::to_bits);
+    let alike = assessment.landings.windows(2).all(|two| speeds(&two[0]) == speeds(&two[1]));
     let row = |landing: &LandingAssessment| {
         let tightest = landing.tightest()?;
         let component = file.components.iter().find(|component| component.name == tightest.component)?;
         let unit = tightest.limit.unit();
         let of = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(unit, value));
         Some(json!([
-            landing.landing.to_string(),
+            if alike {
+                landing.landing.to_string()
+            } else {
+                format!("{}, {}", landing.landing, span(landing.speed_m_s, 1.0, "m/s"))
+            },
             format!("{}°", three(landing.tolerance_deg)),
             name(&tightest.component),
             tightest.limit.words(),
