@@ -159,7 +159,13 @@ pub(crate) fn width_of(width_m: f64, center_m: f64, gyration_m: f64) -> Result<W
         return Err(DataFault::GyrationAcross { gyration_m, width_m });
     }
     let half = 0.5 * width_m;
-    Ok(Width { edges_m: [half + center_m, half - center_m], gyration_m, product_of_inertia_m2: 0.0, thickness_m: None })
+    Ok(Width {
+        edges_m: [half + center_m, half - center_m],
+        gyration_m,
+        product_of_inertia_m2: 0.0,
+        thickness_m: None,
+        depth: None,
+    })
 }
 
 impl Drop {

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::attitude::turned_off;
 use crate::course::{BlockMotion, Course};
 use crate::engine::Spot;
-use crate::{Axis, Error, Inside, Width};
+use crate::{Axis, Error, Width};
 
 /// How a drop is answered: from the least physics to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -107,7 +107,7 @@ pub struct Across {
 pub struct Posture {
     /// The vertical in axes of the box.
     pub upward: [f64; 3],
-    /// Its thickness; mass is spread evenly over it.
+    /// Its thickness.
     pub thickness_m: f64,
 }
 
@@ -148,7 +148,7 @@ impl SingleDrop {
         }
         let edges_m = [front, back];
         let product_of_inertia_m2 = plate.product_of_inertia_m2();
-        let width = Width { edges_m, gyration_m: ky, product_of_inertia_m2, thickness_m: None };
+        let width = Width { edges_m, gyration_m: ky, product_of_inertia_m2, thickness_m: None, depth: None };
         Ok(Self {
             body: Body::off_center(left, right, kx)?,
             across: Some(Across { width, direction_rad: libm::atan2(slopes[1], slopes[0]), posture: None }),
@@ -268,16 +268,22 @@ impl SingleDrop {
         let [a, b] = self.body.arms_m();
         [x - 0.5 * (a - b), y - self.across.map_or(0.0, |across| across.width.center_m())]
     }
-    /// The same drop of a box of this thickness, its center of mass midway. One that stands for a plate
-    /// goes on upward, so that what lands are the corners of its bottom, however far they sink in.
-    pub(crate) fn block_drop(&self, across: &Across, thickness_m: f64) -> Result<BlockDrop, Error> {
+    /// The box of this thickness. One that stands for a plate goes on upward, so that what lands are the corners of its bottom, however
+    /// far they sink in.
+    fn block(&self, across: &Across, thickness_m: f64) -> Result<Block, Error> {
         let ([a, b], width) = (self.body.arms_m(), &across.width);
-        let radii = self.radii_of_box(width, &Posture { upward: [0.0, 0.0, 1.0], thickness_m });
+        let depth = width.depth_of(thickness_m);
+        let (kx, ky, kz) = (self.body.gyration_m(), width.gyration_m, depth.gyration_m);
+        let radii = [libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)];
         let height_m = if across.posture.is_some() { thickness_m } else { thickness_m.max(a + b).max(width.m()) };
-        let center_m = [0.5 * (a - b), width.center_m(), 0.5 * (thickness_m - height_m)];
+        let center_m = [0.5 * (a - b), width.center_m(), depth.center_m + 0.5 * (thickness_m - height_m)];
+        let [xz, yz] = depth.products_of_inertia_m2;
         let block = Block::new([a + b, width.m(), height_m], center_m, radii)?;
-        let block = block.with_products_of_inertia([width.product_of_inertia_m2, 0.0, 0.0])?;
-        let (speed, gravity) = (self.speed_m_s, self.gravity_m_s2);
+        Ok(block.with_products_of_inertia([width.product_of_inertia_m2, xz, yz])?)
+    }
+    /// The same drop of a box of this thickness.
+    pub(crate) fn block_drop(&self, across: &Across, thickness_m: f64) -> Result<BlockDrop, Error> {
+        let (block, speed, gravity) = (self.block(across, thickness_m)?, self.speed_m_s, self.gravity_m_s2);
         Ok(match &across.posture {
             Some(posture) => BlockDrop::upright(block, across.upward_of(posture, self.tilt_rad), speed, gravity)?,
             None => BlockDrop::tilted(block, self.tilt_rad, across.direction_rad % TAU, speed, gravity)?,
@@ -286,13 +292,13 @@ impl SingleDrop {
     /// Points that touch the ground and a place, from the center of mass, in units in which an impulse of 1 over the mass at p does
     /// 1 + p·q to q: x/ρ of a bar.
     pub(crate) fn in_radii(&self, spot: &Spot) -> (Vec<[f64; 2]>, [f64; 2]) {
-        let Spot { at_m: [x, y], inside } = *spot;
+        let [x, y] = spot.at_m;
         let ([a, b], rho) = (self.body.arms_m(), self.body.gyration_m());
         let Some(Across { width, posture, .. }) = self.across else {
             return (vec![[-a / rho, 0.0], [b / rho, 0.0]], [(x + 0.5 * (b - a)) / rho, 0.0]);
         };
-        if let Some(posture) = posture {
-            return self.in_radii_of_box(&width, &posture, [x, y], inside);
+        if posture.is_some() {
+            return self.in_radii_of_box(spot);
         }
         let lean = width.product_of_inertia_m2 / (rho * rho);
         let across = (width.gyration_m * width.gyration_m - lean * lean * rho * rho).sqrt();
@@ -303,48 +309,36 @@ impl SingleDrop {
     }
     /// The same of a box, as bounds that hold however it lies: impulses at a corner q do no more than
     /// `√(1 + q²) √(1 + p²)` to the place along the axis of the part, with p the lever arm of that axis over the radii of gyration.
-    fn in_radii_of_box(
-        &self,
-        width: &Width,
-        posture: &Posture,
-        at_m: [f64; 2],
-        inside: Inside,
-    ) -> (Vec<[f64; 2]>, [f64; 2]) {
-        let ([a, b], [front, back]) = (self.body.arms_m(), width.edges_m);
-        let ([x, y], least) = (self.about_center(at_m), self.least_gyration_m());
-        let norm = |[x, y, z]: [f64; 3]| libm::hypot(libm::hypot(x, y), z);
-        let far = norm([a.max(b), front.max(back), 0.5 * posture.thickness_m]) / least;
-        let [x, y, z] = [x, y, inside.height_m];
-        let here = match inside.axis {
-            Axis::X => self.arm_of_box(width, posture, [0.0, z, -y]),
-            Axis::Y => self.arm_of_box(width, posture, [-z, 0.0, x]),
-            Axis::Z => self.arm_of_box(width, posture, [y, -x, 0.0]),
-            Axis::Any => norm([x, y, z]) / least,
+    fn in_radii_of_box(&self, spot: &Spot) -> (Vec<[f64; 2]>, [f64; 2]) {
+        // A box that is not followed has no bound.
+        let Some(block) = self.as_box() else { return (vec![[f64::INFINITY, 0.0]; 4], [f64::INFINITY, 0.0]) };
+        let place @ [x, y, z] = self.place_in_box(spot);
+        let (least, dot) =
+            (block.least_gyration_m(), |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+        let far = |place: [f64; 3]| dot(place, place).sqrt() / least;
+        // What turning adds to a blow with this arm about the center of mass: √(a J⁻¹ a).
+        let turned = |arm: [f64; 3]| dot(arm, block.turned_by(arm)).sqrt();
+        let here = match spot.inside.axis {
+            Axis::X => turned([0.0, z, -y]),
+            Axis::Y => turned([-z, 0.0, x]),
+            Axis::Z => turned([y, -x, 0.0]),
+            Axis::Any => far(place),
         };
-        (vec![[far, 0.0]; 4], [here, 0.0])
+        let farthest = block.corners_m().into_iter().map(far).fold(0.0, f64::max);
+        (vec![[farthest, 0.0]; 4], [here, 0.0])
     }
-    /// What turning adds to a blow with this arm about the center of mass, as a lever arm over radii of gyration: √(a J⁻¹ a).
-    fn arm_of_box(&self, width: &Width, posture: &Posture, [x, y, z]: [f64; 3]) -> f64 {
-        let [xx, yy, zz] = self.radii_of_box(width, posture).map(|radius| radius * radius);
-        let xy = width.product_of_inertia_m2;
-        ((yy * x * x + 2.0 * xy * x * y + xx * y * y) / (xx * yy - xy * xy) + z * z / zz).sqrt()
+    /// The box that it is.
+    fn as_box(&self) -> Option<Block> {
+        let across = self.across?;
+        self.block(&across, across.posture?.thickness_m).ok()
     }
-    /// Radii of gyration of a box about its axes.
-    fn radii_of_box(&self, width: &Width, posture: &Posture) -> [f64; 3] {
-        let (kx, ky, kz) = (self.body.gyration_m(), width.gyration_m, posture.thickness_m / 12_f64.sqrt());
-        [libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)]
-    }
-    /// The smallest radius of gyration.
+    /// The smallest radius of gyration; 0 of a box that no body is.
     pub(crate) fn least_gyration_m(&self) -> f64 {
         let along = self.body.gyration_m();
-        let Some(Across { width, posture, .. }) = &self.across else { return along };
-        match posture {
-            Some(posture) => {
-                let [xx, yy, zz] = self.radii_of_box(width, posture).map(|radius| radius * radius);
-                let across = 0.5 * (xx + yy) - libm::hypot(0.5 * (xx - yy), width.product_of_inertia_m2);
-                across.min(zz).sqrt()
-            }
-            None => width.least_gyration_m(along),
+        match &self.across {
+            None => along,
+            Some(across) if across.posture.is_some() => self.as_box().map_or(0.0, |block| block.least_gyration_m()),
+            Some(across) => across.width.least_gyration_m(along),
         }
     }
     /// What a place feels of a motion of this drop.
@@ -360,7 +354,10 @@ impl SingleDrop {
     /// A place in a box from the center of mass.
     fn place_in_box(&self, spot: &Spot) -> [f64; 3] {
         let [x, y] = self.about_center(spot.at_m);
-        [x, y, spot.inside.height_m]
+        let thickness_m = self.across.and_then(|across| across.posture).map(|posture| posture.thickness_m);
+        let depth = self.across.zip(thickness_m).map(|(across, thickness_m)| across.width.depth_of(thickness_m));
+        // Of a plate that a box stands for, a place is as high as its center of mass.
+        [x, y, depth.map_or(0.0, |depth| spot.inside.height_m - depth.center_m)]
     }
     /// Position s in [−1, 1], −1 the end that touches first, of a place in m from the middle.
     pub(crate) fn relative(&self, position_m: f64) -> f64 {
@@ -528,10 +525,12 @@ impl Followed {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Inside;
 
     fn dropped([length, width, thickness_m]: [f64; 3], [kx, ky]: [f64; 2], center: f64) -> SingleDrop {
         let edges_m = [0.5 * width + center, 0.5 * width - center];
-        let width = Width { edges_m, gyration_m: ky, product_of_inertia_m2: 0.0, thickness_m: Some(thickness_m) };
+        let width =
+            Width { edges_m, gyration_m: ky, product_of_inertia_m2: 0.0, thickness_m: Some(thickness_m), depth: None };
         let posture = Some(Posture { upward: [0.6, 0.0, 0.8], thickness_m });
         SingleDrop {
             body: Body::new(length, kx).unwrap(),

@@ -137,6 +137,12 @@ pub(crate) static MASS: &[Key] = &[
     ),
     key("from", false, Sides(&Quantity(&units::LENGTH, PLACES)), "Of a slab: where it begins."),
     key("to", false, Sides(&Quantity(&units::LENGTH, PLACES)), "Of a slab: where it ends."),
+    key(
+        "height",
+        false,
+        Quantity(&units::LENGTH, PLACES),
+        "Of a product with a thickness: where across it, from the middle; spread evenly over all of it unless given.",
+    ),
 ];
 
 pub(crate) static DROP: &[Key] = &[

@@ -85,6 +85,19 @@ pub struct Width {
     pub product_of_inertia_m2: f64,
     /// Thickness, where it is known.
     pub thickness_m: Option<f64>,
+    /// How mass lies across the thickness; spread evenly over it if not given.
+    pub depth: Option<Depth>,
+}
+
+/// How mass lies across a thickness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Depth {
+    /// The center of mass, from the middle.
+    pub center_m: f64,
+    /// Radius of gyration of the mass along z, √(∫z² dm/m) about the center of mass.
+    pub gyration_m: f64,
+    /// ∫x z dm/m and ∫y z dm/m about the center of mass.
+    pub products_of_inertia_m2: [f64; 2],
 }
 
 impl Width {
@@ -97,6 +110,16 @@ impl Width {
     pub(crate) fn least_gyration_m(&self, along_m: f64) -> f64 {
         let ([xx, yy], xy) = ([along_m, self.gyration_m].map(|k| k * k), self.product_of_inertia_m2);
         (0.5 * (xx + yy) - libm::hypot(0.5 * (xx - yy), xy)).max(0.0).sqrt()
+    }
+    /// How mass lies across this thickness.
+    pub(crate) fn depth_of(&self, thickness_m: f64) -> Depth {
+        let even = Depth { center_m: 0.0, gyration_m: thickness_m / 12_f64.sqrt(), products_of_inertia_m2: [0.0; 2] };
+        self.depth.unwrap_or(even)
+    }
+    /// Distances of the faces across this thickness from the center of mass, −z and +z.
+    pub(crate) fn faces_m(&self, thickness_m: f64) -> [f64; 2] {
+        let center_m = self.depth_of(thickness_m).center_m;
+        [0.5 * thickness_m + center_m, 0.5 * thickness_m - center_m]
     }
     /// Where the center of mass is, from the middle.
     #[must_use]
@@ -134,8 +157,8 @@ impl Product {
     }
     /// Distances of the faces of a box from its center of mass, −x, +x, −y and so on, and its thickness; none without one.
     pub(crate) fn faces_m(&self) -> Option<([[f64; 2]; 3], f64)> {
-        let thickness_m = self.width?.thickness_m?;
-        Some(([self.body.arms_m(), self.width?.edges_m, [0.5 * thickness_m; 2]], thickness_m))
+        let (width, thickness_m) = (self.width?, self.width?.thickness_m?);
+        Some(([self.body.arms_m(), width.edges_m, width.faces_m(thickness_m)], thickness_m))
     }
     /// The body with this radius of gyration, in m.
     ///

@@ -138,7 +138,8 @@ impl WorstCase {
         let quaternion =
             if turned > 1e-8 { [0.5 * turned, y / turned, -x / turned, 0.0] } else { [0.0, 1.0, 0.0, 0.0] };
         let [a, b] = drop.body.arms_m();
-        let (kx, ky, kz) = (drop.body.gyration_m(), width.gyration_m, posture.thickness_m / 12_f64.sqrt());
+        let depth = width.depth_of(posture.thickness_m);
+        let (kx, ky, kz) = (drop.body.gyration_m(), width.gyration_m, depth.gyration_m);
         let mut command = format!("clatter respond --model={}", self.model.name());
         let mut add = |flag: &str, values: &[f64]| {
             let values: Vec<_> = values.iter().map(|value| format!("{:?}", value + 0.0)).collect();
@@ -148,10 +149,11 @@ impl WorstCase {
         add("width-m", &[width.m()]);
         add("thickness-m", &[posture.thickness_m]);
         add("gyration-m", &[libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)]);
-        if width.product_of_inertia_m2 != 0.0 {
-            add("product-of-inertia-m2", &[width.product_of_inertia_m2]);
+        let ([xz, yz], xy) = (depth.products_of_inertia_m2, width.product_of_inertia_m2);
+        if [xy, xz, yz] != [0.0; 3] {
+            add("product-of-inertia-m2", &[xy, xz, yz]);
         }
-        add("center-of-mass-m", &[0.5 * (a - b), width.center_m(), 0.0]);
+        add("center-of-mass-m", &[0.5 * (a - b), width.center_m(), depth.center_m]);
         add("orientation", &quaternion);
         add("e", &[drop.restitution]);
         add("speed-m-s", &[drop.speed_m_s]);

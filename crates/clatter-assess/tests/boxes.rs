@@ -171,6 +171,45 @@ fn a_box_on_its_bottom_is_a_plate() {
     }
 }
 
+/// Masses at heights of their own: center of mass, radius of gyration along the thickness and products of inertia by hand; the others are
+/// spread evenly over it. Upside down is the mirror image.
+#[test]
+fn masses_have_heights_in_a_box() {
+    let given = "mass = \"300 g\"\nradius_of_gyration = [\"43 mm\", \"20 mm\"]";
+    let masses = r#"masses = [
+    { mass = "200 g", from = ["-75 mm", "-35 mm"], to = ["75 mm", "35 mm"] },
+    { mass = "60 g", position = ["40 mm", "20 mm"], height = "-5 mm" },
+    { mass = "40 g", position = ["-45 mm", "0 mm"], height = "3 mm" },
+]"#;
+    let text = on("face", "bottom").replace(given, masses);
+    let (t, x, z) = (14e-3_f64, (0.06 * 0.04 - 0.04 * 0.045) / 0.3, (0.04 * 0.003 - 0.06 * 0.005) / 0.3);
+    let y = 0.06 * 0.02 / 0.3;
+    let depth = file(&text).product.width.and_then(|width| width.depth).expect("heights");
+    let zz = (0.2 * t * t / 12.0 + 0.06 * 25e-6 + 0.04 * 9e-6) / 0.3 - z * z;
+    let [xz, yz] = [-0.06 * 0.04 * 0.005 - 0.04 * 0.045 * 0.003, -0.06 * 0.02 * 0.005];
+    let found = [depth.center_m, depth.gyration_m, depth.products_of_inertia_m2[0], depth.products_of_inertia_m2[1]];
+    for (found, want) in found.into_iter().zip([z, zz.sqrt(), xz / 0.3 - x * z, yz / 0.3 - y * z]) {
+        assert!((found / want - 1.0).abs() < 1e-9, "{found}, not {want}");
+    }
+    let demands = |text: &str| {
+        let assessment = file(text).assess().expect("an assessment");
+        let limits = assessment.components.iter().map(|component| &component.limits[0]);
+        limits.map(|limit| limit.demand.expect("an answer")).collect::<Vec<_>>()
+    };
+    let turned =
+        text.replace("\"bottom\"", "\"top\"").replace("\"-5 mm\"", "\"5 mm\"").replace("\"3 mm\"", "\"-3 mm\"");
+    let turned = turned.replace("height = \"2 mm\"", "height = \"-2 mm\"");
+    for (own, other) in demands(&text).into_iter().zip(demands(&turned)) {
+        // Two searches whose directions differ.
+        assert!((own / other - 1.0).abs() < 0.05, "{own} beside {other}");
+    }
+    let high = text.replace("\"-5 mm\"", "\"8 mm\"");
+    let said = ProductFile::read(&high, "box.toml").unwrap_err().to_string();
+    assert!(said.contains("`height` = 8 mm is out of its range"), "{said}");
+    let said = ProductFile::read(&text.replace("thickness = \"14 mm\"\n", ""), "box.toml").unwrap_err().to_string();
+    assert!(said.contains("in a product with a thickness alone"), "{said}");
+}
+
 /// On its end a box that is struck once feels along its length what a lone mass does: (1 + e) v in the half-sine of four corners.
 #[test]
 fn a_box_that_lands_flat_on_its_end_is_one_mass() {
@@ -353,7 +392,8 @@ fn a_standard_goes_by_the_largest_side() {
 /// A single drop of a box, turned off lying on its bottom.
 fn one([length, width, thickness_m]: [f64; 3], [kx, ky]: [f64; 2], center: [f64; 2], upward: [f64; 3]) -> SingleDrop {
     let edges_m = [0.5 * width + center[1], 0.5 * width - center[1]];
-    let width = Width { edges_m, gyration_m: ky, product_of_inertia_m2: 0.0, thickness_m: Some(thickness_m) };
+    let width =
+        Width { edges_m, gyration_m: ky, product_of_inertia_m2: 0.0, thickness_m: Some(thickness_m), depth: None };
     SingleDrop {
         body: Body::off_center(0.5 * length + center[0], 0.5 * length - center[0], kx).expect("a body"),
         across: Some(Across { width, direction_rad: 0.0, posture: Some(Posture { upward, thickness_m }) }),

@@ -297,6 +297,11 @@ pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
     list(text, "X,Y,Z")
 }
 
+/// Products of inertia of a plate, or of a box.
+pub(crate) fn products(text: &str) -> Result<[f64; 3], String> {
+    if text.contains(',') { list(text, "XY,XZ,YZ") } else { Ok([number(text)?, 0.0, 0.0]) }
+}
+
 pub(crate) fn quaternion(text: &str) -> Result<[f64; 4], String> {
     list(text, "W,X,Y,Z, the unit quaternion of a rotation")
 }

@@ -15,7 +15,6 @@ fn solid(upward: [f64; 3], e: f64, law: Law) -> Solid {
         center: [0.004, -0.002, 0.0],
         radii,
         askew: 0.0,
-        askew: 0.0,
         e,
         contact: (law, 4e-4),
         speed: 4.0,

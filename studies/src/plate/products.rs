@@ -106,6 +106,7 @@ impl Product {
             gyration_m: self.width_m * bar.product.body.gyration_m() / bar.product.body.length_m(),
             product_of_inertia_m2: 0.0,
             thickness_m: Some(self.thickness_m),
+            depth: None,
         });
         let mut lying = plate.clone();
         let attitude = Attitude::on("bottom").unwrap_or_else(|| unreachable!("a face"));

@@ -177,8 +177,13 @@ mod tests {
     #[test]
     fn a_box_that_lands_again_stays_within_its_bounds() {
         let (e, v, time_s) = (0.6, 2.0, 2e-4);
-        let width =
-            Width { edges_m: [0.04; 2], gyration_m: 0.039, product_of_inertia_m2: 0.0, thickness_m: Some(0.02) };
+        let width = Width {
+            edges_m: [0.04; 2],
+            gyration_m: 0.039,
+            product_of_inertia_m2: 0.0,
+            thickness_m: Some(0.02),
+            depth: None,
+        };
         let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02 });
         let drop = SingleDrop {
             body: clatter_flight::Body::new(0.12, 0.058).unwrap(),
@@ -209,8 +214,13 @@ mod tests {
     /// Along a box that lands flat nothing is felt, until it lands otherwise: that is bounded.
     #[test]
     fn where_nothing_is_felt_what_may_come_is_bounded() {
-        let width =
-            Width { edges_m: [0.04; 2], gyration_m: 0.025, product_of_inertia_m2: 0.0, thickness_m: Some(0.02) };
+        let width = Width {
+            edges_m: [0.04; 2],
+            gyration_m: 0.025,
+            product_of_inertia_m2: 0.0,
+            thickness_m: Some(0.02),
+            depth: None,
+        };
         let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02 });
         let drop = SingleDrop {
             body: clatter_flight::Body::new(0.12, 0.04).unwrap(),

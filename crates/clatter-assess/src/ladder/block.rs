@@ -78,16 +78,16 @@ impl SingleDrop {
         if part.inside.axis == Axis::Any || (0..3).any(|axis| axis != normal && posture.upward[axis] != 0.0) {
             return None;
         }
-        let half = 0.5 * posture.thickness_m;
-        let edges = [self.body.arms_m(), across.width.edges_m, [half; 2]];
-        let radii = [self.body.gyration_m(), across.width.gyration_m, posture.thickness_m / 12_f64.sqrt()];
+        let depth = across.width.depth_of(posture.thickness_m);
+        let edges = [self.body.arms_m(), across.width.edges_m, across.width.faces_m(posture.thickness_m)];
+        let radii = [self.body.gyration_m(), across.width.gyration_m, depth.gyration_m];
         let places = [part.position_m, part.across_m, part.inside.height_m];
         let [x, y] = [[1, 2], [0, 2], [0, 1]][normal];
         let upward = across.upward_of(&posture, self.tilt_rad);
         let thickness_m = Some(edges[normal].iter().sum());
-        // Over the thickness mass is even.
-        let product_of_inertia_m2 = if normal == 2 { across.width.product_of_inertia_m2 } else { 0.0 };
-        let width = Width { edges_m: edges[y], gyration_m: radii[y], product_of_inertia_m2, thickness_m };
+        let [xz, yz] = depth.products_of_inertia_m2;
+        let product_of_inertia_m2 = [yz, xz, across.width.product_of_inertia_m2][normal];
+        let width = Width { edges_m: edges[y], gyration_m: radii[y], product_of_inertia_m2, thickness_m, depth: None };
         let across = Across { width, direction_rad: libm::atan2(upward[y], upward[x]), posture: None };
         let body = clatter_flight::Body::off_center(edges[x][0], edges[x][1], radii[x]).ok()?;
         let tilt_rad = libm::asin(libm::hypot(upward[x], upward[y]).min(1.0));

@@ -7,9 +7,10 @@ use clatter_flight::{Body, ContactLaw};
 
 use super::{At, Reader, Section};
 use crate::check::{self, body_of, width_of};
+use crate::data_fault::out_of_range;
 use crate::slip;
 use crate::units;
-use crate::{DataFault, Product, Spread, Width};
+use crate::{DataFault, Depth, Product, Spread, Width};
 
 impl Reader {
     pub(super) fn product(&mut self, section: &Section<'_>) -> Option<Product> {
@@ -27,7 +28,7 @@ impl Reader {
         let gyration = self.spread_of_sides(section, "radius_of_gyration");
         let moment = self.quantity_of_sides(section, "moment_of_inertia");
         let center = self.quantity_of_sides(section, "center_of_mass");
-        let masses = self.masses(section);
+        let masses = self.masses(section, thickness.as_ref().map(|thickness| thickness.value));
         self.exactly_one(section, &["radius_of_gyration", "moment_of_inertia", "masses"], true);
         self.exactly_one(section, &["masses", "center_of_mass"], false);
         self.exactly_one(section, &["masses", "mass"], false);
@@ -37,7 +38,7 @@ impl Reader {
         ) {
             self.data(key.span(), &DataFault::PlateWithoutContactTime, "beside this");
         }
-        let mut product_of_inertia_m2 = 0.0;
+        let (mut product_of_inertia_m2, mut depth) = (0.0, None);
         let (center_m, gyration) = if let Some(moment) = &moment {
             let Some(mass) = &mass else {
                 if !section.table.contains_key("mass") {
@@ -48,10 +49,16 @@ impl Reader {
             let radii = moment.value.map(|moment| (moment / mass.value).sqrt());
             (center.clone(), of_values(radii, moment.span.clone())?)
         } else if let Some(masses) = &masses {
-            let sides = [0, 1].map(|side| center_and_gyration(&masses.value.iter().map(|piece| piece[side])));
-            product_of_inertia_m2 = product_of_inertia(&masses.value, sides.map(|(center, _)| center));
-            let center = At { value: sides.map(|(center, _)| center), span: masses.span.clone() };
-            (Some(center), of_values(sides.map(|(_, gyration)| gyration), masses.span.clone())?)
+            let sides = [0, 1, 2].map(|side| center_and_gyration(&masses.value.iter().map(|piece| piece[side])));
+            let product = |one, other| product_of_inertia(&masses.value, [one, other], [sides[one].0, sides[other].0]);
+            product_of_inertia_m2 = product(0, 1);
+            let (center_m, gyration_m) = sides[2];
+            let products_of_inertia_m2 = [product(0, 2), product(1, 2)];
+            // Where none has a height, all are spread evenly.
+            let is_given = masses.value.iter().any(|[.., height]| matches!(height, Mass::Point { .. }));
+            depth = is_given.then_some(Depth { center_m, gyration_m, products_of_inertia_m2 });
+            let center = At { value: [sides[0].0, sides[1].0], span: masses.span.clone() };
+            (Some(center), of_values([sides[0].1, sides[1].1], masses.span.clone())?)
         } else {
             (center.clone(), gyration?)
         };
@@ -59,7 +66,7 @@ impl Reader {
         if masses.is_some() {
             self.outside(section, [Some(length_m), width.as_ref().map(|width| width.value)]);
         }
-        let total = masses.as_ref().map(|m| m.value.iter().map(|[piece, _]| mass_of(piece)).sum());
+        let total = masses.as_ref().map(|m| m.value.iter().map(|[piece, ..]| mass_of(piece)).sum());
         if let (Some(total), Some(masses)) = (total, &masses)
             && let Err(fault) = check::mass(total)
         {
@@ -78,7 +85,8 @@ impl Reader {
             Some(width) => {
                 let center_across = center_m.map(|At { value: [_, y], span }| At { value: y, span });
                 let width = self.width(width.value, center_across, &At { value: across, span: span.clone() })?;
-                let width = Width { product_of_inertia_m2, thickness_m: thickness.map(|t| t.value), ..width };
+                let thickness_m = thickness.map(|t| t.value);
+                let width = Width { product_of_inertia_m2, thickness_m, depth, ..width };
                 Some(width)
             }
             None if self.is_plate => return None,
@@ -149,19 +157,19 @@ impl Reader {
             .ok()
     }
 
-    fn masses(&mut self, section: &Section<'_>) -> Option<At<Vec<[Mass; 2]>>> {
+    fn masses(&mut self, section: &Section<'_>, thickness_m: Option<f64>) -> Option<At<Vec<[Mass; 3]>>> {
         let span = section.table.get("masses")?.span();
         let sections = self.tables(section, "masses");
         let mut masses = Vec::with_capacity(sections.len());
         let count = sections.len();
         for piece in sections {
-            masses.extend(self.mass(&piece));
+            masses.extend(self.mass(&piece, thickness_m));
         }
         (count > 0 && masses.len() == count).then_some(At { value: masses, span })
     }
 
-    /// A mass along the length and along the width.
-    fn mass(&mut self, section: &Section<'_>) -> Option<[Mass; 2]> {
+    /// A mass along the length, the width and the thickness.
+    fn mass(&mut self, section: &Section<'_>, thickness_m: Option<f64>) -> Option<[Mass; 3]> {
         self.text(section, "name");
         let mass = self.quantity(section, "mass");
         let position = self.quantity_of_sides(section, "position");
@@ -173,16 +181,32 @@ impl Reader {
             self.fault(section.span.clone(), message, "this one", help);
             return None;
         }
+        let height = self.quantity(section, "height");
+        let half_m = 0.5 * thickness_m.unwrap_or(0.0);
+        if let Some(height) = height.as_ref().filter(|height| height.value.abs() > half_m) {
+            let (message, label) = match thickness_m {
+                Some(_) => (out_of_range("height", format!("{} mm", 1e3 * height.value)), "beyond the thickness"),
+                None => ("a mass has a `height` in a product with a thickness alone".to_owned(), "here"),
+            };
+            let help = "allowed: up to half of the thickness of the product, from its middle";
+            self.fault(height.span.clone(), message, label, help);
+        }
         let mass_kg = mass?.value;
+        let depth = match height {
+            Some(height) => Mass::Point { mass_kg, position_m: height.value },
+            None => Mass::Slab { mass_kg, from_m: -half_m, to_m: half_m },
+        };
         if let Some(position) = position {
-            return Some(position.value.map(|position_m| Mass::Point { mass_kg, position_m }));
+            let [along, across] = position.value.map(|position_m| Mass::Point { mass_kg, position_m });
+            return Some([along, across, depth]);
         }
         let (from, to) = (from?, to?);
         if (0..2).any(|side| from.value[side] > to.value[side]) {
             self.fault(to.span, format!("{} ends before it begins", section.title), "`to` is below `from`", help);
             return None;
         }
-        Some([0, 1].map(|side| Mass::Slab { mass_kg, from_m: from.value[side], to_m: to.value[side] }))
+        let [along, across] = [0, 1].map(|side| Mass::Slab { mass_kg, from_m: from.value[side], to_m: to.value[side] });
+        Some([along, across, depth])
     }
 }
 
@@ -215,15 +239,16 @@ fn center_and_gyration(masses: &(impl Iterator<Item = Mass> + Clone)) -> (f64, f
     (center, (second / total).sqrt())
 }
 
-/// ∫x y dm over the mass, about the center of mass: slabs along the edges have none of their own. 0 where it is no more than roundings.
-fn product_of_inertia(masses: &[[Mass; 2]], center: [f64; 2]) -> f64 {
+/// ∫x y dm over the mass along two sides, about the center of mass: slabs along the edges have none of their own. 0 where it is no more
+/// than roundings.
+fn product_of_inertia(masses: &[[Mass; 3]], sides: [usize; 2], center: [f64; 2]) -> f64 {
     let middle = |piece: &Mass| match *piece {
         Mass::Point { position_m, .. } => position_m,
         Mass::Slab { from_m, to_m, .. } => 0.5 * (from_m + to_m),
     };
     let (mut sum, mut size, mut total) = (0.0, 0.0, 0.0);
     for piece in masses {
-        let [x, y] = [0, 1].map(|side| middle(&piece[side]) - center[side]);
+        let [x, y] = [0, 1].map(|k| middle(&piece[sides[k]]) - center[k]);
         let mass_kg = mass_of(&piece[0]);
         (sum, size, total) = (sum + mass_kg * x * y, size + mass_kg * (x * y).abs(), total + mass_kg);
     }

@@ -76,9 +76,9 @@ impl DropArgs {
         };
         let size = [length, width, thickness];
         let block = Block::new(size, self.center_of_block(size)?, gyration)?;
-        let product = self.plate.product_of_inertia_m2.unwrap_or_default();
+        let products = self.plate.product_of_inertia_m2.unwrap_or_default();
         let flag = Failure::flag("--product-of-inertia-m2");
-        let block = block.with_products_of_inertia([product, 0.0, 0.0]).map_err(flag)?;
+        let block = block.with_products_of_inertia(products).map_err(flag)?;
         let drop = match (self.block.orientation, tilt) {
             (Some(orientation), _) => BlockDrop::new(block, orientation, speed, gravity)?,
             (None, tilt) => {

@@ -36,9 +36,10 @@ pub(crate) struct PlateArgs {
     /// --gaps in m
     #[arg(long, value_name = "HX,HY", allow_hyphen_values = true, value_parser = quantities::gaps_m, conflicts_with_all = ["tilt", "tilt_deg", "direction", "direction_deg", "product"], help_heading = IN_SI, hide_short_help = true)]
     gaps_m: Option<[f64; 2]>,
-    /// Of a plate or a box whose contacts take time: ∫x y dm over its mass, about the center of mass; 0 unless given
-    #[arg(long, value_name = "M2", allow_hyphen_values = true, value_parser = inputs::number, help_heading = IN_SI, hide_short_help = true)]
-    pub(super) product_of_inertia_m2: Option<f64>,
+    /// Of a plate or a box whose contacts take time: ∫x y dm over its mass, about the center of mass, of a box ∫x z dm and ∫y z dm as
+    /// well; 0 unless given
+    #[arg(long, value_name = "XY[,XZ,YZ]", allow_hyphen_values = true, value_parser = inputs::products, help_heading = IN_SI, hide_short_help = true)]
+    pub(super) product_of_inertia_m2: Option<[f64; 3]>,
 }
 
 impl PlateArgs {
@@ -302,7 +303,10 @@ impl DropArgs {
         let [[x, y], [cx, cy]] = [halves, [sx * center[0], sy * center[1]]];
         let edges = [x * (1.0 + cx), x * (1.0 - cx), y * (1.0 + cy), y * (1.0 - cy)];
         let plate = Plate::new(edges, radii).map_err(Failure::flag(flag))?;
-        let product = self.plate.product_of_inertia_m2.unwrap_or(own_product);
+        if self.plate.product_of_inertia_m2.is_some_and(|[_, xz, yz]| xz != 0.0 || yz != 0.0) {
+            return Err(Failure::Usage("--product-of-inertia-m2 of a plate is one value"));
+        }
+        let product = self.plate.product_of_inertia_m2.map_or(own_product, |[xy, ..]| xy);
         if !compliant && (product != 0.0 || self.plate.product_of_inertia_m2.is_some()) {
             return Err(Failure::Usage(
                 "--product-of-inertia-m2 and masses that lie askew are followed by --model=compliant alone",

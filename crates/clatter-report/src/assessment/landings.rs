@@ -18,7 +18,7 @@ pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
     ],
     [
         "Corners and edges",
-        "They are sharp: no case is. Mass is spread evenly over the thickness, about axes along the sides.",
+        "They are sharp: no case is. Mass without a height of its own is spread evenly over the thickness.",
     ],
     [
         "The ground",
