@@ -10,12 +10,11 @@ use clatter_record::{Options, Record};
 use clatter_shock::{DampingRatio, Pulse, Search, Shape, Suspension};
 use serde_json::{Value, json};
 
-#[path = "../examples/answers.rs"]
 mod answers;
 mod study;
 
-/// The same input gives the same bytes on every machine. The answers were written by the example, as its text says; the gate runs this
-/// test natively and as WebAssembly.
+/// The same input gives the same bytes on every machine. `answers.rs` says how they are written anew; the gate runs this test natively
+/// and as WebAssembly.
 #[test]
 fn answers_are_the_same_to_the_last_byte() {
     let (got, want) = (answers::answers().expect("answers"), include_str!("data/answers.jsonl"));

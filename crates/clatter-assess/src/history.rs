@@ -87,3 +87,33 @@ impl Moments {
         quiet(mean + spread, length_s - mean - spread, 0.5 * change_m_s);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pushes of 10, 30, 5 and 20 m/s² for a tenth of a second each: half of their impulse as long before their mean time as the other
+    /// half comes after it, so that the impulse and its first and second moment in time are those of the pushes.
+    #[test]
+    fn pushes_that_are_joined_keep_their_moments() {
+        let (pushes, each_s) = ([10.0, 30.0, 5.0, 20.0], 0.1);
+        let mut felt = Excitation::default();
+        let mut moments = [0.0_f64; 3];
+        for (k, push) in (0..4).zip(pushes) {
+            let (from, to) = (f64::from(k) * each_s, f64::from(k + 1) * each_s);
+            felt.push(Section { acceleration: [push; 2], ..Section::shock(from, each_s, 0.0) });
+            for (power, moment) in (1..=3).zip(&mut moments) {
+                *moment += push * (to.powi(power) - from.powi(power)) / f64::from(power);
+            }
+        }
+        let joined = joined(&felt, 0.5);
+        let halves: Vec<_> = joined.sections().filter(|section| section.delta_v != 0.0).collect();
+        assert_eq!(halves.len(), 2, "{joined:?}");
+        for (power, moment) in (0..3).zip(moments) {
+            let kept: f64 = halves.iter().map(|half| half.delta_v * half.from.powi(power)).sum();
+            assert!((kept - moment).abs() < 1e-12, "moment {power}: {kept}, not {moment}");
+        }
+        let last = joined.sections().last().unwrap();
+        assert!((last.from + last.length - 0.4).abs() < 1e-15, "they end with the pushes");
+    }
+}

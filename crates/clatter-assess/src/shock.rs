@@ -276,3 +276,25 @@ pub(crate) fn samples(section: &Section<'_>) -> u32 {
     let count = (fastest * section.length / PHASE).clamp(1.0, MOST).ceil() as u32;
     count
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clatter::Sine;
+
+    /// The peak of a wave lies between two samples a fifth of a radian apart, wherever they are: by a parabola within 1e-5 of it, and a
+    /// hundredth of the time between them.
+    #[test]
+    fn a_peak_is_found_between_the_samples() {
+        for k in 0..50 {
+            let phase = 0.02 + 0.02 * f64::from(k);
+            let sine = Sine { amplitude: 900.0, rate: 2000.0, phase };
+            let mut felt = Excitation::default();
+            felt.push(Section { sines: &[sine], ..Section::shock(0.0, (3.1 - phase) / 2000.0, 0.0) });
+            let found = largest(&shocks(&felt, 0.0));
+            let time_s = (std::f64::consts::FRAC_PI_2 - phase) / 2000.0;
+            assert!((found.peak / 900.0 - 1.0).abs() < 1e-5, "{phase}: {}", found.peak);
+            assert!((found.time_s - time_s).abs() < 0.01 * 0.2 / 2000.0, "{phase}: {}, not {time_s}", found.time_s);
+        }
+    }
+}

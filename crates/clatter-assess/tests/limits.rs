@@ -2,7 +2,10 @@
 
 use clatter::End;
 use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, Limit, LimitKind, Model, Part, ProductFile, SingleDrop, Unit, Verdict, answer, repeat};
+use clatter_assess::{
+    Accuracy, Damping, Law, Limit, LimitKind, Model, Part, ProductFile, SingleDrop, Spread, Unit, Verdict, answer,
+    repeat,
+};
 use clatter_flight::{Body, ContactLaw};
 
 /// A product of which one part has a limit of each kind, weak or strong.
@@ -141,5 +144,15 @@ fn a_damage_boundary_is_used_up_by_the_lesser_share() {
         let least = by_change.min(by_acceleration);
         assert!((found.utilization() / least - 1.0).abs() < 1e-9, "{found:?}: {by_change}, {by_acceleration}");
         assert_eq!(found.unit, unit);
+    }
+}
+
+/// A quality factor from 5 to 10 is a damping ratio from 1/20 to 1/10.
+#[test]
+fn quality_factors_are_damping_ratios_from_the_least() {
+    let quality = Damping::Quality(Spread::new(5.0, 10.0, Law::Range).unwrap());
+    let given = [10.0, 5.0].map(|given| quality.ratio(given).unwrap().get());
+    for (found, want) in quality.ratios().into_iter().chain(given).zip([0.05, 0.1, 0.05, 0.1]) {
+        assert!((found - want).abs() < 1e-15, "{found}, not {want}");
     }
 }

@@ -260,3 +260,31 @@ fn changes_of_plates_hold_when_assessed() {
     let Outcome::Change { change, .. } = &across.outcome else { panic!("{across:?}") };
     assert!(change.to[1] < 0.02 && (change.to[1] - change.to[0] - 0.002).abs() < 1e-9, "{change:?}");
 }
+
+/// Where no place is good enough, each lever tells from where to where it was tried: as far as the part fits on the plate along its own
+/// side, by its own extent along it, its range with it.
+#[test]
+fn a_part_is_tried_as_far_as_it_fits_on_the_plate() {
+    let text = BOARD
+        .replace(
+            "tilt = { uniform = [\"0.5 deg\", \"4 deg\"] }",
+            "direction = [\"30 deg\", \"40 deg\"]\ntilt = [\"1 deg\", \"2 deg\"]",
+        )
+        .replace(
+            "[\"-20 mm\", { uniform = [\"-10 mm\", \"15 mm\"] }]",
+            "[[\"10 mm\", \"13 mm\"], [\"18 mm\", \"20 mm\"]]",
+        )
+        .replace("acceleration_limit = \"1400 gn\"\n", "")
+        // Every place changes its velocity by more: the product turns back.
+        .replace("5.5 m/s", "1 m/s");
+    let file = file(&text);
+    let found = file.remedies(&file.assess().unwrap(), &Bounds::default(), 0.0).unwrap();
+    // Half of 150 mm less 30 mm, and of 70 mm less 20 mm; the range as a whole within it.
+    for (lever, want) in [(Lever::Position, [-0.060, 0.057]), (Lever::Across, [-0.025, 0.023])] {
+        let remedy = found[0].levers.iter().find(|remedy| remedy.lever == lever).unwrap();
+        let Outcome::Nowhere { bounds } = remedy.outcome else { panic!("{remedy:?}") };
+        for (bound, want) in bounds.into_iter().zip(want) {
+            assert!((bound - want).abs() < 1e-12, "{lever:?}: {bounds:?}, not {want}");
+        }
+    }
+}

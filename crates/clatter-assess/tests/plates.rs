@@ -345,3 +345,70 @@ fn a_map_over_the_plate_is_what_drops_ask() {
     }
     assert_eq!(own_places, 6, "each map has a column and a row through the worst place of its part");
 }
+
+/// Where a change of velocity limits a part, places are answered between its ends as well: along both sides of a rectangle on a plate.
+#[test]
+fn places_between_the_ends_of_a_part_are_answered() {
+    let sides = |places: &[[f64; 2]]| {
+        [0, 1].map(|side| {
+            let mut all: Vec<f64> = places.iter().map(|place| place[side]).collect();
+            all.sort_by(f64::total_cmp);
+            all.dedup();
+            all
+        })
+    };
+    let of = |text: &str| file(text).components[0].places_m();
+    // 20 mm by 10 mm about (10 mm, 5 mm).
+    assert_eq!(of(HANDHELD).len(), 4, "of an acceleration the largest is at an end");
+    let change = HANDHELD.replace("acceleration_limit = \"2000 gn\"", "velocity_change_limit = \"5 m/s\"");
+    let places = of(&change);
+    let [x, y] = sides(&places);
+    assert!(x.len() > 3 && y.len() > 3 && places.len() == x.len() * y.len(), "{places:?}");
+    assert_eq!((x[0], x[x.len() - 1], y[0], y[y.len() - 1]), (0.0, 0.02, 0.0, 0.01));
+    // A part that is a line, along either side.
+    for (extent, along) in [("[\"20 mm\", \"0 mm\"]", 0), ("[\"0 mm\", \"10 mm\"]", 1)] {
+        let sides = sides(&of(&change.replace("[\"20 mm\", \"10 mm\"]", extent)));
+        assert!(sides[along].len() > 3 && sides[1 - along].len() == 1, "{sides:?}");
+    }
+}
+
+/// A hair of askew masses changes nothing, though no box has them: what real tilt adds is told by the same share.
+#[test]
+fn what_real_tilt_adds_is_scaled_where_masses_lie_askew() {
+    let even = "radius_of_gyration = [\"43 mm\", \"20 mm\"]\ncenter_of_mass = [\"0 mm\", \"0 mm\"]";
+    let masses = |y: &str| {
+        format!(
+            "masses = [{{ mass = \"100 g\", from = [\"-75 mm\", \"-35 mm\"], to = [\"75 mm\", \"35 mm\"] }}, \
+             {{ mass = \"30 g\", position = [\"40 mm\", \"{y}\"] }}, {{ mass = \"30 g\", position = [\"-40 mm\", \"-{y}\"] }}]"
+        )
+    };
+    let told = |y: &str| {
+        let text = HANDHELD.replace(even, &masses(y)).replace("[\"0.5 deg\", \"4 deg\"]", "[\"9 deg\", \"10 deg\"]");
+        let product = file(&text).product;
+        let limits = limits(&text.replace("tilt = [", "direction = [\"20 deg\", \"30 deg\"]\ntilt = ["));
+        let off =
+            limits[0].notes.iter().find_map(|note| if let Note::Tilt { off, .. } = note { Some(*off) } else { None });
+        (product.width.unwrap().product_of_inertia_m2, off.expect("a box beside it"))
+    };
+    let ((none, straight), (hair, askew)) = (told("0 mm"), told("0.00001 mm"));
+    assert!(none == 0.0 && hair != 0.0, "{none}, {hair}");
+    assert!(straight.abs() > 0.01, "{straight}: nothing would be seen");
+    // Both searches end within a tenth of that of one another.
+    assert!((askew - straight).abs() < 0.1 * straight.abs(), "{askew}, not {straight}");
+}
+
+/// A plate that is set down on a corner, slowly and at a steep tilt, falls onto the others: energy allows what gravity gives it.
+#[test]
+fn energy_allows_what_falls_over() {
+    let text = HANDHELD
+        .replace("3 m/s", "0.1 m/s")
+        .replace("[\"0.5 deg\", \"4 deg\"]", "[\"9 deg\", \"10 deg\"]")
+        .replace("[\"10 mm\", \"5 mm\"]", "[\"60 mm\", \"25 mm\"]")
+        .replace("[\"20 mm\", \"10 mm\"]", "[\"0 mm\", \"0 mm\"]")
+        .replace("acceleration_limit = \"2000 gn\"", "velocity_change_limit = \"9 m/s\"");
+    let display = &limits(&text)[0];
+    let (demand, bound) = (display.demand.unwrap(), display.bound.unwrap());
+    // The speed of the fall turned around, at the place: 2 v √(1 + (60/43)² + (25/20)²).
+    let of_speed = 2.0 * 0.1 * (1.0 + (60.0_f64 / 43.0).powi(2) + (25.0_f64 / 20.0).powi(2)).sqrt();
+    assert!(demand > 1.2 * of_speed && demand <= bound, "{demand} of {bound}, {of_speed} without gravity");
+}

@@ -205,4 +205,22 @@ mod tests {
         let flat = Axis::log_over([2.5].into_iter(), 5.0, "");
         assert!(flat.low < 2.5 && flat.high > 2.5, "{flat:?}");
     }
+
+    #[test]
+    fn a_value_is_where_its_share_of_the_axis_is() {
+        // A decade of three, and a decade and a half of them; a quarter of a straight axis.
+        let (log, linear) = (Axis::log(1.0, 1000.0, ""), Axis::linear(-2.0, 6.0, ""));
+        for (axis, value, unit) in [
+            (&log, 1.0, 0.0),
+            (&log, 10.0, 1.0 / 3.0),
+            (&log, 10.0 * 10_f64.sqrt(), 0.5),
+            (&log, 1000.0, 1.0),
+            (&linear, -2.0, 0.0),
+            (&linear, 0.0, 0.25),
+            (&linear, 6.0, 1.0),
+        ] {
+            assert!((axis.unit(value) - unit).abs() < 1e-12, "{axis:?}: {value} at {}", axis.unit(value));
+            assert!((axis.value(unit) - value).abs() < 1e-12 * 1000.0, "{axis:?}: {} at {unit}", axis.value(unit));
+        }
+    }
 }

@@ -401,6 +401,16 @@ mod tests {
         assert!(drawn.contains("−3 %"), "{drawn}");
     }
 
+    /// Along the length, as far as the plate goes: 20 mm are 52 pt, from the middle at 154 pt.
+    #[test]
+    fn the_scale_goes_along_the_whole_plate() {
+        let drawn = plan(&plate(), &[part(1, [[0.0, 0.01]; 2])]).unwrap();
+        for (mm, words) in [(-40.0, "−40"), (-20.0, "−20"), (20.0, "20"), (40.0, "40")] {
+            let [x, _] = stands(&drawn, &format!("<tspan>{words}</tspan>"));
+            assert!((x - (154.0 + 2.6 * mm)).abs() < 0.1, "{words} at {x}");
+        }
+    }
+
     #[test]
     fn numbers_of_parts_at_one_place_stand_apart() {
         for reach in [[[0.01; 2], [0.01; 2]], [[-0.05, 0.05], [-0.025, 0.025]]] {

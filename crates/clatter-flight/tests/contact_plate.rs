@@ -513,3 +513,12 @@ fn an_even_drop_stays_even() {
         }
     }
 }
+
+/// Masses on one line, k_x k_y, would have no inertia across it; nearly so many are taken.
+#[test]
+fn masses_nearly_on_one_line_are_taken() {
+    let plate = Plate::new([0.07, 0.07, 0.03, 0.03], [0.04, 0.02]).unwrap();
+    for (share, taken) in [(0.985, true), (-0.985, true), (0.995, false), (-0.995, false), (f64::NAN, false)] {
+        assert_eq!(plate.with_product_of_inertia(share * 0.04 * 0.02).is_ok(), taken, "{share}");
+    }
+}

@@ -42,3 +42,17 @@ fn a_time_limit_ends_the_search() {
     let cut = scene.with_time_limit_s(limit).unwrap().fly_by_ends([0.3, 0.3], |_| false).unwrap();
     assert_eq!((&cut.strikes[..], cut.stop), (&whole.strikes[..3], Stop::TimeLimit { time_s: limit }));
 }
+
+/// What bounced clear flies on in the rows for an eighth of the time that is shown, straight up where nothing pulls.
+#[test]
+fn a_body_that_bounced_clear_is_followed_for_a_while() {
+    let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.3, 4.0, 3.0, 0.0).unwrap();
+    let motion = scene.fly(Model::Map).unwrap();
+    let Stop::BouncedClear { time_s } = motion.stop else { panic!("{:?}", motion.stop) };
+    let (last, strike) = (motion.rows().last().unwrap(), motion.strikes.last().unwrap());
+    assert!(time_s > 0.0 && (last.time_s / time_s - 8.0 / 7.0).abs() < 1e-12, "{} after {time_s}", last.time_s);
+    for end in 0..2 {
+        let flown = strike.height_m[end] + strike.velocity_m_s[end] * (last.time_s - time_s);
+        assert!((last.height_m[end] - flown).abs() < 1e-12 && last.velocity_m_s[end] >= 0.0, "{last:?}, not {flown}");
+    }
+}

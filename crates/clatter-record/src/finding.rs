@@ -455,3 +455,22 @@ impl Judged<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Means of parts at 1 + d and 1 − d in turn: their mean is 1 within d/√7, the deviation d √(8/7) of eight over √8. It is told from
+    /// four times that on: up to d = √7/4 = 0.661.
+    #[test]
+    fn a_level_is_told_from_four_standard_errors_on() {
+        let of = |d: f64| {
+            let values: Vec<f64> =
+                (0..8 * LEAST).map(|i| if (i / LEAST).is_multiple_of(2) { 1.0 + d } else { 1.0 - d }).collect();
+            (with_error(&values.chunks(LEAST).map(mean).collect::<Vec<_>>()), level(&values))
+        };
+        let ((all, error), _) = of(0.5);
+        assert!((all - 1.0).abs() < 1e-15 && (error - 0.5 / 7_f64.sqrt()).abs() < 1e-15, "{all}, {error}");
+        assert!(of(0.65).1.is_some_and(|level| (level - 1.0).abs() < 1e-12) && of(0.67).1.is_none());
+    }
+}

@@ -132,3 +132,28 @@ fn clipped_pulses() {
         assert!(error < STATED, "{duration}: {error}");
     }
 }
+
+/// Times of peaks are those of the record, whenever its clock begins, evenly sampled or not.
+#[test]
+fn peaks_are_at_the_times_of_the_record() {
+    let frequencies = Frequencies::per_octave(0.01, 0.2, 2.0).expect("frequencies");
+    let damping = DampingRatio::new(0.05).expect("a ratio");
+    // A pulse about the twentieth sample; one of the last samples, where nothing is any more, may come late.
+    for (last, between) in [(40.0, Between::BandLimited), (40.0, Between::Linear), (40.5, Between::Linear)] {
+        let times = |start: f64| {
+            let mut csv = "t [s],a [m/s2]\n".to_owned();
+            for i in 0..=40_i32 {
+                let time = start + if i == 40 { last } else { f64::from(i) };
+                writeln!(csv, "{time:?},{:?}", (-(f64::from(i - 20) / 3.0).powi(2)).exp()).expect("a string");
+            }
+            let record = Record::read(csv.as_bytes(), &Options::default(), |_| ()).expect("a record");
+            assert_eq!(record.channels()[0].times().step_s().is_some(), last < 40.25, "{last}");
+            of(&record, &frequencies, damping, Quantity::AbsoluteAcceleration, between).time_of_peak_s
+        };
+        let (own, later) = (times(0.0), times(500.0));
+        assert!(own.iter().all(|time| *time > 15.0), "{own:?}");
+        for (own, later) in own.iter().zip(later) {
+            assert!((later - own - 500.0).abs() < 1e-6, "{own} and {later}");
+        }
+    }
+}

@@ -324,6 +324,25 @@ fn the_diagonal_is_a_bar_with_more_inertia() {
     assert!(matches!(count, PlateCount::Finite(_)), "{count:?}");
 }
 
+/// With most of its mass in the middle the diagonal is a bar with q near 1, whose strikes grow for long before they fade: the largest
+/// is still to come where the train is found to be endless, and among what is said to come where it is followed no further.
+#[test]
+fn strikes_that_still_grow_are_among_those_to_come() {
+    for (q, e) in [(0.9995_f64, 0.9), (0.999, 0.88), (0.99999, 0.97)] {
+        // With gyration ratios k corners are √2/k radii of gyration out: q = (2 − k²)/(2 + k²).
+        let k = (2.0 * (1.0 - q) / (1.0 + q)).sqrt();
+        let plate = Plate::new([k; 2], e).unwrap();
+        let want = Bar::new(q, e).unwrap().summary(&Start::new([-1.0; 2], 2.0).unwrap()).peak.end;
+        for most in [10, 1000] {
+            let summary = plate.summary(&PlateStart::default(), most);
+            assert_eq!(summary.count, PlateCount::Endless, "q = {q}, e = {e}");
+            let said = summary.peak.corner.max(summary.peak.later);
+            assert!(said >= want * (1.0 - 1e-12), "q = {q}, e = {e}, after {most}: {summary:?}, not {want}");
+            assert!(most < 1000 || (summary.peak.corner / want - 1.0).abs() < 1e-12, "{summary:?}, not {want}");
+        }
+    }
+}
+
 /// Round the corners of a uniform plate, a–d–c–b–a…, without end where λ³ + ((1 + e)/7 − 1) λ² + ((1 + e)/7 − e) λ + e has
 /// a positive root: for e up to 0.02955. Far along the train is where it tends to.
 #[test]

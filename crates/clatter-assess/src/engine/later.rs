@@ -276,4 +276,37 @@ mod tests {
         }
         assert!(tightest > 0.7, "{tightest}: none is in step");
     }
+
+    /// A part so soft that its weight counts for more than the fall: it rings by twice what it hangs through, which is said as the
+    /// product is still up and felt only from when it lies.
+    #[test]
+    fn a_weight_that_comes_is_among_what_may_come() {
+        let drop = SingleDrop {
+            body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
+            across: None,
+            first: clatter::End::A,
+            tilt_rad: 0.0,
+            flat: false,
+            speed_m_s: 0.3,
+            restitution: 0.6,
+            gravity_m_s2: 9.81,
+            contact_time_s: Some(2e-4),
+            contact_law: ContactLaw::Hysteretic,
+        };
+        let part = Suspension::from_hz(1.0, clatter_shock::DampingRatio::new(0.0).unwrap()).unwrap();
+        let hangs = drop.gravity_m_s2 / (part.omega() * part.omega());
+        let limit = Limit::new(crate::LimitKind::RattleSpace, hangs);
+        let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let weights = (up.carried_m_s2(), up.weight_to_come_m_s2());
+        assert!(up.is_early() && weights == (0.0, 9.81), "{} {weights:?} {:?}", up.is_early(), up.motion.stop());
+        let up = PlaceHistory::new(&up, [0.0; 2]).unwrap();
+        let said = up.later_most(&limit, [&part], 0.0);
+        let still = Followed::new(&drop, Model::Compliant, 0.01).unwrap();
+        assert_eq!((still.carried_m_s2(), still.weight_to_come_m_s2()), (9.81, 0.0));
+        let still = PlaceHistory::new(&still, [0.0; 2]).unwrap();
+        let asked = still.answer(&limit, Some(&part), 0.0).unwrap().unwrap().utilization();
+        // 1 + √(1 + x²) with what the fall alone moves it by, x = v ω/g = 0.19; bounces bring both about within a tenth of a period.
+        assert!((asked - 2.0).abs() < 0.1, "{asked}");
+        assert!(said >= asked && said < 1.5 * asked, "{said} of {asked}");
+    }
 }

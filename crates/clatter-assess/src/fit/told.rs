@@ -371,3 +371,50 @@ impl DeterminedFit {
         Region::new(problem, &self.minimum, all, scatter * student::two_sided(ALPHA, degrees))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::solve::PRECISION;
+    use super::*;
+
+    /// A straight line through five data, 0.9, 3.2, 4.9, 7.1 and 8.9 at 0, 1, 2, 3 and 4: the slope is 1.99, the residuals square to
+    /// 0.079 over 3 degrees of freedom. Textbooks have it within t σ/√Σ(x − x̄)², with t = 3.182446, σ = √(0.079/3) and 10 for the sum;
+    /// where σ is known, within 1.959964 σ/√10.
+    #[test]
+    fn an_interval_is_that_of_textbooks_where_all_is_linear() {
+        let data = [0.9, 3.2, 4.9, 7.1, 8.9];
+        let line = |x: &[f64]| data.iter().zip(0..).map(|(y, t)| y - x[0] - x[1] * f64::from(t)).collect();
+        let problem = Problem {
+            residuals: Box::new(line),
+            bounds: vec![[-100.0, 100.0]; 2],
+            step: 1e-4,
+            one_sided: false,
+            patience: 100,
+            precision: PRECISION,
+        };
+        let minimum = problem.minimize(&[0.0; 2], &[0, 1]);
+        assert!((minimum.x[1] - 1.99).abs() < 1e-9 && (minimum.sum() - 0.079).abs() < 1e-9, "{minimum:?}");
+        let sigma = (minimum.sum() / 3.0).sqrt();
+        for (scatter, t) in [((sigma, Some(3.0)), 3.182_446_305), ((0.4, None), 1.959_963_985)] {
+            let score = Score::new(0.0, 1, 0, Faults::default(), true);
+            let told = DeterminedFit {
+                minimum: minimum.clone(),
+                free: vec![0, 1],
+                held: Vec::new(),
+                degrees: 3,
+                scatter: Some(scatter),
+                excess: None,
+                score,
+                faults: 0,
+            };
+            let half = t * scatter.0 / 10_f64.sqrt();
+            let region = told.region(&problem, &[0, 1]).unwrap();
+            let [below, above] = region.ends(&|x| x[1]).map(|end| end[1] - 1.99);
+            // Ends are searched to within 2 % and then carried on along a straight line, which here they are on.
+            assert!(
+                (below / -half - 1.0).abs() < 1e-6 && (above / half - 1.0).abs() < 1e-6,
+                "{below}, {above}: {half}"
+            );
+        }
+    }
+}

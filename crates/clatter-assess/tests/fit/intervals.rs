@@ -2,6 +2,7 @@
 
 use clatter_assess::fit::{Error, Known, Measured, Quantity, bounces, fit};
 use clatter_flight::Body;
+use nalgebra::{SMatrix, SVector};
 
 use super::synthetic::{LENGTH_M, Random, Truth, gyration_m, holds, known, noisy, strikes};
 
@@ -188,5 +189,37 @@ fn bounces_give_the_restitution_by_the_ratio_of_flight_times() {
     );
     for bad in [vec![0.0, 1.0], vec![0.0, 1.0, 0.5], vec![0.0, f64::NAN, 1.0]] {
         assert!(bounces(&bad, 9.81, None).is_err(), "{bad:?}");
+    }
+}
+
+/// Six bounces, each a few microseconds off: so near to the truth all is linear, and the interval of the restitution is that of the
+/// normal equations with the derivatives of tₙ = t₀ + f (1 + e + … + eⁿ⁻²) by hand; t = 3.182446 for three degrees of freedom, 1.959964
+/// where the timing is given.
+#[test]
+fn an_interval_of_bounces_is_that_of_the_normal_equations() {
+    let (f, e) = (0.4_f64, 0.6_f64);
+    let off_s = SVector::<f64, 6>::from([3e-6, -5e-6, 2e-6, 4e-6, -6e-6, 1e-6]);
+    let jacobian = SMatrix::<f64, 6, 3>::from_fn(|n, unknown| {
+        let flights = || (0..i32::try_from(n).unwrap()).map(|k| (k, e.powi(k)));
+        match unknown {
+            0 => 1.0,
+            1 => flights().map(|(_, power)| power).sum(),
+            _ => flights().map(|(k, power)| f * f64::from(k) * power / e).sum(),
+        }
+    });
+    let inverse = (jacobian.transpose() * jacobian).try_inverse().unwrap();
+    let left = off_s - jacobian * (inverse * (jacobian.transpose() * off_s));
+    let times_s: Vec<f64> = (0..6).map(|n| 1.0 + f * jacobian[(n, 1)] + off_s[n]).collect();
+    for (deviation_s, half) in
+        [(None, 3.182_446_305 * (left.norm_squared() / 3.0).sqrt()), (Some(2e-6), 1.959_963_985 * 2e-6)]
+    {
+        let found = bounces(&times_s, 9.81, deviation_s).unwrap();
+        let estimate = &found.estimates[0];
+        let [lo, hi] = estimate.interval.unwrap();
+        let half = half * inverse[(2, 2)].sqrt();
+        // The ends are where the sum of squares has risen: of curves that bend by 1e-5 over the interval.
+        for side in [hi - estimate.value, estimate.value - lo] {
+            assert!((side / half - 1.0).abs() < 1e-3, "{side}, not {half}");
+        }
     }
 }
