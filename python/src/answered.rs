@@ -1,5 +1,6 @@
 //! An answer as Python gets it: the JSON of the command, and what draws it.
 
+use clatter_answer::Versioned;
 use clatter_figures::FigureError;
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -29,5 +30,5 @@ pub(crate) type Answered = (String, Option<Drawing>);
 
 /// As `--format json` prints it.
 pub(crate) fn json(answer: &impl Serialize) -> Result<String, String> {
-    serde_json::to_string(answer).map_err(|error| error.to_string())
+    serde_json::to_string(&Versioned::new(answer)).map_err(|error| error.to_string())
 }

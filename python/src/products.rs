@@ -8,7 +8,7 @@ use clatter_answer::{
     assess as assess_of, design as design_of, explain as explain_of, fit as fit_of, scatter as scatter_of,
 };
 use clatter_assess::design::Bounds;
-use clatter_assess::fit::{Measured, MeasuredHeights, MeasuredStrike, written};
+use clatter_assess::fit::{Measured, MeasuredHeights, MeasuredStrike};
 use clatter_assess::scatter::{Sampler, Settings};
 use clatter_assess::{Accuracy, EXAMPLE, ProductFile};
 use pyo3::prelude::*;
@@ -190,7 +190,7 @@ pub(crate) fn fit(
         (question.timing_s, question.gyration_known) = (timing_s, known_gyration);
         let answer = fit_of::answer(&question).map_err(|error| error.to_string())?;
         // A text that cannot take what was found is no reason to lose it.
-        let (copy, notes) = match written(&text, &answer.fit) {
+        let (copy, notes) = match answer.written(&text) {
             Ok(copy) => (Some(copy.text), copy.notes),
             Err(error) => (None, vec![error]),
         };

@@ -4,8 +4,10 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
+use clatter_answer::Versioned;
 use clatter_assess::ProductFile;
 use same_file::Handle;
+use serde::Serialize;
 
 use crate::input::is_standard;
 use crate::{Failure, measured};
@@ -94,6 +96,11 @@ pub(crate) fn buffered(
     let mut out = BufWriter::with_capacity(1 << 16, file);
     write(&mut out)?;
     out.flush()
+}
+
+/// An answer as a file for programs.
+pub(crate) fn json(file: &mut File, answer: &impl Serialize) -> io::Result<()> {
+    buffered(file, |out| Ok(serde_json::to_writer(out, &Versioned::new(answer))?))
 }
 
 /// [`clatter_report::replace`], with the file that could not be written in the message.
