@@ -12,6 +12,7 @@ mod arrays;
 mod bodies;
 mod drops;
 mod maps;
+mod measured;
 mod products;
 mod records;
 mod shocks;
@@ -39,7 +40,7 @@ mod _clatter {
     #[pymodule_export]
     use crate::maps::map;
     #[pymodule_export]
-    use crate::products::{ProductText, assess, design, example, explain, fit, goals, scatter, schema};
+    use crate::products::{ProductText, assess, design, example, explain, fit, goals, scatter, schema, tradeoff};
     #[pymodule_export]
     use crate::records::{Record, spectra, spectrum};
     #[pymodule_export]

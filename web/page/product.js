@@ -89,7 +89,7 @@ async function whole(turn) {
     const told = await slow.ask({ ask: 'assess', name, text, quick: false });
     if (!current()) return;
     verdicts(told, { first: false, changed });
-    if (product.plan.width_m) return figures([]); // those of plates take minutes
+    if (product.plan.width_m) return; // further ones of plates take minutes
     slow.progress = undefined;
     const drawings = await slow.ask({ ask: 'figures', name, text });
     if (!current()) return;
@@ -141,11 +141,14 @@ function verdicts(told, { first, changed }) {
   $('drops').replaceChildren(
     ...answer.components.flatMap((part, i) => part.limits.map((limit, k) => worst(part, limit, told.shown[i][k]))),
   );
-  $('product-command').replaceChildren(command(told.command, told.answer));
+  // What is found so far stands without a command: none repeats it.
+  $('product-command').replaceChildren(...(told.command ? [command(told.command, told.answer)] : []));
+  if (product.plan.width_m) figures(told.figures);
   const ms = Math.round(performance.now() - changed);
   took[first ? 'first' : 'whole'] = ms;
   window.clatter.took = { ...took };
   if (first && judging.again) state('computing …');
+  else if (first && product.plan.width_m) state(`The most that the first drops ask, after ${ms} ms; searching on …`);
   else if (first) state(`First answer, by instant impacts, after ${ms} ms; computing with contacts that take time …`);
   else
     state(

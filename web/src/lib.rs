@@ -33,7 +33,7 @@ enum Question {
     Plan { name: String, text: String },
     /// The text of a product with one of them moved by so much, in m.
     Move { text: String, item: plan::Item, by: [f64; 2] },
-    /// The verdicts; `quick` by instant impacts, which take some milliseconds.
+    /// The verdicts; `quick` by instant impacts, which take some milliseconds, of a plate or a box by the first drops of the search.
     Assess { name: String, text: String, quick: bool },
     /// The pictures of an assessment.
     Figures { name: String, text: String },

@@ -14,6 +14,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod list;
+
 use clatter::End;
 use clatter_assess::ProductFile;
 use clatter_assess::fit::{
@@ -21,6 +23,8 @@ use clatter_assess::fit::{
     Written,
 };
 use serde::{Serialize, Serializer};
+
+pub use list::{List, options, refusal};
 
 use crate::{Error, Json, VERSION, letter};
 

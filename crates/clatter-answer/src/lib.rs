@@ -51,7 +51,7 @@ use clatter::End;
 use clatter_assess::visible;
 use clatter_shock::Shape;
 pub use error::Error;
-pub use numbers::{Json, JsonCount, JsonWhole, figures, neat, whole};
+pub use numbers::{Json, JsonCount, JsonWhole, figures, neat, significant, whole};
 pub use versioned::{VERSION, Versioned};
 
 /// The letter of an end.

@@ -158,7 +158,7 @@ impl Files<'_> {
     pub(crate) fn spare_records(&self, file: &ProductFile, product: &Path) -> Result<(), Failure> {
         for output in self.writes.iter().filter(|output| !is_standard(output)) {
             let place = place_of(output)?;
-            let named = file.records.iter().map(|record| measured::path_of(record, product));
+            let named = file.records.iter().map(|record| measured::path_of(&record.file, product));
             if named.into_iter().any(|record| is_input(&place, &record)) {
                 return Err(Failure::NamedRecord { path: output.to_path_buf(), product: product.to_owned() });
             }
