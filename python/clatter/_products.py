@@ -414,10 +414,11 @@ def scatter(
     count = None if samples is None else whole("samples", samples, 1, 10**12)
     drawn = (count, whole("seed", seed, 0, 2**64 - 1), number("confidence", confidence))
     rest = (number("merge_s", merge_s), optional("target", target))
-    return told(_clatter.scatter(_of(product), *drawn, *rest), _survivals)
+    return told(_clatter.scatter(_of(product), *drawn, *rest), survivals)
 
 
-def _survivals(answer: Answer) -> Rows:
+def survivals(answer: Answer) -> list[dict[str, Any]]:
+    """A row for each part: how likely it survives."""
     return [
         {"component": part.name, "failed": part.failed, "survival": part.survival.probability,
          "from": part.survival.interval[0], "to": part.survival.interval[1]}

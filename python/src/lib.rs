@@ -17,6 +17,7 @@ mod products;
 mod records;
 mod shocks;
 mod single;
+mod studies;
 mod work;
 
 use std::fmt::Display;
@@ -47,6 +48,8 @@ mod _clatter {
     use crate::shocks::{Pulse, respond, respond_drop};
     #[pymodule_export]
     use crate::single::{atlas, impacts, zone};
+    #[pymodule_export]
+    use crate::studies::{merge, study};
 
     use pyo3::prelude::*;
 

@@ -49,7 +49,8 @@ async function first() {
     product.plan = shown;
     redrawn(true);
     warned(warnings);
-    if (shown.quick) {
+    // That of a plate takes too long to wait for while it is dragged.
+    if (shown.quick && !shown.width_m) {
       const told = await quick.ask({ ask: 'assess', name, text, quick: true });
       verdicts(told, { first: true, changed });
     }
@@ -86,6 +87,11 @@ async function whole(turn) {
       const seconds = Math.round((performance.now() - started) / 1000);
       state(`computing … ${Math.round(100 * share)} %${seconds > 1 ? `, ${seconds} s` : ''}`, share);
     };
+    if (product.plan.width_m) {
+      const told = await slow.ask({ ask: 'assess', name, text, quick: true });
+      if (!current()) return;
+      verdicts(told, { first: true, changed });
+    }
     const told = await slow.ask({ ask: 'assess', name, text, quick: false });
     if (!current()) return;
     verdicts(told, { first: false, changed });
