@@ -6,7 +6,8 @@ The answers of the command ``clatter``, to the last digit, as Python objects:
 - arrays of questions: :func:`bars`, :func:`trains`, :func:`zones`, :func:`shocks`, :func:`plates`, :func:`boxes`,
   :func:`spectra`;
 - measured accelerations: :class:`Record`, :func:`spectrum`, :class:`Pulse`;
-- products: :class:`Product`, :func:`assess`, :func:`scatter`, :func:`design`, :func:`explain`, :func:`fit`.
+- products: :class:`Product`, :func:`assess`, :func:`scatter`, :func:`design`, :func:`explain`, :func:`tradeoff`, :func:`fit`;
+- studies larger than one machine: :func:`study`, :func:`merge`.
 
 Where names have no unit, velocities are in v0, the drop speed, upward positive; times in h0/v0, where h0 is the height of end
 b as end a touches; positions in half-lengths from the middle, -1 at end a. Names with a unit are in it.
@@ -19,8 +20,9 @@ from ._answer import Answer, Figure
 from ._bars import atlas, bars, impacts, map, plates, shocks, trains, zone, zones
 from ._clatter import __version__
 from ._drops import boxes, respond, simulate
-from ._products import Product, assess, design, explain, fit, scatter, schema
+from ._products import Product, assess, design, explain, fit, scatter, schema, tradeoff
 from ._records import Pulse, Record, spectra, spectrum
+from ._studies import merge, study
 
 __all__ = [
     "Answer",
@@ -38,6 +40,7 @@ __all__ = [
     "fit",
     "impacts",
     "map",
+    "merge",
     "plates",
     "respond",
     "scatter",
@@ -46,6 +49,8 @@ __all__ = [
     "simulate",
     "spectra",
     "spectrum",
+    "study",
+    "tradeoff",
     "trains",
     "zone",
     "zones",

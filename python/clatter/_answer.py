@@ -155,7 +155,8 @@ class Answer:
         return Figure(self._drawing.svg())
 
     def _table(self) -> Rows:
-        return self._rows(self) if self._rows else [self.__dict__]
+        # The version is of the answer, and of no row.
+        return self._rows(self) if self._rows else [{k: v for k, v in self.__dict__.items() if k != "clatter"}]
 
     def _repr_html_(self) -> str:
         told = [(name, value) for name, value in self.__dict__.items() if not isinstance(value, list)]

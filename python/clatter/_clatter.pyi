@@ -15,6 +15,12 @@ _Numbers = Sequence[float]
 _Pair = Sequence[float]
 _Which = str | int
 _Ratio = float | Sequence[float] | None
+_Given = tuple[
+    Sequence[tuple[float, str | None]] | None,
+    Sequence[tuple[float, float, float]] | None,
+    _Numbers | None,
+    Sequence[tuple[Record, float]],
+]
 
 class Drawing:
     def svg(self) -> str: ...
@@ -31,7 +37,6 @@ class PulseData:
 
 class ProductText:
     warnings: str
-    names_records: bool
     def __init__(self, text: str, origin: str) -> None: ...
 
 class Record:
@@ -263,7 +268,15 @@ def spectra(
 ) -> Sequence[_Floats]: ...
 def example() -> str: ...
 def schema() -> str: ...
-def assess(product: ProductText, tolerance: float, model: str | None, merge_s: float) -> _Answered: ...
+def assess(
+    product: ProductText,
+    tolerance: float,
+    model: str | None,
+    merge_s: float,
+    folder: str,
+    drops: Sequence[tuple[str, _Given, float | None]],
+    report: tuple[str, str | None] | None,
+) -> tuple[_Answered, list[str]]: ...
 def scatter(
     product: ProductText, samples: int | None, seed: int, confidence: float, merge_s: float, target: float | None
 ) -> _Answered: ...
@@ -279,12 +292,12 @@ def design(
 ) -> _Answered: ...
 def goals(zones: Sequence[tuple[float, float]], turn: float | None) -> _Answered: ...
 def explain(product: ProductText, tolerance: float) -> _Answered: ...
+def tradeoff(product: ProductText, tolerance: float) -> _Answered: ...
+def study(plan: str, shard: Sequence[int], output: str, force: bool) -> tuple[str, str]: ...
+def merge(parts: Sequence[str], confidence: float, target: float | None) -> _Answered: ...
 def fit(
     product: ProductText,
-    strikes: Sequence[tuple[float, str | None]] | None,
-    heights: Sequence[tuple[float, float, float]] | None,
-    bounces: _Numbers | None,
-    accelerations: Sequence[tuple[Record, float]],
+    given: _Given,
     timing_s: float | None,
     known_gyration: bool,
 ) -> tuple[str, Drawing | None, str | None, list[str]]: ...

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import datetime
 import json
 import os
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, flat, told
 from ._given import number, numbers, optional, rows, whole
 from ._records import Record
+
+if TYPE_CHECKING:
+    from ._clatter import _Given
 
 #: A quantity: a number with its unit, a range of two, or a distribution.
 Quantity = str | float | Sequence[str] | Sequence[float] | Mapping[str, Any]
@@ -75,6 +79,7 @@ class Product:
         self._origin = name
         self._tables: dict[str, Any] = {"product": _given(keys)}
         self._read: tuple[str, _clatter.ProductText] | None = None
+        self._folder = ""
 
     def falls(
         self,
@@ -163,19 +168,20 @@ class Product:
 
     @classmethod
     def open(cls, path: str | os.PathLike[str]) -> Product:
-        """The product of a file."""
+        """The product of a file; records that it names are looked for beside it."""
         name = os.fspath(path)
         with open(name, encoding="utf-8", newline="") as file:
             try:
-                return cls.from_text(file.read(), name)
+                return _product(file.read(), name, os.path.dirname(name))
             except UnicodeDecodeError:
                 raise ValueError(f"{name}: it is not text in UTF-8") from None
 
     @classmethod
     def from_text(cls, text: str, origin: str = "text") -> Product:
-        """The product of the text of a file, which errors call ``origin``."""
+        """The product of the text of a file, which errors call ``origin``; records that it names are looked for in the present folder."""
         product = cls.__new__(cls)
         product._text, product._origin, product._tables, product._read = text, origin, {}, None
+        product._folder = ""
         return product
 
     @classmethod
@@ -208,10 +214,16 @@ class Product:
         return self._read[1]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Product.from_text, (self.text, self._origin)
+        return _product, (self.text, self._origin, self._folder)
 
     def __repr__(self) -> str:
         return f"<Product {self._origin}>"
+
+
+def _product(text: str, origin: str, folder: str) -> Product:
+    product = Product.from_text(text, origin)
+    product._folder = folder
+    return product
 
 
 #: A product, its file, or its tables.
@@ -259,12 +271,14 @@ def _value(value: Any) -> str:
     raise ValueError(f"{value!r} is none of what a product file holds: text, numbers, lists and tables")
 
 
-def _of(product: Source) -> _clatter.ProductText:
+def _whole(product: Source) -> Product:
     if isinstance(product, Mapping):
-        product = Product.from_dict(product)
-    elif not isinstance(product, Product):
-        product = Product.open(product)
-    return product._file()
+        return Product.from_dict(product)
+    return product if isinstance(product, Product) else Product.open(product)
+
+
+def _of(product: Source) -> _clatter.ProductText:
+    return _whole(product)._file()
 
 
 def schema() -> dict[str, Any]:
@@ -282,10 +296,20 @@ def _limits(answer: Answer) -> Rows:
     return limits
 
 
-def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = None, merge_s: float = 1e-3) -> Answer:
+def assess(
+    product: Source,
+    *,
+    tolerance: float = 0.01,
+    model: Model | None = None,
+    merge_s: float = 1e-3,
+    measured: Mapping[str, Mapping[str, Any]] | None = None,
+    report: str | os.PathLike[str] | None = None,
+    report_date: str | None = None,
+) -> Answer:
     """Which part of a product fails, in which drop, by how much.
 
-    Records that a product file names are not read, which is warned of: :func:`fit` takes them.
+    Records that a product file names are read, from where the file is. What each measured drop tells stands beside what the file
+    states; that they differ is warned of.
 
     Parameters
     ----------
@@ -297,12 +321,20 @@ def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = No
         Follow drops by this model rather than by the one with the most physics.
     merge_s : float
         Instant impacts closer than this are one, in s.
+    measured : dict of dicts, optional
+        Further measured drops, by their names: of each what :func:`fit` takes, ``strikes``, ``heights``, ``bounces``,
+        ``accelerations`` and ``timing_s``.
+    report : path, optional
+        Write the printed report there too, a file ending in ``.pdf``; typst sets it, as for the command.
+    report_date : str, optional
+        The day that the report tells, ``2026-03-31``; none unless given.
 
     Returns
     -------
     Answer
         ``verdict`` (safe, unsafe or undecided) and ``components`` with their ``limits``: ``allowed``, ``demand``, ``margin`` in
-        SI; as ``clatter assess`` has it.
+        SI; ``measured`` with the ``estimates`` of each drop, where there are any; as ``clatter assess`` has it.
+        ``plot()`` is the product with its parts, as the report shows it.
 
     Examples
     --------
@@ -311,11 +343,35 @@ def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = No
     >>> answer.verdict, [part.name for part in answer.components]
     ('safe', ['display', 'camera', 'crystal'])
     """
-    file = _of(product)
-    if file.names_records:
-        warnings.warn("the records that the product file names are not read: fit() takes them", stacklevel=2)
+    source = _whole(product)
+    file = source._file()
     accuracy = (number("tolerance", tolerance), model, number("merge_s", merge_s))
-    return told(_clatter.assess(file, *accuracy), _limits)
+    drops = [_drop(name, drop) for name, drop in (measured or {}).items()]
+    answered, odd = _clatter.assess(file, *accuracy, source._folder, drops, _pdf(report, report_date))
+    for one in odd:
+        warnings.warn(one, stacklevel=2)
+    return told(answered, _limits)
+
+
+def _pdf(report: str | os.PathLike[str] | None, date: str | None) -> tuple[str, str | None] | None:
+    if report is None:
+        return None
+    path = os.fspath(report)
+    if not path.endswith(".pdf"):
+        raise ValueError(f"{path}: the file must end in .pdf")
+    if date is not None:
+        datetime.date.fromisoformat(date)
+    return path, date
+
+
+def _drop(name: str, drop: Mapping[str, Any]) -> tuple[str, _Given, float | None]:
+    keys = ("strikes", "heights", "bounces", "accelerations")
+    for key in drop:
+        if key not in (*keys, "timing_s"):
+            raise ValueError(f"measured {name!r} has {key!r}; a drop has {', '.join(keys)} and timing_s")
+    strikes, heights, bounces, accelerations = (drop.get(key) for key in keys)
+    timing_s = optional("timing_s", drop.get("timing_s"))
+    return name, _measured(strikes, heights, bounces, accelerations or ()), timing_s
 
 
 def scatter(
@@ -358,10 +414,11 @@ def scatter(
     count = None if samples is None else whole("samples", samples, 1, 10**12)
     drawn = (count, whole("seed", seed, 0, 2**64 - 1), number("confidence", confidence))
     rest = (number("merge_s", merge_s), optional("target", target))
-    return told(_clatter.scatter(_of(product), *drawn, *rest), _survivals)
+    return told(_clatter.scatter(_of(product), *drawn, *rest), survivals)
 
 
-def _survivals(answer: Answer) -> Rows:
+def survivals(answer: Answer) -> list[dict[str, Any]]:
+    """A row for each part: how likely it survives."""
     return [
         {"component": part.name, "failed": part.failed, "survival": part.survival.probability,
          "from": part.survival.interval[0], "to": part.survival.interval[1]}
@@ -448,6 +505,31 @@ def explain(product: Source, *, tolerance: float = 0.01) -> Answer:
     return told(_clatter.explain(_of(product), number("tolerance", tolerance)), _models)
 
 
+def tradeoff(product: Source, *, tolerance: float = 0.01) -> Answer:
+    """What every model gets wrong in the worst drops of a product, and what it costs on this machine.
+
+    Parameters
+    ----------
+    product : Product, path, or dict
+        The product.
+    tolerance : float
+        What a model may get wrong, as a share of the demand.
+
+    Returns
+    -------
+    Answer
+        ``limits``, each with the ``value``, ``error`` and ``seconds`` of every ``models`` and which is the ``cheapest``; as
+        ``clatter tradeoff`` has it. ``plot()`` is error over cost.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> [limit.component for limit in clatter.tradeoff(clatter.Product.example()).limits][:2]
+    ['display', 'display']
+    """
+    return told(_clatter.tradeoff(_of(product), number("tolerance", tolerance)), _models)
+
+
 def _models(answer: Answer) -> Rows:
     return [
         {"component": limit.component, "limit": limit.limit, **flat(model, "")}
@@ -499,15 +581,19 @@ def fit(
     [0.4]
     """
     source = _of(product)
-    measured = (
+    measured = _measured(strikes, heights, bounces, accelerations)
+    text, drawing, copy, notes = _clatter.fit(source, measured, optional("timing_s", timing_s), known_gyration)
+    fitted = None if copy is None else Product.from_text(copy, "fitted")
+    return told((text, drawing), _estimates, fitted=fitted, notes=notes)
+
+
+def _measured(strikes: Any, heights: Any, bounces: Any, accelerations: Any) -> _Given:
+    return (
         None if strikes is None else [_strike(i, strike) for i, strike in enumerate(strikes)],
         None if heights is None else [(time, a, b) for time, a, b in rows("heights", heights, 3)],
         None if bounces is None else numbers("bounces", bounces),
         [_acceleration(i, one) for i, one in enumerate(accelerations)],
     )
-    text, drawing, copy, notes = _clatter.fit(source, *measured, optional("timing_s", timing_s), known_gyration)
-    fitted = None if copy is None else Product.from_text(copy, "fitted")
-    return told((text, drawing), _estimates, fitted=fitted, notes=notes)
 
 
 def _strike(i: int, strike: Any) -> tuple[float, str | None]:

@@ -1,18 +1,21 @@
 //! An answer as Python gets it: the JSON of the command, and what draws it.
 
+use std::sync::Arc;
+
+use clatter_answer::Versioned;
 use clatter_figures::FigureError;
 use pyo3::prelude::*;
 use serde::Serialize;
 
-use crate::refused;
+use crate::{refused, work};
 
 /// What draws an answer: the picture that the command writes.
 #[pyclass(frozen, module = "clatter._clatter")]
-pub(crate) struct Drawing(Box<dyn Fn() -> Result<String, FigureError> + Send + Sync>);
+pub(crate) struct Drawing(Arc<dyn Fn() -> Result<String, FigureError> + Send + Sync>);
 
 impl Drawing {
     pub(crate) fn new(draw: impl Fn() -> Result<String, FigureError> + Send + Sync + 'static) -> Self {
-        Self(Box::new(draw))
+        Self(Arc::new(draw))
     }
 }
 
@@ -20,7 +23,8 @@ impl Drawing {
 impl Drawing {
     /// The picture as SVG.
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| (self.0)()).map_err(refused)
+        let draw = Arc::clone(&self.0);
+        work::done(py, move |_| draw())?.map_err(refused)
     }
 }
 
@@ -29,5 +33,5 @@ pub(crate) type Answered = (String, Option<Drawing>);
 
 /// As `--format json` prints it.
 pub(crate) fn json(answer: &impl Serialize) -> Result<String, String> {
-    serde_json::to_string(answer).map_err(|error| error.to_string())
+    serde_json::to_string(&Versioned::new(answer)).map_err(|error| error.to_string())
 }

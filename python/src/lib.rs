@@ -12,10 +12,12 @@ mod arrays;
 mod bodies;
 mod drops;
 mod maps;
+mod measured;
 mod products;
 mod records;
 mod shocks;
 mod single;
+mod studies;
 mod work;
 
 use std::fmt::Display;
@@ -39,13 +41,15 @@ mod _clatter {
     #[pymodule_export]
     use crate::maps::map;
     #[pymodule_export]
-    use crate::products::{ProductText, assess, design, example, explain, fit, goals, scatter, schema};
+    use crate::products::{ProductText, assess, design, example, explain, fit, goals, scatter, schema, tradeoff};
     #[pymodule_export]
     use crate::records::{Record, spectra, spectrum};
     #[pymodule_export]
     use crate::shocks::{Pulse, respond, respond_drop};
     #[pymodule_export]
     use crate::single::{atlas, impacts, zone};
+    #[pymodule_export]
+    use crate::studies::{merge, study};
 
     use pyo3::prelude::*;
 

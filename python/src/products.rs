@@ -1,22 +1,24 @@
 //! Verdicts on a product, changes, probabilities, and the drop that was measured.
 
 use std::convert::Infallible;
+use std::path::{Path, PathBuf};
 
-use clatter::End;
 use clatter::design::Goal;
+use clatter_answer::fit::DropRecords;
 use clatter_answer::{
     assess as assess_of, design as design_of, explain as explain_of, fit as fit_of, scatter as scatter_of,
 };
 use clatter_assess::design::Bounds;
-use clatter_assess::fit::{Measured, MeasuredHeights, MeasuredStrike, written};
+use clatter_assess::ladder::ProductLadder;
 use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, EXAMPLE, ProductFile};
+use clatter_assess::{Accuracy, EXAMPLE, ProductFile, visible};
+use clatter_report::{Pages, ReportError};
 use pyo3::prelude::*;
 
 use crate::answered::{Answered, Drawing, json};
-use crate::records::Record;
+use crate::measured::{self, Given, Refused};
 use crate::work::{self, Wanted};
-use crate::{bodies, refused, single};
+use crate::{bodies, refused};
 
 /// The product, and what is odd in its file.
 #[pyclass(frozen, module = "clatter._clatter")]
@@ -24,11 +26,10 @@ use crate::{bodies, refused, single};
 pub(crate) struct ProductText {
     file: ProductFile,
     text: String,
+    /// Of its file, as a report has it.
+    name: String,
     #[pyo3(get)]
     warnings: String,
-    /// Whether it names records of measured drops.
-    #[pyo3(get)]
-    names_records: bool,
 }
 
 #[pymethods]
@@ -37,7 +38,8 @@ impl ProductText {
     fn new(text: String, origin: &str) -> PyResult<Self> {
         let (file, odd) = ProductFile::read_warned(&text, origin).map_err(refused)?;
         let warnings = if odd.warnings().is_empty() { String::new() } else { odd.to_string() };
-        Ok(Self { names_records: !file.records.is_empty(), file, text, warnings })
+        let name = Path::new(origin).file_name().map_or(origin.into(), |name| name.to_string_lossy()).into_owned();
+        Ok(Self { file, text, name, warnings })
     }
 }
 
@@ -60,6 +62,10 @@ fn long(py: Python<'_>, answer: impl FnOnce(&Wanted) -> Result<String, String> +
     Ok((work::done(py, answer)?.map_err(refused)?, None))
 }
 
+/// What was measured of a drop, what the drop is called, and the standard deviation of its times.
+type NamedDrop = (String, Given, Option<f64>);
+
+/// Measured drops stand beside the verdicts: those whose records the product names, from `folder`, and those given. Answers with warnings.
 #[pyfunction]
 pub(crate) fn assess(
     py: Python<'_>,
@@ -67,11 +73,61 @@ pub(crate) fn assess(
     tolerance: f64,
     model: Option<&str>,
     merge_s: f64,
-) -> PyResult<Answered> {
+    folder: PathBuf,
+    drops: Vec<NamedDrop>,
+    report: Option<(PathBuf, Option<String>)>,
+) -> PyResult<(Answered, Vec<String>)> {
     let (file, accuracy) = (product.file.clone(), accuracy(tolerance, model, merge_s)?);
-    long(py, move |wanted| {
+    let name = product.name.clone();
+    let given = |(name, given, timing_s): NamedDrop| {
+        Ok(DropRecords { name, records: measured::records(given, timing_s)?, timing_s })
+    };
+    let given = drops.into_iter().map(given).collect::<PyResult<Vec<_>>>()?;
+    let done = work::done(py, move |wanted| {
+        let mut drops = measured::named(&file, &folder, wanted)?;
+        drops.extend(given);
         let answer = assess_of::watched(&file, &accuracy, &|_, _| wanted.still());
-        json(&answer.map_err(|error| error.to_string())?)
+        let mut answer = answer.map_err(|error| error.to_string())?;
+        answer.measured = measured::fitted(drops, &file, wanted)?;
+        let told = answer.warnings().into_iter().map(|(drop, told)| format!("{drop}: {told}"));
+        let mut warnings: Vec<String> = told.collect();
+        if let Some((pdf, date)) = &report {
+            warnings.extend(print(&answer, &name, pdf, date.as_deref(), wanted)?);
+        }
+        let (text, assessment) = (json(&answer)?, answer.assessment);
+        Ok::<_, Refused>((text, warnings, (file, assessment)))
+    });
+    let (text, warnings, (file, assessment)) = done??;
+    let draw = move || {
+        // Of a plate they take long, and its picture shows none of them.
+        let portraits = if file.product.width.is_some() { Vec::new() } else { file.portraits(&assessment) };
+        clatter_figures::assessed(&file, &assessment, &portraits)
+    };
+    Ok(((text, Some(Drawing::new(draw))), warnings))
+}
+
+/// Writes the printed report. What typst says is of an outside program.
+fn print(
+    answer: &assess_of::Answer<'_>,
+    path: &str,
+    pdf: &Path,
+    date: Option<&str>,
+    wanted: &Wanted,
+) -> Result<Vec<String>, Refused> {
+    if clatter_report::is_protected(pdf) {
+        return Err(Refused::Words(format!(
+            "{} is write-protected: choose another name",
+            visible(&pdf.to_string_lossy())
+        )));
+    }
+    let portraits = answer.file.portraits(&answer.assessment);
+    wanted.or_leave();
+    let assess_of::Answer { file, assessment, measured, .. } = answer;
+    let pages = Pages { file, assessment, portraits: &portraits, measured, path, date };
+    clatter_report::write_assessment(&pages, pdf, &mut |_| wanted.or_leave()).map_err(|error| match error {
+        ReportError::Io { path, source } => Refused::System(path, source),
+        ReportError::Typst(said) => Refused::Outside(said),
+        error => Refused::Words(error.to_string()),
     })
 }
 
@@ -140,13 +196,28 @@ pub(crate) fn goals(py: Python<'_>, zones: Vec<(f64, f64)>, turn: Option<f64>) -
 #[pyfunction]
 pub(crate) fn explain(py: Python<'_>, product: &ProductText, tolerance: f64) -> PyResult<Answered> {
     let file = product.file.clone();
-    long(py, move |wanted| {
-        let ladders = assess_of::watched(&file, &Accuracy::default(), &|_, _| wanted.still()).and_then(|answer| {
-            wanted.or_leave();
-            file.ladders(&answer.assessment, tolerance)
-        });
-        json(&explain_of::Answer(&ladders.map_err(|error| error.to_string())?))
-    })
+    long(py, move |wanted| json(&explain_of::Answer(&ladders(&file, tolerance, wanted)?)))
+}
+
+/// Every model on the worst drop of each limit: error and cost.
+#[pyfunction]
+pub(crate) fn tradeoff(py: Python<'_>, product: &ProductText, tolerance: f64) -> PyResult<Answered> {
+    let file = product.file.clone();
+    let told = work::done(py, move |wanted| {
+        let ladders = ladders(&file, tolerance, wanted)?;
+        Ok::<_, String>((json(&ladders)?, ladders))
+    });
+    let (text, ladders) = told?.map_err(refused)?;
+    Ok((text, Some(Drawing::new(move || clatter_report::ladder_svg(&ladders)))))
+}
+
+fn ladders(file: &ProductFile, tolerance: f64, wanted: &Wanted) -> Result<ProductLadder, String> {
+    let answer = assess_of::watched(file, &Accuracy::default(), &|_, _| wanted.still());
+    let ladders = answer.and_then(|answer| {
+        wanted.or_leave();
+        file.ladders(&answer.assessment, tolerance)
+    });
+    ladders.map_err(|error| error.to_string())
 }
 
 /// The JSON of the nearest drop, its picture, and the product file with what was found, and notes on that.
@@ -156,41 +227,18 @@ type Fitted = (String, Option<Drawing>, Option<String>, Vec<String>);
 pub(crate) fn fit(
     py: Python<'_>,
     product: &ProductText,
-    strikes: Option<Vec<(f64, Option<String>)>>,
-    heights: Option<Vec<[f64; 3]>>,
-    bounces: Option<Vec<f64>>,
-    accelerations: Vec<(Py<Record>, f64)>,
+    given: Given,
     timing_s: Option<f64>,
     known_gyration: bool,
 ) -> PyResult<Fitted> {
-    let mut records = Vec::new();
-    let mut add = |name: &str, data| records.push(fit_of::Record { name: name.to_owned(), data });
-    if let Some(list) = strikes {
-        let strike = |(time_s, end): (f64, Option<String>)| {
-            let end: Option<End> = end.map(|name| single::end(&name)).transpose()?;
-            Ok(MeasuredStrike { time_s, end })
-        };
-        let strikes = list.into_iter().map(strike).collect::<PyResult<_>>()?;
-        add("strikes", fit_of::Data::Measured(Measured::Strikes { strikes, deviation_s: timing_s }));
-    }
-    if let Some(list) = heights {
-        let samples = list.into_iter().map(|[time_s, a, b]| MeasuredHeights { time_s, height_m: [a, b] }).collect();
-        add("heights", fit_of::Data::Measured(Measured::Heights { samples, deviation_m: None }));
-    }
-    if let Some(list) = bounces {
-        add("bounces", fit_of::Data::Bounces(list));
-    }
-    for (record, position_m) in &accelerations {
-        let record = record.get();
-        add(record.file(), fit_of::Data::acceleration(record.inner(), *position_m).map_err(refused)?);
-    }
+    let records = measured::records(given, timing_s)?;
     let (file, text) = (product.file.clone(), product.text.clone());
     let found = work::done(py, move |_| {
         let mut question = fit_of::Question::new(&file, records);
         (question.timing_s, question.gyration_known) = (timing_s, known_gyration);
         let answer = fit_of::answer(&question).map_err(|error| error.to_string())?;
         // A text that cannot take what was found is no reason to lose it.
-        let (copy, notes) = match written(&text, &answer.fit) {
+        let (copy, notes) = match answer.written(&text) {
             Ok(copy) => (Some(copy.text), copy.notes),
             Err(error) => (None, vec![error]),
         };

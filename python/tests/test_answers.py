@@ -11,11 +11,12 @@ import pytest
 def test_fields_are_attributes_and_items():
     answer = clatter.impacts(q=0.5, e=0.3)
     assert answer.peak.end == answer["peak"]["end"] == 2.145
-    assert "peak" in answer and "speed" not in answer and list(answer)[:2] == ["q", "gyration_ratio"]
+    assert "peak" in answer and "speed" not in answer and list(answer)[:3] == ["clatter", "q", "gyration_ratio"]
     assert {"peak", "impacts", "to_arrow"} <= set(dir(answer))  # what a prompt completes
     with pytest.raises(AttributeError, match="speed"):
         answer.speed
     assert answer.to_dict() == json.loads(answer.to_json())
+    assert answer.clatter == clatter.__version__
 
 
 def test_tables_have_the_columns_of_the_command(command):

@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PUBLIC = {name: getattr(clatter, name) for name in clatter.__all__ if callable(getattr(clatter, name))}
 
 
-@pytest.mark.parametrize("name", ["_bars", "_drops", "_records", "_products"])
+@pytest.mark.parametrize("name", ["_bars", "_drops", "_records", "_products", "_studies"])
 def test_examples(name):
     module = importlib.import_module(f"clatter.{name}")
     failed, tried = doctest.testmod(module, optionflags=doctest.NORMALIZE_WHITESPACE)

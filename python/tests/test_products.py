@@ -1,13 +1,16 @@
 """Products of files, texts, dicts and builders are one product; what is wrong with them is told in the words of the command."""
 
 import copy
+import json
 import pickle
+from pathlib import Path
 
 import clatter
 import numpy as np
 import pytest
 import tomllib
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "reports/examples"
 TABLES = {
     "product": {"name": "handheld", "length": "150 mm", "restitution": [0.25, 0.4], "radius_of_gyration": "45 mm"},
     "drop": {"height": "1 m", "tilt": ["1 deg", "6 deg"], "first": "either"},
@@ -101,11 +104,120 @@ def test_slips_are_warned_of(command, tmp_path, monkeypatch):
     assert f"{warned[0].message}\n" == told
 
 
-def test_records_of_a_product_are_not_read_in_silence():
-    text = clatter.Product.example().text + '[[record]]\nfile = "strikes.csv"\n'
-    with pytest.warns(UserWarning, match="the records that the product file names are not read"):
-        answer = clatter.assess(clatter.Product.from_text(text))
-    assert answer == clatter.assess(clatter.Product.example())
+STRIKES = "time_s,end\n0,a\n1.2121e-3,b\n1.68285e-3,a\n34.386e-3,b\n"
+NAMED = clatter.Product.example().text.replace("contact_time =", "# contact_time =") + """
+[[record]]
+file = "strikes.csv"
+timing = "1 us"
+[[record]]
+file = "sub/bounces.csv"
+drop = "flat"
+"""
+
+
+@pytest.fixture
+def measured(tmp_path, monkeypatch):
+    """A product in a folder of its own that names two records."""
+    folder = tmp_path / "product"
+    folder.joinpath("sub").mkdir(parents=True)
+    folder.joinpath("measured.toml").write_text(NAMED)
+    folder.joinpath("strikes.csv").write_text(STRIKES)
+    folder.joinpath("sub/bounces.csv").write_text("bounce_s\n0\n0.5\n0.75\n0.875\n0.9375\n")
+    monkeypatch.chdir(tmp_path)
+    return folder
+
+
+def test_measured_drops_that_a_product_names_stand_beside_the_verdicts(measured, command):
+    told = command("assess", "product/measured.toml", "--format=json")
+    with pytest.warns(UserWarning) as warned:
+        answer = clatter.assess("product/measured.toml")
+    assert answer.to_json() == told.stdout.rstrip("\n")
+    assert [drop.drop for drop in answer.measured] == ["strikes.csv", "flat"]
+    assert [f"warning: {one.message}" for one in warned] == told.stderr.splitlines()
+    assert "restitution was measured as 0.5" in told.stderr
+    # A product that went to another process still knows its folder.
+    product = pickle.loads(pickle.dumps(clatter.Product.open("product/measured.toml")))
+    with pytest.warns(UserWarning):
+        assert clatter.assess(product) == answer
+
+
+@pytest.mark.filterwarnings("ignore")  # of other quantities than those that are looked for
+def test_measured_drops_may_be_given(measured):
+    product = clatter.Product.from_text(NAMED.split("[[record]]")[0], "measured.toml")
+    strikes = [(0, "a"), (1.2121e-3, "b"), (1.68285e-3, "a"), (34.386e-3, "b")]
+    with pytest.warns(UserWarning):
+        named = clatter.assess("product/measured.toml").measured
+    drops = {
+        "strikes.csv": {"strikes": strikes, "timing_s": 1e-6},
+        "flat": {"bounces": np.array([0, 0.5, 0.75, 0.875, 0.9375])},
+    }
+    with pytest.warns(UserWarning, match="restitution was measured"):
+        given = clatter.assess(product, measured=drops).measured
+    assert [drop.estimates for drop in given] == [drop.estimates for drop in named]
+    values = np.zeros(400)
+    values[50:100], values[200:250] = (size * np.sin(np.pi * np.arange(50) / 50) for size in (4000, -2000))
+    places = [(clatter.Record(values, time_s=np.arange(400) * 2e-5, name="bench.csv"), 0.03)]
+    with pytest.warns(UserWarning, match="bench: restitution was measured"):
+        (bench,) = clatter.assess(product, measured={"bench": {"accelerations": places}}).measured
+    fitted = clatter.fit(product, accelerations=places).estimates
+    assert bench.files == ["bench.csv"]
+    assert [(one.quantity, one.value) for one in bench.estimates] == [(one.quantity, one.value) for one in fitted]
+    # What no fit takes is named.
+    with pytest.raises(ValueError, match="strikes: 1 strikes; allowed: 2 to 4096"):
+        clatter.assess(product, measured={"bench": {"strikes": strikes[:1]}})
+
+
+def test_records_that_cannot_be_read_are_refused(measured, command):
+    measured.joinpath("strikes.csv").write_text(STRIKES.replace("1.68285e-3", "x"))
+    with pytest.raises(ValueError) as refusal:
+        clatter.assess("product/measured.toml")
+    assert command("assess", "product/measured.toml", code=[2]).stderr == f"error: {refusal.value}\n"
+    measured.joinpath("strikes.csv").write_text("time [s],a [g]\n0,1\n1,2\n")
+    with pytest.raises(ValueError, match="strikes.csv: .* needs its position"):
+        clatter.assess("product/measured.toml")
+    measured.joinpath("strikes.csv").unlink()
+    with pytest.raises(FileNotFoundError, match=r"strikes\.csv"):
+        clatter.assess("product/measured.toml")
+    with pytest.raises(ValueError, match="measured 'a' has 'strike'"):
+        clatter.assess(clatter.Product.example(), measured={"a": {"strike": []}})
+
+
+def test_the_printed_report_is_that_of_the_command(measured, command):
+    measured.joinpath("plain.toml").write_text(clatter.Product.example().text)
+    command("assess", "product/plain.toml", "-o", "command.pdf", "--date=2026-03-31")
+    clatter.assess("product/plain.toml", report="wheel.pdf", report_date="2026-03-31")
+    wheel, printed = (measured.parent.joinpath(name).read_bytes() for name in ("wheel.pdf", "command.pdf"))
+    assert wheel.startswith(b"%PDF") and wheel == printed
+    for wrong in ({"report": "x.txt"}, {"report": "x.pdf", "report_date": "31.3.2026"}):
+        with pytest.raises(ValueError):
+            clatter.assess("product/plain.toml", **wrong)
+    with pytest.raises(OSError):
+        clatter.assess("product/plain.toml", report="nowhere/x.pdf")
+
+
+def test_assessed_products_have_a_picture():
+    bar = clatter.assess(clatter.Product.example())
+    assert all(f">{part.name}<" in str(bar.plot()) for part in bar.components)
+    plate = clatter.assess(EXAMPLES / "handheld-plate.toml")
+    drawn = str(plate.plot())
+    assert "The plate from above" in drawn
+    assert all(f">{part.name}<" in drawn for part in plate.components)
+
+
+def test_tradeoff_is_that_of_the_command_but_for_its_times(command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    tmp_path.joinpath("handheld.toml").write_text(clatter.Product.example().text)
+    theirs = json.loads(command("tradeoff", "handheld.toml", "--tolerance=10%", "--format=json").stdout)
+    ours = clatter.tradeoff("handheld.toml", tolerance=0.1)
+
+    def timeless(limits):
+        models = [[{k: v for k, v in model.items() if k != "seconds"} for model in limit["models"]] for limit in limits]
+        return [limit["reference"] for limit in limits], models
+
+    assert timeless(json.loads(ours.to_json())["limits"]) == timeless(theirs["limits"])
+    assert (ours.product, ours.tolerance, ours.clatter) == (theirs["product"], 0.1, clatter.__version__)
+    assert all(model.seconds > 0 for limit in ours.limits for model in limit.models)
+    assert "<svg" in str(ours.plot()) and "finite tilt" in str(ours.plot())
 
 
 REFUSED = {

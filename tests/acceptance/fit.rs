@@ -85,6 +85,7 @@ fn a_copy_of_the_product_file_has_the_ranges_and_all_else_as_it_was() {
         outcome.stdout
     );
     let text = fs::read_to_string(&copy).unwrap();
+    let (_, text) = text.split_once('\n').expect("the line with the version");
     let changed: Vec<_> =
         text.lines().zip(PRODUCT.lines()).filter(|(new, old)| new != old).map(|(new, _)| new).collect();
     let [restitution, tilt] = changed[..] else { panic!("{text}") };

@@ -37,6 +37,7 @@ mod threads;
 mod torn;
 mod tradeoff;
 mod typed;
+mod versions;
 
 use clatter_cli::{Exit, Streams, run};
 use serde_json::Value;
@@ -64,11 +65,15 @@ fn warns_of_slips_alone(stderr: &str) -> bool {
     stderr.lines().all(|line| line.starts_with("warning: ") && slip(line))
 }
 
-/// Calls `clatter` for an answer in JSON, which must come alone but for warnings of what no product has.
+/// Calls `clatter` for an answer in JSON, which must come alone but for warnings of what no product has; its version is seen to, and left
+/// out.
 fn answer<S: AsRef<str>>(arguments: impl IntoIterator<Item = S>) -> Value {
     let arguments = arguments.into_iter().map(|argument| argument.as_ref().to_owned());
     let outcome = clatter(arguments.chain(["--format=json".to_owned()]));
     let sound = outcome.exit == Exit::Done && warns_of_slips_alone(&outcome.stderr);
     assert!(sound, "{:?}: {}{}", outcome.exit, outcome.stderr, outcome.stdout);
-    serde_json::from_str(&outcome.stdout).unwrap()
+    let mut answer: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let version = answer.as_object_mut().expect("an object").remove("clatter");
+    assert_eq!(version, Some(env!("CARGO_PKG_VERSION").into()), "every answer tells its version");
+    answer
 }

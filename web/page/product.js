@@ -49,7 +49,8 @@ async function first() {
     product.plan = shown;
     redrawn(true);
     warned(warnings);
-    if (shown.quick) {
+    // That of a plate takes too long to wait for while it is dragged.
+    if (shown.quick && !shown.width_m) {
       const told = await quick.ask({ ask: 'assess', name, text, quick: true });
       verdicts(told, { first: true, changed });
     }
@@ -86,10 +87,15 @@ async function whole(turn) {
       const seconds = Math.round((performance.now() - started) / 1000);
       state(`computing … ${Math.round(100 * share)} %${seconds > 1 ? `, ${seconds} s` : ''}`, share);
     };
+    if (product.plan.width_m) {
+      const told = await slow.ask({ ask: 'assess', name, text, quick: true });
+      if (!current()) return;
+      verdicts(told, { first: true, changed });
+    }
     const told = await slow.ask({ ask: 'assess', name, text, quick: false });
     if (!current()) return;
     verdicts(told, { first: false, changed });
-    if (product.plan.width_m) return figures([]); // those of plates take minutes
+    if (product.plan.width_m) return; // further ones of plates take minutes
     slow.progress = undefined;
     const drawings = await slow.ask({ ask: 'figures', name, text });
     if (!current()) return;
@@ -141,11 +147,14 @@ function verdicts(told, { first, changed }) {
   $('drops').replaceChildren(
     ...answer.components.flatMap((part, i) => part.limits.map((limit, k) => worst(part, limit, told.shown[i][k]))),
   );
-  $('product-command').replaceChildren(command(told.command, told.answer));
+  // What is found so far stands without a command: none repeats it.
+  $('product-command').replaceChildren(...(told.command ? [command(told.command, told.answer)] : []));
+  if (product.plan.width_m) figures(told.figures);
   const ms = Math.round(performance.now() - changed);
   took[first ? 'first' : 'whole'] = ms;
   window.clatter.took = { ...took };
   if (first && judging.again) state('computing …');
+  else if (first && product.plan.width_m) state(`The most that the first drops ask, after ${ms} ms; searching on …`);
   else if (first) state(`First answer, by instant impacts, after ${ms} ms; computing with contacts that take time …`);
   else
     state(

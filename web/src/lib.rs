@@ -13,6 +13,7 @@ mod wasm;
 
 use std::fmt::Display;
 
+use clatter_answer::Versioned;
 use serde::{Deserialize, Serialize};
 
 /// Is told how much of how much is done.
@@ -32,7 +33,7 @@ enum Question {
     Plan { name: String, text: String },
     /// The text of a product with one of them moved by so much, in m.
     Move { text: String, item: plan::Item, by: [f64; 2] },
-    /// The verdicts; `quick` by instant impacts, which take some milliseconds.
+    /// The verdicts; `quick` by instant impacts, which take some milliseconds, of a plate or a box by the first drops of the search.
     Assess { name: String, text: String, quick: bool },
     /// The pictures of an assessment.
     Figures { name: String, text: String },
@@ -74,7 +75,7 @@ impl Reply {
 #[must_use]
 pub fn answer(question: &str, file: &[u8], progress: Progress<'_>) -> String {
     let told = serde_json::from_str(question).map_err(text).and_then(|question| told(question, file, progress));
-    match told.and_then(|told| json(&told)) {
+    match told.and_then(|told| serde_json::to_string(&told).map_err(text)) {
         Ok(told) => told,
         Err(error) => serde_json::json!({ "error": error }).to_string(),
     }
@@ -97,7 +98,7 @@ fn told(question: Question, file: &[u8], progress: Progress<'_>) -> Result<Reply
 
 /// As `--format json` prints it.
 fn json(answer: &impl Serialize) -> Result<String, String> {
-    serde_json::to_string(answer).map_err(text)
+    serde_json::to_string(&Versioned::new(answer)).map_err(text)
 }
 
 /// What a question is refused for, in the words of the command.

@@ -29,7 +29,7 @@ struct Plan {
     /// Of the symmetric bar with the same clatter, and of the middle of the restitution.
     q: Option<f64>,
     e: f64,
-    /// Whether instant impacts answer sooner than what the file asks for.
+    /// Whether there is an answer sooner than the one that the file asks for.
     quick: bool,
     components: Vec<Place>,
     masses: Vec<Place>,
@@ -58,7 +58,7 @@ pub(crate) fn plan(name: &str, given: &str) -> Result<Reply, String> {
         center_m: [0.5 * (a - b), width.map_or(0.0, |width| width.center_m())],
         q: bar.ok().map(|bar| bar.q()),
         e,
-        quick: width.is_none() && file.product.contact_time_s.is_some(),
+        quick: file.product.contact_time_s.is_some(),
         components: file.components.iter().map(|part| component(part, width.is_some())).collect(),
         masses: masses(given, width.is_some()),
     };

@@ -3,10 +3,10 @@
 use clatter::End;
 use clatter_answer::assess as assess_of;
 use clatter_assess::{
-    Accuracy, Assessment, Component, ComponentAssessment, LimitAssessment, LimitKind, Model, Portrait, ProductFile,
-    STANDARD_GRAVITY_M_S2, Unit, repeat, visible,
+    Accuracy, Assessment, Component, LimitAssessment, LimitKind, Model, Portrait, ProductFile, STANDARD_GRAVITY_M_S2,
+    Unit, repeat, visible,
 };
-use clatter_figures::{FigureError, Place};
+use clatter_figures::FigureError;
 use serde::Serialize;
 
 use crate::{Progress, Reply, json, quoted, text};
@@ -53,13 +53,19 @@ fn unit_of(component: &Component, limit: &LimitAssessment) -> (&'static str, f64
     }
 }
 
-/// The verdicts, and what stands beside each limit.
+/// Of the search of a plate or a box the first answer takes one in so many drops.
+const FIRST: usize = 8;
+
+/// The verdicts, and what stands beside each limit; of a plate or a box with the picture. A `quick` answer is by instant impacts, or what
+/// the first drops of a plate or a box ask.
 pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_>) -> Result<Reply, String> {
     let (file, warnings) = read(name, given)?;
-    let accuracy = Accuracy { model: quick.then_some(Model::FiniteTilt), ..Accuracy::default() };
+    let is_plate = file.product.width.is_some();
+    let model = (quick && !is_plate).then_some(Model::FiniteTilt);
+    let accuracy = Accuracy { model, ..Accuracy::default() };
     let answer = assess_of::watched(&file, &accuracy, &|done, all| {
         progress(done, all);
-        true
+        !(quick && is_plate) || FIRST * done < all
     });
     let answer = answer.map_err(|error| format!("{}: {error}", visible(name)))?;
     let shown = file.components.iter().zip(&answer.assessment.components).map(|(component, assessed)| {
@@ -71,9 +77,16 @@ pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_
         assessed.limits.iter().map(shown).collect::<Vec<_>>()
     });
     let shown = serde_json::to_value(shown.collect::<Vec<_>>()).map_err(text)?;
-    let model = if quick { format!(" --model={}", Model::FiniteTilt.name()) } else { String::new() };
+    let model = model.map_or_else(String::new, |model| format!(" --model={}", model.name()));
     let command = format!("clatter assess {}{model} --format=json", quoted(name));
-    Ok(Reply { answer: Some(json(&answer)?), command: Some(command), warnings, shown, ..Reply::default() })
+    // What was found so far no command repeats.
+    let command = (!quick || !is_plate).then_some(command);
+    let mut figures = Vec::new();
+    if is_plate {
+        let drawing = clatter_figures::assessed(&file, &answer.assessment, &[]).map_err(text)?;
+        figures.push(("From above, with the center of mass and the lines of percussion".to_owned(), drawing));
+    }
+    Ok(Reply { answer: Some(json(&answer)?), command, warnings, figures, shown })
 }
 
 /// Where each part would be safe; of each its worst drop over time and its demand over the tilt.
@@ -97,26 +110,13 @@ fn drawn(
     portraits: &[Portrait],
 ) -> Result<Vec<(String, String)>, FigureError> {
     let mut figures = Vec::new();
-    let body = &file.product.body;
-    let parts = || file.components.iter().zip(&assessment.components).zip(portraits);
     if file.product.width.is_none() {
-        let margin = |assessed: &ComponentAssessment| {
-            assessed.tightest().margin.map_or("?".to_owned(), |margin| format!("{:+.1} %", 100.0 * margin))
-        };
-        let words: Vec<String> = assessment.components.iter().map(margin).collect();
-        let places = parts().zip(&words).map(|(((component, assessed), portrait), word)| Place {
-            name: &component.name,
-            from_m: component.position_m.lo() - 0.5 * component.extent_m,
-            to_m: component.position_m.hi() + 0.5 * component.extent_m,
-            verdict: assessed.verdict,
-            word,
-            zone_m: portrait.zone_m,
-        });
-        let places: Vec<Place<'_>> = places.collect();
-        let drawing = clatter_figures::product(body.arms_m(), body.gyration_m(), &places)?;
-        figures.push(("Where each part would be safe".to_owned(), drawing));
+        figures.push((
+            "Where each part would be safe".to_owned(),
+            clatter_figures::assessed(file, assessment, portraits)?,
+        ));
     }
-    for ((component, assessed), portrait) in parts() {
+    for ((component, assessed), portrait) in file.components.iter().zip(&assessment.components).zip(portraits) {
         let limit = assessed.tightest();
         let (unit, si) = unit_of(component, limit);
         let what = match limit.limit {

@@ -152,14 +152,58 @@ test('on a plate a part moves both ways, and the latest change wins', async () =
   await drag('component-2', (10 * wide) / 220, (-5 * wide) / 220);
   await page.waitForFunction(() => document.getElementById('toml').value.includes('["-10 mm", "-20 mm"]'));
   assert.deepEqual(difference(old, await text()), [['position = ["-20 mm", "-25 mm"]', 'position = ["-10 mm", "-20 mm"]']]);
-  assert.match(await words('state'), /computing/);
+  assert.match(await words('state'), /computing|first drops/);
   // The plate takes seconds: it is left for a product that takes less.
   await changed(() => page.selectOption('#worked', 'laptop.toml'), 'Laptop');
   await page.waitForTimeout(300);
-  const lines = (await seen.jsonValue()).filter((line) => !line.startsWith('clatter assess laptop.toml'));
+  const lines = (await seen.jsonValue()).filter((line) => line && !line.startsWith('clatter assess laptop.toml'));
   assert.deepEqual(lines, [], 'no answer to what was left');
   await saved();
   await repeats('#product-command', 'assess');
+});
+
+for (const name of ['handheld-plate.toml', 'handheld-transit.toml']) {
+  test(`${name}: what the first drops ask comes first, then the answer of the command, with the picture`, async () => {
+    await page.evaluate(() => {
+      window.seen = [];
+      new MutationObserver(() => {
+        const rows = [...document.querySelectorAll('#limits .verdict')].map((cell) => cell.textContent);
+        window.seen.push({ rows, command: document.getElementById('product-command').textContent, took: { ...window.clatter.took } });
+      }).observe(document.getElementById('product-figures').lastElementChild, { childList: true });
+    });
+    await page.selectOption('#worked', name);
+    await page.waitForFunction((name) => document.querySelector('#product-command code')?.textContent.includes(name), name, {
+      timeout: 120_000,
+    });
+    const demands = async (of) =>
+      JSON.parse(await answer(of)).components.flatMap((part) => part.limits.map((limit) => limit.demand));
+    const [first, whole] = [await demands('first'), await demands('assess')];
+    assert.equal(first.length, whole.length);
+    first.forEach((demand, i) => assert.ok(demand > 0 && demand <= whole[i], `${demand} of ${whole[i]}`));
+    const verdicts = JSON.parse(await answer('first')).components.map((part) => part.verdict);
+    assert.ok(!verdicts.includes('safe'), 'no part is safe before the search is done');
+    const seen = await page.evaluate(() => window.seen);
+    console.log(`${name}: first ${seen[0].took.first} ms, whole ${seen.at(-1).took.whole} ms`);
+    assert.equal(seen[0].command, '', 'no command repeats what was found so far');
+    assert.ok(seen[0].took.first < 0.5 * seen.at(-1).took.whole, 'the first answer takes less than half of the time');
+    assert.match(await page.textContent('#product-figures figcaption'), /^From above/);
+    const svg = decodeURIComponent((await page.getAttribute('#product-figures img', 'src')).split(',').slice(1).join(','));
+    const parts = JSON.parse(await answer('assess')).components.map((part) => part.name);
+    parts.forEach((part) => assert.ok(svg.includes(`>${part}<`), `${part} is in the picture`));
+    await saved();
+    await repeats('#product-command', 'assess');
+    await page.locator('#product').screenshot({ path: join(target, `web/${name}.png`) });
+  });
+}
+
+test('the page and its pictures tell the version', async () => {
+  const version = run('clatter --version').stdout.trim();
+  assert.equal(await page.textContent('footer p'), version);
+  assert.equal(await page.getAttribute('meta[name=generator]', 'content'), version);
+  await page.waitForSelector('#product-figures img', { state: 'attached' });
+  const svg = decodeURIComponent(await page.getAttribute('#product-figures img', 'src'));
+  assert.ok(svg.includes(`<metadata>${version}</metadata>`), svg.slice(0, 400));
+  assert.equal(JSON.parse(await answer('impacts')).clatter, version.split(' ')[1]);
 });
 
 test('the first verdict comes long before the whole answer', async () => {

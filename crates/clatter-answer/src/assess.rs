@@ -15,7 +15,7 @@ use clatter_assess::fit::{Comparison, MeasuredDrop};
 use clatter_assess::{Accuracy, Assessment, Error, ProductFile, Watch};
 use serde::{Serialize, Serializer};
 
-use crate::Json;
+use crate::{Json, significant};
 
 /// A verdict on every limit, with its worst drop.
 #[derive(Debug, Clone)]
@@ -43,6 +43,58 @@ pub fn answer<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<Answer<'
 /// As [`ProductFile::assess_watched`].
 pub fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Answer<'a>, Error> {
     Ok(Answer { file, assessment: file.assess_watched(accuracy, watch)?, measured: Vec::new() })
+}
+
+impl Answer<'_> {
+    /// Where a product that was measured is not that of the file, and where nothing was found of one: the name of the drop, and what to
+    /// tell of it.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<(&str, String)> {
+        let of = |drop: &MeasuredDrop| match &drop.found {
+            Ok(fit) => fit.differs(self.file).iter().map(differs).collect(),
+            Err(reason) => vec![reason.clone()],
+        };
+        self.measured.iter().flat_map(|drop| of(drop).into_iter().map(|told| (drop.name.as_str(), told))).collect()
+    }
+}
+
+fn differs(beside: &Comparison<'_>) -> String {
+    let Said { what, measured, interval, stated } = Said::of(beside);
+    let interval = if interval.is_empty() { interval } else { format!(" ({interval})") };
+    format!("{what} was measured as {measured}{interval}; the verdict is for the {stated} that the product file states")
+}
+
+/// What was measured, beside what is stated, as people say it: to four digits, with units.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Said {
+    /// The quantity.
+    pub what: &'static str,
+    /// Its estimate.
+    pub measured: String,
+    /// Where it is by 95 %, without a unit; empty where that is not known.
+    pub interval: String,
+    /// What the product file has; empty where it has nothing.
+    pub stated: String,
+}
+
+impl Said {
+    /// In words.
+    #[must_use]
+    pub fn of(beside: &Comparison<'_>) -> Self {
+        let (what, factor, unit) = beside.estimate.quantity.said();
+        let four = |x: f64| significant(factor * x, 4);
+        let with = |text: String| format!("{text} {unit}").trim_end().to_owned();
+        let range = |[lo, hi]: [f64; 2]| {
+            let [lo, hi] = [lo, hi].map(four);
+            if lo == hi { lo } else { format!("{lo} to {hi}") }
+        };
+        Self {
+            what,
+            measured: with(four(beside.estimate.value)),
+            interval: beside.estimate.interval.map_or_else(String::new, range),
+            stated: beside.stated.map_or_else(String::new, |stated| with(range(stated))),
+        }
+    }
 }
 
 impl Serialize for Answer<'_> {

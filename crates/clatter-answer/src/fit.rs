@@ -14,14 +14,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod list;
+
 use clatter::End;
 use clatter_assess::ProductFile;
 use clatter_assess::fit::{
     self, Estimate, Explanation, Fit, Known, MOST_SAMPLES, Measured, MeasuredDrop, RecordFit, StrikeFit, Undetermined,
+    Written,
 };
 use serde::{Serialize, Serializer};
 
-use crate::{Error, Json, letter};
+pub use list::{List, options, refusal};
+
+use crate::{Error, Json, VERSION, letter};
 
 /// A record of a drop.
 #[derive(Debug, Clone)]
@@ -99,6 +104,24 @@ pub struct Answer<'a> {
     pub question: &'a Question<'a>,
     /// The drop.
     pub fit: Fit,
+}
+
+/// The first line of a product file that a fit was written into.
+const MADE_BY: &str = "# Fitted by clatter ";
+
+impl Answer<'_> {
+    /// [`fit::written`] below a line with the version of clatter; such a line of an earlier fit is replaced.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn written(&self, text: &str) -> Result<Written, String> {
+        let mut written = fit::written(text, &self.fit)?;
+        let text = written.text.trim_start_matches('\u{feff}');
+        let is_made = |line: &str| line.starts_with(MADE_BY);
+        let rest = text.split_once('\n').filter(|(line, _)| is_made(line)).map_or(text, |(_, rest)| rest);
+        written.text = format!("{MADE_BY}{VERSION}\n{rest}");
+        Ok(written)
+    }
 }
 
 /// Finds the nearest drop.

@@ -24,6 +24,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Whoever writes an answer writes it as [`Versioned`]: with the version that it is of.
+//!
 //! Where names have no units, velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a
 //! touches; positions in half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
 
@@ -42,13 +44,15 @@ pub mod scatter;
 pub mod simulate;
 pub mod spectrum;
 pub mod study;
+mod versioned;
 pub mod zone;
 
 use clatter::End;
 use clatter_assess::visible;
 use clatter_shock::Shape;
 pub use error::Error;
-pub use numbers::{Json, JsonCount, JsonWhole, figures, neat, whole};
+pub use numbers::{Json, JsonCount, JsonWhole, figures, neat, significant, whole};
+pub use versioned::{VERSION, Versioned};
 
 /// The letter of an end.
 #[must_use]

@@ -37,6 +37,19 @@ pub fn figures(x: f64) -> String {
     }
 }
 
+/// So many significant digits, without an exponent where [`figures`] has none.
+#[must_use]
+pub fn significant(x: f64, digits: i32) -> String {
+    let shown = figures(x);
+    if shown.contains('e') || !x.is_finite() || x == 0.0 {
+        return shown;
+    }
+    // From the rounded number, so that 9.9996 is 10.00.
+    let rounded = format!("{x:.*e}", usize::try_from(digits - 1).unwrap_or(0));
+    let exponent = rounded.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
+    format!("{x:.*}", usize::try_from(digits - 1 - exponent).unwrap_or(0))
+}
+
 /// A number without the digits that a conversion adds.
 #[must_use]
 pub fn neat(x: f64) -> f64 {

@@ -116,7 +116,7 @@ impl Args {
             (Format::Json, [one]) => streams.json(one),
             (Format::Json, all) => {
                 let named = self.products.iter().zip(all).map(|(file, answer)| Named { file, answer });
-                streams.json(&named.collect::<Vec<_>>())
+                streams.json_list(&named.collect::<Vec<_>>())
             }
             (Format::Table, [one]) => table::of_one(self.products[0].to_str().unwrap_or("-"), one, streams.out)
                 .and_then(|()| measured::table(one, streams.out))

@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use clap::{ArgAction, ValueHint};
 use clatter_answer::Error;
 use clatter_answer::fit::{self, Answer, Question};
-use clatter_assess::fit::written;
 use clatter_assess::units::Quantity;
 use clatter_assess::{LARGEST_FILE, ProductFile};
 
@@ -179,7 +178,8 @@ impl Args {
         let mut text = String::new();
         let file = File::open(source).map_err(unreadable)?;
         file.take(LARGEST_FILE as u64).read_to_string(&mut text).map_err(unreadable)?;
-        let written = written(&text, &answer.fit)
+        let written = answer
+            .written(&text)
             .map_err(|error| Failure::Wrong(format!("{} cannot take what was found: {error}", text::path(source))))?;
         output::replace(path, |out| out.write_all(written.text.as_bytes()))?;
         for note in written.notes {

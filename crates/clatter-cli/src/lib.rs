@@ -64,6 +64,7 @@ use std::sync::Mutex;
 
 use clap::error::ContextValue;
 use clap::{CommandFactory, Parser, Subcommand};
+use clatter_answer::Versioned;
 use serde::Serialize;
 
 use failure::Failure;
@@ -88,13 +89,23 @@ impl fmt::Debug for Streams<'_> {
 impl Streams<'_> {
     /// An answer for programs, on one line: all of it, or nothing.
     fn json(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
+        self.line(&Versioned::new(answer))
+    }
+
+    /// The same of several.
+    fn json_list(&mut self, answers: &[impl Serialize]) -> Result<(), Failure> {
+        self.line(&answers.iter().map(Versioned::new).collect::<Vec<_>>())
+    }
+
+    fn line(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
         let text = serde_json::to_string(answer).map_err(|error| Failure::Answer(error.into()))?;
         writeln!(self.out, "{text}").map_err(Failure::Answer)
     }
 
     /// The same for an answer that may not fit into memory: as it comes.
     fn long_json(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
-        serde_json::to_writer(&mut *self.out, answer).map_err(|error| Failure::Answer(error.into()))?;
+        serde_json::to_writer(&mut *self.out, &Versioned::new(answer))
+            .map_err(|error| Failure::Answer(error.into()))?;
         writeln!(self.out).map_err(Failure::Answer)
     }
 

@@ -1,7 +1,6 @@
 //! Lists of shocks, pulses and tests that come as files: a header that names the columns, in any order, and a row for
 //! each, in any notation of records.
 
-use std::io::Read;
 use std::path::Path;
 
 use clatter_assess::units::Dimension;
@@ -98,20 +97,11 @@ fn rows<const N: usize>(
     each: impl FnMut([Cell<'_>; N]) -> Result<(), String>,
 ) -> Result<(), Failure> {
     let unreadable = |reason| Failure::Unreadable { path: path.to_owned(), reason };
-    rows_of(path, input::open(path).map_err(unreadable)?, names, each)
-}
-
-/// The same of a file that is open already.
-pub(crate) fn rows_of<const N: usize>(
-    path: &Path,
-    input: impl Read,
-    names: [&str; N],
-    each: impl FnMut([Cell<'_>; N]) -> Result<(), String>,
-) -> Result<(), Failure> {
-    clatter_record::read_list(input, names, each).map_err(|reason| Failure::List { path: path.to_owned(), reason })
+    clatter_record::read_list(input::open(path).map_err(unreadable)?, names, each)
+        .map_err(|reason| Failure::List { path: path.to_owned(), reason })
 }
 
 /// The number of a cell.
-pub(crate) fn finite(name: &str, cell: Cell<'_>) -> Result<f64, String> {
+fn finite(name: &str, cell: Cell<'_>) -> Result<f64, String> {
     cell.number.ok_or_else(|| format!("{name}: '{}' is not a number such as 0.5", visible(cell.text)))
 }

@@ -21,7 +21,7 @@ use crate::{Failure, Streams, budget, npy, output, text};
 /// written:
 ///
 ///   .csv   a line q,e,QUANTITY for every point, e fastest
-///   .json  {"quantity", "threshold", "q": [...], "e": [...], "values": [[...], ...]}, a row for each
+///   .json  {"clatter", "quantity", "threshold", "q": [...], "e": [...], "values": [[...], ...]}, a row for each
 ///          q
 ///   .npy   the values as numpy loads them, a row for each q
 ///   .svg   a picture
@@ -139,7 +139,7 @@ impl Args {
         output::replace(path, |file| match kind {
             Kind::Npy => npy::write(file, map.q.points(), &map.values),
             Kind::Csv => buffered(file, |out| csv(map, out)),
-            Kind::Json => buffered(file, |out| Ok(serde_json::to_writer(out, &answer)?)),
+            Kind::Json => output::json(file, &answer),
             Kind::Svg | Kind::Parquet => file.write_all(clatter_figures::map(map)?.as_bytes()),
         })?;
         match self.format {

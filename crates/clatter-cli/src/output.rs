@@ -4,8 +4,10 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
+use clatter_answer::Versioned;
 use clatter_assess::ProductFile;
 use same_file::Handle;
+use serde::Serialize;
 
 use crate::input::is_standard;
 use crate::{Failure, measured};
@@ -96,6 +98,11 @@ pub(crate) fn buffered(
     out.flush()
 }
 
+/// An answer as a file for programs.
+pub(crate) fn json(file: &mut File, answer: &impl Serialize) -> io::Result<()> {
+    buffered(file, |out| Ok(serde_json::to_writer(out, &Versioned::new(answer))?))
+}
+
 /// [`clatter_report::replace`], with the file that could not be written in the message.
 pub(crate) fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
     clatter_report::replace(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
@@ -151,7 +158,7 @@ impl Files<'_> {
     pub(crate) fn spare_records(&self, file: &ProductFile, product: &Path) -> Result<(), Failure> {
         for output in self.writes.iter().filter(|output| !is_standard(output)) {
             let place = place_of(output)?;
-            let named = file.records.iter().map(|record| measured::path_of(record, product));
+            let named = file.records.iter().map(|record| measured::path_of(&record.file, product));
             if named.into_iter().any(|record| is_input(&place, &record)) {
                 return Err(Failure::NamedRecord { path: output.to_path_buf(), product: product.to_owned() });
             }

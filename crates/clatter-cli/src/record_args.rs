@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use clatter_answer::fit;
 use clatter_assess::RecordFile;
 use clatter_assess::units::{ACCELERATION, FREQUENCY};
 use clatter_record::{Options, Pick, Record, Units};
@@ -76,13 +77,9 @@ fn positive(value: f64) -> Result<f64, String> {
 impl RecordArgs {
     /// What a product file says of a record.
     pub(crate) fn of(record: &RecordFile, path: &Path) -> Result<Self, Failure> {
-        let units = record.units.as_deref().map(str::parse).transpose();
-        Ok(Self {
-            acceleration: record.acceleration.iter().flat_map(|column| column.parse()).collect(),
-            units: units.map_err(|reason| Failure::Record { path: path.to_owned(), reason })?,
-            sample_rate: record.sample_rate_hz,
-            ..Self::default()
-        })
+        let options = fit::options(record).map_err(|reason| Failure::Record { path: path.to_owned(), reason })?;
+        let Options { accelerations: acceleration, units, sample_rate_hz: sample_rate, .. } = options;
+        Ok(Self { acceleration, units, sample_rate, ..Self::default() })
     }
 
     /// The flag of what was told, where there is nothing to tell it of.

@@ -454,7 +454,7 @@ impl Computed<'_> {
         output::replace(&target.path, |file| match target.kind {
             Kind::Csv => buffered(file, |out| self.csv(out)),
             Kind::Svg => file.write_all(self.svg()?.as_bytes()),
-            _ => buffered(file, |out| Ok(serde_json::to_writer(out, &self.json())?)),
+            _ => output::json(file, &self.json()),
         })
     }
 

@@ -1,9 +1,9 @@
 //! Values as people say them: in common units, with as many digits as they are good for.
 
+use clatter_answer::significant;
 use clatter_assess::{STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
 
 use crate::inputs;
-use crate::numbers::figures;
 
 /// A value in the unit that it was written in, or else in the one that people use for it.
 pub(crate) fn in_words(unit: Unit, written: Option<&units::Unit>, value: f64) -> String {
@@ -22,18 +22,6 @@ pub(crate) fn in_words(unit: Unit, written: Option<&units::Unit>, value: f64) ->
 /// Four significant digits: more no drop is known to.
 pub(crate) fn four(x: f64) -> String {
     significant(x, 4)
-}
-
-/// So many significant digits, without an exponent where [`figures`] has none.
-fn significant(x: f64, digits: i32) -> String {
-    let shown = figures(x);
-    if shown.contains('e') || !x.is_finite() || x == 0.0 {
-        return shown;
-    }
-    // From the rounded number, so that 9.9996 is 10.00.
-    let rounded = format!("{x:.*e}", usize::try_from(digits - 1).unwrap_or(0));
-    let exponent = rounded.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
-    format!("{x:.*}", usize::try_from(digits - 1 - exponent).unwrap_or(0))
 }
 
 /// A margin, with its sign.

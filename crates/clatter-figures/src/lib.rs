@@ -7,6 +7,7 @@
 #![expect(clippy::missing_errors_doc, reason = "of every figure: what plotters says, which no input brings about")]
 #![allow(clippy::disallowed_methods, reason = "what is shown has few digits")]
 
+mod assessed;
 mod axis;
 mod chart;
 mod component;
@@ -27,6 +28,7 @@ mod shock;
 mod style;
 mod surface;
 
+pub use assessed::{assessed, reach_m};
 pub use axis::{raised, three, tick};
 pub use component::{Share, history, is_drawn, over_direction, over_tilt, shares};
 pub use design::{DesignBorder, DesignFronts, DesignPlane, fronts, plane as design_plane};

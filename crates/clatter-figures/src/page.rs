@@ -13,6 +13,9 @@ use plotters_backend::{
 
 use crate::style::{Anchor, FONT, Ink, Label, Pt, width};
 
+/// What every picture says of where it comes from.
+const MADE_BY: &str = concat!("clatter ", env!("CARGO_PKG_VERSION"));
+
 /// Units of a backend in a point.
 pub(crate) const UNITS: f64 = 100.0;
 
@@ -171,14 +174,14 @@ impl Page {
         );
     }
 
-    /// The picture, with what it shows as its title and what is drawn as its description.
+    /// The picture, with what it shows as its title and what is drawn as its description, and who made it.
     pub(crate) fn finish(self, title: &str, description: &str) -> String {
         let [w, h] = self.size.map(pt);
         let described =
             if description.is_empty() { String::new() } else { format!("<desc>{}</desc>\n", escape(description)) };
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}pt\" height=\"{h}pt\" viewBox=\"0 0 {w} {h}\" role=\"img\" \
-             font-family=\"{FONT}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>{}</title>\n{described}{}</svg>\n",
+             font-family=\"{FONT}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>{}</title>\n{described}<metadata>{MADE_BY}</metadata>\n{}</svg>\n",
             escape(title),
             self.body.borrow()
         )

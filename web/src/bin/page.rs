@@ -47,6 +47,7 @@ fn build() -> Result<String, String> {
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
     let wasm = packed(&compiled(root, &target)?).map_err(|error| error.to_string())?;
     let page = PAGE
+        .replace("/*version*/", env!("CARGO_PKG_VERSION"))
         .replace("/*style*/", STYLE)
         .replace("/*worker*/", WORKER)
         .replace("/*modules*/", &MODULES.join("\n"))

@@ -14,7 +14,7 @@ pub(super) fn write(target: &Target, answer: &Answer, component: [f64; 2]) -> Re
     output::replace(&target.path, |file| match target.kind {
         Kind::Csv => buffered(file, |out| csv(&answer.rule, out)),
         Kind::Svg => file.write_all(clatter_figures::rule(&answer.rule, component)?.as_bytes()),
-        _ => buffered(file, |out| Ok(serde_json::to_writer(out, answer)?)),
+        _ => output::json(file, answer),
     })
 }
 

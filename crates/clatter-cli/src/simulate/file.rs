@@ -21,7 +21,7 @@ impl Drop<'_> {
         }
         output::replace(path, |file| match kind {
             Kind::Csv => output::buffered(file, |out| self.history_csv(out)),
-            Kind::Json => output::buffered(file, |out| Ok(serde_json::to_writer(out, &self.answer.with_history())?)),
+            Kind::Json => output::json(file, &self.answer.with_history()),
             _ => output::buffered(file, |out| out.write_all(self.svg()?.as_bytes())),
         })
     }

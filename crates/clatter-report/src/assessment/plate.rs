@@ -3,7 +3,7 @@
 use clatter_assess::{Component, CornerStrike, LimitAssessment, PlaceMap, PlatePortrait, WorstCase};
 use clatter_figures::{
     Area, FigureError, HeatMap, Landing, Place, Strike, heat_map, is_drawn, landing, over_direction, plan as draw,
-    three,
+    reach_m, three,
 };
 use serde_json::{Value, json};
 
@@ -34,16 +34,6 @@ pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
         ],
     ),
 ];
-
-/// Where a part may be along the plate and across it.
-fn reach_m(component: &Component) -> [[f64; 2]; 2] {
-    let ends = component.ends_m();
-    let of = |side: usize| {
-        let all = ends.iter().map(|end| end[side]);
-        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], x| [from.min(x), to.max(x)])
-    };
-    [of(0), of(1)]
-}
 
 /// The plan with some of the parts, after as many others.
 pub(super) fn plan(

@@ -157,7 +157,7 @@ impl<W: Write> RowGroupWriter<W> {
         let count = i32::try_from(self.fields.len()).map_err(io::Error::other)?;
         let mut schema = vec![root(count)];
         schema.extend(self.fields.iter().map(element));
-        let program = "clatter".to_owned();
+        let program = concat!("clatter version ", env!("CARGO_PKG_VERSION")).to_owned();
         let metadata = FileMetaData::new(2, schema, self.rows, self.groups, entries, program, None, None, None);
         let mut end = Vec::new();
         metadata.write_to_out_protocol(&mut TCompactOutputProtocol::new(&mut end)).map_err(io::Error::other)?;

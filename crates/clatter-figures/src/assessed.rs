@@ -1,0 +1,55 @@
+//! An assessed product with its parts.
+
+use clatter_assess::{Assessment, Component, ComponentAssessment, Portrait, ProductFile};
+
+use crate::{Area, FigureError, Place, plan, product};
+
+/// The product as a printed report shows it: a plate or a box from above, a bar from the side with where each part would be safe, which
+/// `portraits` know; of the others they may be left out.
+///
+/// ```
+/// use clatter_assess::{EXAMPLE, ProductFile};
+/// let file = ProductFile::read(EXAMPLE, "example.toml")?;
+/// let assessment = file.assess()?;
+/// let drawn = clatter_figures::assessed(&file, &assessment, &file.portraits(&assessment))?;
+/// assert!(drawn.contains(">display<"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn assessed(file: &ProductFile, assessment: &Assessment, portraits: &[Portrait]) -> Result<String, FigureError> {
+    let margin = |assessed: &ComponentAssessment| {
+        assessed.tightest().margin.map_or("?".to_owned(), |margin| format!("{:+.1} %", 100.0 * margin))
+    };
+    let words: Vec<String> = assessment.components.iter().map(margin).collect();
+    let parts = file.components.iter().zip(&assessment.components).zip(&words).enumerate();
+    if let Some(plate) = file.product.plate() {
+        let area = parts.map(|(i, ((component, assessed), word))| Area {
+            number: i + 1,
+            name: &component.name,
+            reach_m: reach_m(component),
+            verdict: assessed.verdict,
+            word,
+        });
+        return plan(&plate, &area.collect::<Vec<_>>());
+    }
+    let place = parts.map(|(i, ((component, assessed), word))| Place {
+        name: &component.name,
+        from_m: component.position_m.lo() - 0.5 * component.extent_m,
+        to_m: component.position_m.hi() + 0.5 * component.extent_m,
+        verdict: assessed.verdict,
+        word,
+        zone_m: portraits.get(i).and_then(|portrait| portrait.zone_m),
+    });
+    let body = &file.product.body;
+    product(body.arms_m(), body.gyration_m(), &place.collect::<Vec<_>>())
+}
+
+/// Where a part may be along a plate and across it, in m from the middle.
+#[must_use]
+pub fn reach_m(component: &Component) -> [[f64; 2]; 2] {
+    let ends = component.ends_m();
+    let of = |side: usize| {
+        let all = ends.iter().map(|end| end[side]);
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], x| [from.min(x), to.max(x)])
+    };
+    [of(0), of(1)]
+}

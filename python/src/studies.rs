@@ -1,0 +1,152 @@
+//! Studies in shards: drawn into files, and merged.
+
+use std::fs::File;
+use std::io::{BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+use clatter_answer::study::{Answer, Merge, Parts, Shard, Study};
+use clatter_assess::{LARGEST_FILE, Plan, ProductFile, visible};
+use clatter_record::{RowGroupWriter, RowGroups};
+use pyo3::prelude::*;
+use serde::Serialize;
+
+use crate::answered::{Answered, json};
+use crate::measured::Refused;
+use crate::work::{self, Wanted};
+
+/// What was done, as the command has it.
+#[derive(Serialize)]
+struct Done<'a> {
+    part: &'a Path,
+    shard: [u64; 2],
+    rows: [u64; 2],
+    of: u64,
+    skipped: bool,
+}
+
+/// Draws a shard of a plan into a file; its JSON, and what is odd in the product.
+#[pyfunction]
+pub(crate) fn study(
+    py: Python<'_>,
+    plan: PathBuf,
+    shard: [u64; 2],
+    output: PathBuf,
+    force: bool,
+) -> PyResult<(String, String)> {
+    let [index, of] = shard;
+    Ok(work::done(py, move |wanted| draw(&plan, Shard { index, of }, &output, force, wanted))??)
+}
+
+fn draw(plan: &Path, shard: Shard, output: &Path, force: bool, wanted: &Wanted) -> Result<(String, String), Refused> {
+    let read = Plan::read(&text_of(plan)?, &plan.to_string_lossy()).map_err(words)?;
+    let product = plan.parent().unwrap_or(Path::new("")).join(&read.product);
+    let (text, origin) = (text_of(&product)?, product.to_string_lossy());
+    let odd = ProductFile::read_warned(&text, &origin).map_err(words)?.1;
+    let warnings = if odd.warnings().is_empty() { String::new() } else { odd.to_string() };
+    let study = Study::new(read, &text, &origin).map_err(words)?;
+    let (rows, notes) = (study.rows_of(shard).map_err(words)?, study.notes(shard).map_err(words)?);
+    let skipped = !force && is_there(output, &notes, rows.end - rows.start)?;
+    if !skipped {
+        let written = clatter_report::replace(output, |file| {
+            let mut writer = RowGroupWriter::new(BufWriter::with_capacity(1 << 16, file), study.fields())?;
+            study.write(rows.clone(), &|_| (), |group| {
+                wanted.or_leave();
+                writer.write(group)
+            })?;
+            let notes: Vec<_> = notes.iter().map(|(name, note)| (*name, note.as_str())).collect();
+            writer.finish(&notes)?.flush()
+        });
+        written.map_err(|error| Refused::System(output.to_owned(), error))?;
+    }
+    let Shard { index, of } = shard;
+    let done = Done { part: output, shard: [index, of], rows: [rows.start, rows.end], of: study.rows(), skipped };
+    Ok((json(&done)?, warnings))
+}
+
+/// Whether a file is this very part. One that is another is not written over.
+fn is_there(path: &Path, notes: &[(&str, String)], rows: u64) -> Result<bool, Refused> {
+    let Ok(file) = File::open(path) else { return Ok(false) };
+    let same = RowGroups::new(file).is_ok_and(|part| {
+        let all: u64 = part.rows().iter().map(|rows| *rows as u64).sum();
+        all == rows && notes.iter().all(|(name, note)| part.note(name) == Some(note))
+    });
+    let other =
+        || words(format!("{} is there already, and is not this shard: choose another name, or give force", name(path)));
+    if same { Ok(true) } else { Err(other()) }
+}
+
+/// The answer of all shards of a plan.
+#[pyfunction]
+pub(crate) fn merge(py: Python<'_>, parts: Vec<PathBuf>, confidence: f64, target: Option<f64>) -> PyResult<Answered> {
+    let told = work::done(py, move |wanted| {
+        let mut told = Parts::default();
+        for path in &parts {
+            let part = open(path)?;
+            told.add(&name(path), |key| part.note(key)).map_err(words)?;
+        }
+        let (plan, product) = told.plan_and_product().unwrap_or_default();
+        let first = parts.first().map_or_else(String::new, |path| name(path));
+        let plan = Plan::read(plan, &format!("the plan in {first}")).map_err(words)?;
+        let study = Study::new(plan, product, &format!("the product in {first}")).map_err(words)?;
+        if target.is_some() && study.plan().search {
+            return Err(words("target is of drops that are drawn, and the plan is a search"));
+        }
+        let mut answer = merged(&parts, &told, &study, confidence, wanted)?;
+        answer.target = target;
+        Ok(json(&answer)?)
+    });
+    Ok((told??, None))
+}
+
+fn merged<'a>(
+    paths: &[PathBuf],
+    parts: &Parts,
+    study: &'a Study,
+    confidence: f64,
+    wanted: &Wanted,
+) -> Result<Answer<'a>, Refused> {
+    let fields: Vec<String> = study.fields().into_iter().map(|field| field.name).collect();
+    let columns = study.counted();
+    let mut merge = Merge::new(study, confidence).map_err(words)?;
+    for (i, rows) in parts.in_order(study).map_err(words)? {
+        let path = &paths[i];
+        let damaged = |what: &dyn std::fmt::Display| words(format!("{} is damaged: {what}", name(path)));
+        let mut part = open(path)?;
+        let all: u64 = part.rows().iter().map(|rows| *rows as u64).sum();
+        if part.names() != fields || all != rows.end - rows.start {
+            return Err(damaged(&"its columns or rows are not those of its plan"));
+        }
+        for group in 0..part.rows().len() {
+            wanted.or_leave();
+            let read = columns.iter().map(|column| part.read(group, *column));
+            let read = read.collect::<Result<Vec<_>, _>>().map_err(|error| torn(path, &error))?;
+            merge.take(&read.iter().map(Vec::as_slice).collect::<Vec<_>>()).map_err(|error| damaged(&error))?;
+        }
+    }
+    merge.finish().map_err(words)
+}
+
+fn open(path: &Path) -> Result<RowGroups<File>, Refused> {
+    let file = File::open(path).map_err(|error| Refused::System(path.to_owned(), error))?;
+    RowGroups::new(file).map_err(|error| torn(path, &error))
+}
+
+fn torn(path: &Path, error: &clatter_record::Error) -> Refused {
+    words(format!("{}: {error}", name(path)))
+}
+
+fn name(path: &Path) -> String {
+    visible(&path.to_string_lossy()).into_owned()
+}
+
+fn words(why: impl std::fmt::Display) -> Refused {
+    Refused::Words(why.to_string())
+}
+
+/// The text of a file, of a size that product files have.
+fn text_of(path: &Path) -> Result<String, Refused> {
+    let mut text = String::new();
+    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_string(&mut text));
+    read.map_err(|error| Refused::System(path.to_owned(), error))?;
+    Ok(text)
+}
