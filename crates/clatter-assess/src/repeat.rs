@@ -150,7 +150,7 @@ impl WorstCase {
         add("thickness-m", &[posture.thickness_m]);
         add("gyration-m", &[libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)]);
         let ([xz, yz], xy) = (depth.products_of_inertia_m2, width.product_of_inertia_m2);
-        if [xy, xz, yz] != [0.0; 3] {
+        if xy != 0.0 || xz != 0.0 || yz != 0.0 {
             add("product-of-inertia-m2", &[xy, xz, yz]);
         }
         add("center-of-mass-m", &[0.5 * (a - b), width.center_m(), depth.center_m]);

@@ -372,9 +372,9 @@ fn places_between_the_ends_of_a_part_are_answered() {
     }
 }
 
-/// A hair of askew masses changes nothing, though no box has them: what real tilt adds is told by the same share.
+/// A hair of askew masses changes nothing of what real tilt adds.
 #[test]
-fn what_real_tilt_adds_is_scaled_where_masses_lie_askew() {
+fn what_real_tilt_adds_does_not_jump_where_masses_lie_askew() {
     let even = "radius_of_gyration = [\"43 mm\", \"20 mm\"]\ncenter_of_mass = [\"0 mm\", \"0 mm\"]";
     let masses = |y: &str| {
         format!(

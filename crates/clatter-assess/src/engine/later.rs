@@ -297,12 +297,12 @@ mod tests {
         let hangs = drop.gravity_m_s2 / (part.omega() * part.omega());
         let limit = Limit::new(crate::LimitKind::RattleSpace, hangs);
         let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
-        let weights = (up.carried_m_s2(), up.weight_to_come_m_s2());
+        let weights = (up.carried_m_s2(&Spot::from([0.0; 2])), up.weight_to_come_m_s2());
         assert!(up.is_early() && weights == (0.0, 9.81), "{} {weights:?} {:?}", up.is_early(), up.motion.stop());
         let up = PlaceHistory::new(&up, [0.0; 2]).unwrap();
         let said = up.later_most(&limit, [&part], 0.0);
         let still = Followed::new(&drop, Model::Compliant, 0.01).unwrap();
-        assert_eq!((still.carried_m_s2(), still.weight_to_come_m_s2()), (9.81, 0.0));
+        assert_eq!((still.carried_m_s2(&Spot::from([0.0; 2])), still.weight_to_come_m_s2()), (9.81, 0.0));
         let still = PlaceHistory::new(&still, [0.0; 2]).unwrap();
         let asked = still.answer(&limit, Some(&part), 0.0).unwrap().unwrap().utilization();
         // 1 + √(1 + x²) with what the fall alone moves it by, x = v ω/g = 0.19; bounces bring both about within a tenth of a period.

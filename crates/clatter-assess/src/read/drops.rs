@@ -29,7 +29,9 @@ impl Reader {
             let mut landings = self.landings(section, product);
             let drop = self.drop(section);
             if let (Some(drop), false) = (&drop, section.table.contains_key("standard")) {
-                landings.iter_mut().for_each(|landing| landing.fall = drop.fall);
+                for landing in &mut landings {
+                    landing.fall = drop.fall;
+                }
             }
             for landing in landings {
                 if all.iter().any(|other| other.is_same(&landing)) {
