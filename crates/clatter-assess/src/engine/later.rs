@@ -309,4 +309,31 @@ mod tests {
         assert!((asked - 2.0).abs() < 0.1, "{asked}");
         assert!(said >= asked && said < 1.5 * asked, "{said} of {asked}");
     }
+
+    /// Bounces that lose a hundredth are given up: what is left are geometric series, of both ends of a bar and of four corners of a plate.
+    #[test]
+    fn bounces_that_were_given_up_are_those_of_all_points() {
+        let width =
+            Width { edges_m: [0.04; 2], gyration_m: 0.023, product_of_inertia_m2: 0.0, thickness_m: None, depth: None };
+        for (across, points) in [(None, 2.0), (Some(Across { width, direction_rad: 0.3, posture: None }), 4.0)] {
+            let drop = SingleDrop {
+                body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
+                across,
+                first: clatter::End::A,
+                tilt_rad: 0.02,
+                flat: false,
+                speed_m_s: 3.0,
+                restitution: 0.99,
+                gravity_m_s2: 9.81,
+                contact_time_s: Some(2e-4),
+                contact_law: ContactLaw::Hysteretic,
+            };
+            let followed = Followed::new(&drop, Model::Compliant, 0.01).unwrap();
+            assert!(followed.is_given_up(), "{:?}", followed.motion.stop());
+            let later = PlaceHistory::new(&followed, [0.0; 2]).unwrap().later();
+            let series: f64 = (0..5000).map(|n| 0.99_f64.powi(n)).sum();
+            let in_turn = later.given_up.expect("given up").in_turn;
+            assert!((in_turn / (points * series) - 1.0).abs() < 1e-9, "{in_turn}");
+        }
+    }
 }
