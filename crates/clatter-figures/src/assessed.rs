@@ -16,8 +16,10 @@ use crate::{Area, FigureError, Place, plan, product};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn assessed(file: &ProductFile, assessment: &Assessment, portraits: &[Portrait]) -> Result<String, FigureError> {
-    let margin = |assessed: &ComponentAssessment| {
-        assessed.tightest().margin.map_or("?".to_owned(), |margin| format!("{:+.1} %", 100.0 * margin))
+    let margin = |assessed: &ComponentAssessment| match assessed.tightest().margin {
+        None => "?".to_owned(),
+        Some(margin) if margin.is_infinite() => "–".to_owned(),
+        Some(margin) => format!("{:+.1} %", 100.0 * margin).replace('-', "−"),
     };
     let words: Vec<String> = assessment.components.iter().map(margin).collect();
     let parts = file.components.iter().zip(&assessment.components).zip(&words).enumerate();
