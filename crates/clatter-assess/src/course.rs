@@ -126,14 +126,12 @@ fn axes() -> impl Iterator<Item = [f64; 3]> {
 }
 
 /// Directions along a plate, between which the change of its angular velocity is at most half a percent more than along one of them.
-const DIRECTIONS: u32 = 16;
+pub(crate) const DIRECTIONS: u32 = 16;
 
-/// Directions all over half a turn.
-fn directions() -> impl Iterator<Item = [f64; 2]> {
-    (0..DIRECTIONS).map(|k| {
-        let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(k) / f64::from(DIRECTIONS));
-        [cos, sin]
-    })
+/// One of the directions all over half a turn.
+fn direction(k: u32) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(k) / f64::from(DIRECTIONS));
+    [cos, sin]
 }
 
 impl Course {
@@ -170,11 +168,15 @@ impl Course {
             pressed.map(|(strike, press)| (strike.point, [press.from_s, press.until_s])).collect()
         }, block => block.presses().collect())
     }
+    /// The angular acceleration of a plate in one of its directions, in rad where what a place feels has m; none of other bodies.
+    pub(crate) fn turned_in(&self, k: u32) -> Option<Excitation> {
+        if let Self::Plate(motion) = self { Some(motion.turned(direction(k))) } else { None }
+    }
     /// The angular acceleration, in rad where what a place feels has m: of a plate and of a box about several axes, one after the other.
     pub(crate) fn turned(&self) -> Box<dyn Iterator<Item = Excitation> + '_> {
         match self {
             Self::Bar(motion) => Box::new(std::iter::once_with(|| motion.turned())),
-            Self::Plate(motion) => Box::new(directions().map(|along| motion.turned(along))),
+            Self::Plate(motion) => Box::new((0..DIRECTIONS).map(|k| motion.turned(direction(k)))),
             Self::Block(motion) => Box::new(axes().map(|about| motion.turned_about(about))),
         }
     }
@@ -224,7 +226,7 @@ mod tests {
     fn axes_of_turning_lie_all_over() {
         for k in 0..720 {
             let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 720.0).sin_cos();
-            let along = directions().map(|[x, y]| (cos * x + sin * y).abs()).fold(0.0, f64::max);
+            let along = (0..DIRECTIONS).map(direction).map(|[x, y]| (cos * x + sin * y).abs()).fold(0.0, f64::max);
             assert!(along > 0.995, "{k}: {along}");
             for z in [-0.9_f64, -0.5, 0.0, 0.3, 0.7, 1.0] {
                 let across = (1.0 - z * z).sqrt();

@@ -634,6 +634,26 @@ mod tests {
         assert!(drop.clear_s() > 2e-4 && drop.clear_s() < flight_s, "{} of {flight_s}", drop.clear_s());
     }
 
+    /// Of plates that tumble over several corners too the largest turn is that of all directions.
+    #[test]
+    fn the_largest_turn_of_a_plate_is_that_of_all_directions() {
+        let mut off = 0.0_f64;
+        for n in 0..60_u32 {
+            let x = |k: u32| f64::from((n * k + 7) % 61) / 61.0;
+            let mut drop = dropped([0.15, 0.04 + 0.1 * x(11), 0.004], [0.043, 0.012 + 0.03 * x(11)], 0.01 * x(5));
+            drop.across = drop.across.map(|across| Across { direction_rad: TAU * x(17), posture: None, ..across });
+            (drop.tilt_rad, drop.restitution) = (0.2 * x(23), 0.1 + 0.5 * x(29));
+            drop.first = drop.across.unwrap().first();
+            let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+            let all = crate::shock::largest(&followed.turns()).change;
+            let most = followed.largest_turn(0.0).unwrap().change;
+            off = off.max(1.0 - most / all);
+            assert!(followed.largest_turn(1.001 * all).is_none() && most <= all, "{n}: {most} of {all}");
+            assert!(followed.largest_turn(0.9 * all).is_some(), "{n}: {all}");
+        }
+        assert!(off < 1e-12, "{off} is missed");
+    }
+
     /// The largest turn of a box is found wherever it is above what is asked for, and only there.
     #[test]
     fn the_largest_turn_of_a_box_is_not_passed_over() {

@@ -8,7 +8,7 @@
 
 use clatter::{Excitation, Section};
 
-use crate::course::Course;
+use crate::course::{Course, DIRECTIONS};
 use crate::drop::Followed;
 
 /// One shock.
@@ -24,6 +24,8 @@ pub(crate) struct Shock {
     pub(crate) time_s: f64,
 }
 
+/// Below this share of the largest no shock in a direction half a right angle off is the largest between.
+const NEAR_LARGEST: f64 = 0.85;
 /// About one axis a shock may reach further than that of the magnitude: axes are looked at from this share on.
 const NEAR_AT_ALL: f64 = 0.7;
 
@@ -45,12 +47,30 @@ impl Followed {
     /// only where the magnitude comes near that.
     pub(crate) fn largest_turn(&self, above: f64) -> Option<Shock> {
         let passes = |shock: &Shock| shock.change > above;
-        if let Course::Block(motion) = &self.motion
-            && largest(&shocks(&motion.turned_at_all(), 0.0)).change < NEAR_AT_ALL * above
-        {
+        match &self.motion {
+            Course::Block(motion) if largest(&shocks(&motion.turned_at_all(), 0.0)).change < NEAR_AT_ALL * above => {
+                None
+            }
+            Course::Plate(_) => self.largest_turn_of_plate(above).filter(passes),
+            Course::Bar(_) | Course::Block(_) => Some(largest(&self.turns())).filter(passes),
+        }
+    }
+
+    /// Of a plate directions half a right angle apart are looked at first: each shock is within cos 22.5° = 0.92 of what it is in one of
+    /// them. Others follow next to those that come near the largest.
+    fn largest_turn_of_plate(&self, above: f64) -> Option<Shock> {
+        let in_direction =
+            |k: u32| self.motion.turned_in(k).map_or(Shock::NONE, |turned| largest(&shocks(&turned, 0.0)));
+        let apart = DIRECTIONS / 4;
+        let first: Vec<Shock> = (0..4).map(|n| in_direction(n * apart)).collect();
+        let most = largest(&first);
+        if most.change < NEAR_AT_ALL * above {
             return None;
         }
-        Some(largest(&self.turns())).filter(passes)
+        let is_near = |n: usize| first[n % 4].change > NEAR_LARGEST * most.change;
+        let between = (0..DIRECTIONS).filter(|k| k % apart != 0);
+        let near = between.filter(|k| [k / apart, k / apart + 1].into_iter().any(|n| is_near(n as usize)));
+        Some(near.map(in_direction).fold(most, |most, shock| if shock.change > most.change { shock } else { most }))
     }
 
     /// The same of the turning of the product; of a plate about the axis of the largest.
