@@ -1,5 +1,9 @@
 //! From a product to its verdict.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
 use crate::bound::bound;
 use crate::drop::{Model, Posture, SingleDrop};
 use crate::engine::answer;
@@ -152,20 +156,26 @@ impl ProductFile {
                 laws(ranges).into_iter().map(|law| Ranges { law, ..ranges }).collect()
             })
             .collect();
-        let count = searched.iter().map(Vec::len).sum::<usize>();
-        let mut worst: Vec<Vec<Vec<Worst>>> = Vec::with_capacity(listed.len());
-        let mut before = 0;
-        for (listed, laws) in searched.iter().enumerate() {
-            let mut of_drop = Vec::with_capacity(laws.len());
-            for (n, ranges) in laws.iter().enumerate() {
-                let watch = |done, all| watch(before * all + done, count * all);
-                match ranges.worst(&tasks, &all_tasks, most[n], &watch) {
-                    Ok(of_law) => of_drop.push(of_law),
+        let numbered = searched.iter().map(Vec::len).enumerate();
+        let searches: Vec<(usize, usize)> =
+            numbered.flat_map(|(listed, laws)| (0..laws).map(move |n| (listed, n))).collect();
+        let mut worst: Vec<Vec<Vec<Worst>>> = searched.iter().map(|_| Vec::new()).collect();
+        let progress =
+            SideBySide { done: AtomicUsize::new(0), told: AtomicUsize::new(0), count: searches.len(), watch };
+        for some in searches.chunks(SIDE_BY_SIDE) {
+            let search = |&(listed, n): &(usize, usize)| {
+                let watch = |done, all| progress.goes_on(done, all);
+                let found = searched[listed][n].worst(&tasks, &all_tasks, most[n], &watch);
+                progress.done.fetch_add(1, Ordering::Relaxed);
+                found
+            };
+            let found: Vec<Result<Vec<Worst>, Place>> = some.par_iter().map(search).collect();
+            for (&(listed, n), found) in some.iter().zip(found) {
+                match found {
+                    Ok(of_law) => worst[listed].push(of_law),
                     Err(place) => return Ok(Err(Breaker { other_law: n > 0, listed, place })),
                 }
-                before += 1;
             }
-            worst.push(of_drop);
         }
         // Of each limit by each law, what every drop that is listed says.
         let judged = |n: usize, task: &Task<'_>, drop: usize| -> Result<Vec<Judged>, Error> {
@@ -179,10 +189,11 @@ impl ProductFile {
         for component in these {
             let mut limits = Vec::new();
             for (n, task) in all.by_ref().take(component.limits.kinds().len()) {
-                let mut of_drops = Vec::with_capacity(listed.len());
-                for (drop, laws) in searched.iter().enumerate() {
-                    of_drops.push(self.limit(&laws[0], task, judged(n, task, drop)?));
-                }
+                let said = |drop: usize| Ok(self.limit(&searched[drop][0], task, judged(n, task, drop)?));
+                let of_drops: Vec<Result<LimitAssessment, Error>> =
+                    (0..listed.len()).into_par_iter().map(said).collect();
+                // The first of all errors, not the fastest.
+                let of_drops = of_drops.into_iter().collect::<Result<Vec<_>, _>>()?;
                 for (landing, limit) in landings.iter_mut().zip(&of_drops) {
                     landing.take(component, limit);
                 }
@@ -348,6 +359,30 @@ impl ProductFile {
             undecided: if verdict == Verdict::Undecided { doubts } else { Vec::new() },
             notes,
         }
+    }
+}
+
+/// Searches that are made side by side: of each drop that is listed by each law. The first of all that is left tells why, the same on any
+/// number of threads.
+const SIDE_BY_SIDE: usize = 8;
+
+/// The progress of searches side by side.
+struct SideBySide<'a> {
+    /// Searches that are over.
+    done: AtomicUsize,
+    /// What was told, which never goes back.
+    told: AtomicUsize,
+    count: usize,
+    watch: Watch<'a>,
+}
+
+impl SideBySide<'_> {
+    /// Tells that of one search so much is done, and says whether to go on.
+    fn goes_on(&self, done: usize, all: usize) -> bool {
+        const PARTS: usize = 10_000;
+        let parts = self.done.load(Ordering::Relaxed) * PARTS + done * PARTS / all.max(1);
+        let told = self.told.fetch_max(parts, Ordering::Relaxed).max(parts);
+        (self.watch)(told.min(self.count * PARTS), self.count * PARTS)
     }
 }
 
