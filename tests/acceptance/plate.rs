@@ -101,6 +101,27 @@ fn the_safe_zone_of_a_plate_is_a_rhombus_cut_by_its_edges() {
     assert!(share(&one) > share(&all), "one drop leaves more room than all: {one} {all}");
 }
 
+/// A sector for each order of corners in each quarter; of a plate whose center of mass is not in the middle the one of corner a.
+#[test]
+fn an_atlas_is_drawn_as_a_ring() {
+    let areas = |body: &[&str]| {
+        let args = [&["atlas", "--e=0.3", "-o", "-"], body].concat();
+        let svg = clatter(args).stdout;
+        assert!(svg.starts_with("<svg") && svg.contains("Where the plate rises to"), "{svg:.200}");
+        svg.matches("stroke=\"#ffffff\"").count()
+    };
+    let words = |body: &[&str]| answer([&["atlas", "--e=0.3"], body].concat())["words"].as_array().unwrap().len();
+    assert_eq!(areas(&[UNIFORM]), 4 * words(&[UNIFORM]));
+    let off = ["--gyration-ratio=0.5,0.6", "--center-of-mass=0.1,-0.2"];
+    assert_eq!(areas(&off), words(&off));
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("ring.svg").display().to_string();
+    let told = clatter(["atlas", UNIFORM, "--e=0.3", "-o", &path]);
+    assert!(told.stdout.contains("acdabcd") && std::fs::read_to_string(&path).unwrap().contains("acdabcd"));
+    let refused = clatter(["atlas", UNIFORM, "--e=0.3", "-o", "ring.png"]);
+    assert!(refused.exit == Exit::BadInput && refused.stderr.contains(".svg"), "{}", refused.stderr);
+}
+
 #[test]
 fn an_atlas_covers_all_directions() {
     let got = answer(["atlas", UNIFORM, "--e=0.3"]);

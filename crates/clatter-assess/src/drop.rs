@@ -229,7 +229,8 @@ impl SingleDrop {
     /// When a box lies as a rule: after all of its bounces and ten times of falling over. One that balances on an edge is left then.
     fn settled_s(&self) -> f64 {
         let bounces_s = 2.0 * self.restitution / (1.0 - self.restitution) * self.speed_m_s / self.gravity_m_s2;
-        self.clatter_s() + bounces_s + 10.0 * (self.reach_m() / self.gravity_m_s2).sqrt()
+        // Without gravity and restitution there are none.
+        self.clatter_s() + bounces_s.max(0.0) + 10.0 * (self.reach_m() / self.gravity_m_s2).sqrt()
     }
     /// When a body has bounced clear: after its clatter and a quarter of the flight of 2 e v0/g.
     pub(crate) fn clear_s(&self) -> f64 {
@@ -618,6 +619,12 @@ mod tests {
         // It lies on its broad side, but for some that turns on about the vertical and dents.
         assert!((z.abs() - 9.81).abs() < 0.1 && x.abs() < 0.5 && y.abs() < 0.5, "{x}, {y}, {z}");
         assert!((any - (x * x + y * y + z * z).sqrt()).abs() < 1e-12 && followed.weight_to_come_m_s2() == 0.0);
+        for (restitution, gravity_m_s2) in [(0.0, 0.0), (0.5, 0.0), (1.0, 9.81), (0.0, 9.81)] {
+            assert!(
+                SingleDrop { restitution, gravity_m_s2, ..drop }.settled_s() > 0.3,
+                "{restitution}, {gravity_m_s2}"
+            );
+        }
         // Left in flight, it has its weight still to come.
         let left = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let weights = [left.weight_to_come_m_s2(), left.carried_m_s2(&Spot::from([0.0; 2]))];

@@ -1,13 +1,17 @@
 //! `clatter atlas`: what every direction of tilt of a plate leads to.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 
+use clap::ValueHint;
 use clatter::Plate;
 use clatter_answer::atlas::{self, Answer, Peak, Question};
 
+use crate::input::is_standard;
 use crate::inputs::{FallingBody, OffCenterArgs, RowFormat};
 use crate::numbers::{digits, figures, given};
-use crate::{Failure, Streams};
+use crate::output::Files;
+use crate::{Failure, Streams, output};
 
 /// List what every direction of tilt of a plate leads to: its words of corners, and the worst of all
 ///
@@ -21,6 +25,7 @@ use crate::{Failure, Streams};
 #[command(after_help = "\
 Examples:
   clatter atlas --gyration-ratio=0.577350269,0.577350269 --e=0.3          a uniform plate of any aspect
+  clatter atlas --gyration-ratio=0.577350269,0.577350269 --e=0.3 -o ring.svg        every direction as a ring
   clatter atlas --gyration-ratio=0.5,0.6 --center-of-mass=0.1,-0.2 --e=0.3 --format=json
 
 'clatter --help' tells what the corners and the units are.")]
@@ -30,13 +35,21 @@ pub(crate) struct Args {
     /// Follow at most so many strikes of each direction, from 1 to 100
     #[arg(long, value_name = "N", default_value = "40", allow_hyphen_values = true, value_parser = crate::inputs::limit)]
     limit: usize,
+    /// Write the directions as a ring, each as far out as its largest shock; - writes it to standard output in place of the answer
+    #[arg(short, long, value_name = "FILE.svg", value_hint = ValueHint::FilePath, value_parser = output::ending("svg"))]
+    output: Option<PathBuf>,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = RowFormat::Table)]
     format: RowFormat,
 }
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files { reads: Vec::new(), writes: self.output.iter().map(AsRef::as_ref).collect() }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        output::in_place_of_answer(self.output.as_deref(), matches!(self.format, RowFormat::Table))?;
         let FallingBody::Plate(plate) = self.body.body()? else {
             return Err(Failure::Usage(
                 "an atlas is that of a plate: give --gyration-ratio=KX,KY, its two gyration ratios",
@@ -45,6 +58,14 @@ impl Args {
         let mut question = Question::new(plate);
         question.limit = self.limit;
         let answer = atlas::answer(&question).map_err(Failure::flag("--limit"))?;
+        if let Some(path) = &self.output {
+            let ring = plate.atlas(self.limit).map_err(Failure::flag("--limit"))?;
+            let svg = clatter_figures::ring(&plate, &ring)?;
+            if is_standard(path) {
+                return streams.out.write_all(svg.as_bytes()).map_err(Failure::Answer);
+            }
+            output::replace(path, |file| file.write_all(svg.as_bytes()))?;
+        }
         match self.format {
             RowFormat::Table => table(&plate, &answer, streams.out).map_err(Failure::Answer)?,
             RowFormat::Csv => csv(&answer, streams.out).map_err(Failure::Answer)?,

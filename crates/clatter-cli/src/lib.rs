@@ -243,6 +243,7 @@ impl Command {
 
     fn files(&self) -> Files<'_> {
         match self {
+            Self::Atlas(args) => args.files(),
             Self::Map(args) => args.files(),
             Self::Simulate(args) => args.files(),
             Self::Respond(args) => args.files(),

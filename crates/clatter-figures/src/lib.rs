@@ -24,6 +24,7 @@ mod plane;
 mod plate;
 mod product;
 mod record;
+mod ring;
 mod shock;
 mod style;
 mod surface;
@@ -39,6 +40,7 @@ pub use ladder::{Panel as LadderPanel, panels as ladders, words as model_words};
 pub use plate::{Area, HeatMap, Landing, Strike, heat_map, landing, plan};
 pub use product::{Place, product};
 pub use record::{Trace, record};
+pub use ring::ring;
 pub use shock::{Against, Critical, beside, boundary, damage_boundary, rule, spectra, spectrum, two};
 pub use surface::{Sheet, Surface, surface};
 
