@@ -84,19 +84,19 @@ class Product:
     def falls(
         self,
         *,
-        tilt: Quantity,
+        tilt: Quantity | None = None,
         height: Quantity | None = None,
         speed: Quantity | None = None,
         first: Literal["a", "b", "either"] | None = None,
         gravity: Quantity | None = None,
         **more: Any,
     ) -> Product:
-        """Say how it falls.
+        """Say how it falls; called again, of a box, in its next drop.
 
         Parameters
         ----------
-        tilt : quantity
-            Angle to the ground at the first touch.
+        tilt : quantity, optional
+            Angle to the ground at the first touch; a box may land on a ``face``, ``edge`` or ``corner`` instead.
         height, speed : quantity
             Height of the lower end before the drop, or the speed at the first touch.
         first : {'a', 'b', 'either'}, optional
@@ -110,7 +110,9 @@ class Product:
             Itself.
         """
         keys = {"height": height, "speed": speed, "tilt": tilt, "first": first, "gravity": gravity, **more}
-        self._changed()["drop"] = _given(keys)
+        tables, drop = self._changed(), _given(keys)
+        before = tables.get("drop")
+        tables["drop"] = drop if before is None else [*(before if isinstance(before, list) else [before]), drop]
         return self
 
     def add(

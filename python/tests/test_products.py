@@ -68,13 +68,30 @@ def test_builders_know_the_keys_of_files():
     known = clatter.schema()["properties"]
     tables = {
         clatter.Product.__init__: known["product"]["properties"],
-        clatter.Product.falls: known["drop"]["properties"],
+        clatter.Product.falls: known["drop"]["anyOf"][0]["properties"],
         clatter.Product.add: known["component"]["items"]["properties"],
     }
     for builder, keys in tables.items():
         own = set(builder.__annotations__) - {"return", "more"}
         assert own <= set(keys), builder
         assert len(own) >= 5
+
+
+def test_a_box_falls_in_one_drop_after_the_other(command, tmp_path):
+    box = clatter.Product(
+        name="box", length="150 mm", width="70 mm", thickness="14 mm", radius_of_gyration=["43 mm", "20 mm"],
+        restitution=0.3, contact_time="0.4 ms",
+    )
+    box.falls(height="1 m", face="bottom").falls(height="2 m", corner="top back end-a")
+    box.falls(speed="2 m/s", tilt="60 deg", direction="30 deg", attitude_tolerance="1 deg")
+    box.add("chip", position=["10 mm", "5 mm"], mount="hard", acceleration_limit="9000 gn")
+    answer = clatter.assess(box)
+    assert [landing.landing for landing in answer.landings] == [
+        "face bottom", "corner top back end-a", "tilt 60 deg to 30 deg",
+    ]
+    file = tmp_path / "box.toml"
+    file.write_text(box.text)
+    assert command("assess", file, "--format=json", code=[0, 1]).stdout.count('"landing":"tilt 60 deg to 30 deg"') >= 1
 
 
 def test_further_keys_go_by_their_names():
