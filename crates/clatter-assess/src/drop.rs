@@ -1,17 +1,19 @@
 //! A single drop of a bar, followed by one of four models, or of a plate whose contacts take time.
 
+mod followed;
+
 use std::f64::consts::TAU;
 
 use clatter::End;
-use clatter_flight::{
-    Ahead, Block, BlockDrop, Body, Contact, ContactLaw, Model as Physics, Plate, PlateScene, Scene, Stop,
-};
+use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model as Physics, Plate, PlateScene, Scene};
 use serde::Serialize;
 
 use crate::attitude::turned_off;
-use crate::course::{BlockMotion, Course};
+use crate::course::Course;
 use crate::engine::Spot;
 use crate::{Axis, Error, Width};
+
+pub(crate) use followed::{Followed, PRECISION, Until};
 
 /// How a drop is answered: from the least physics to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -366,165 +368,10 @@ impl SingleDrop {
         if self.first == End::A { s } else { -s }
     }
 }
-
-/// A drop as far as it was followed.
-#[derive(Debug, Clone)]
-pub(crate) struct Followed {
-    pub(crate) drop: SingleDrop,
-    pub(crate) motion: Course,
-    pub(crate) precision: f64,
-    /// Whether it was left while shocks that count may come.
-    early: bool,
-    /// Largest velocity shock of an end.
-    pub(crate) largest_m_s: f64,
-}
-
-/// A hysteretic contact that is pushed again unloads and reloads along a line that is stiffer by 1/e²: the force of a slow shock
-/// is larger by 1/e. Drops are followed so much longer, down to this restitution.
-pub(crate) const LEAST_SHARE: f64 = 0.02;
-/// Drops are left after rebounds once the energy allows no later shock above this share of the largest.
-const LATE: f64 = 0.25;
-/// Strikes followed at most.
-const MOST_STRIKES: usize = 1024;
-/// Of a box, which lies still after some tens as a rule.
-const PRESSES_OF_BOX: usize = 64;
-
-/// Precision of a flight, as a share of the tolerance of its answer.
-pub(crate) const PRECISION: f64 = 0.1;
-/// How far a drop is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Until {
-    /// Until it comes down after its clatter.
-    Lands,
-    /// Until the energy allows no shock above a quarter of the largest.
-    Rebounded,
-    /// The same, or until it comes down after a time in s.
-    Past(f64),
-    /// Until nothing later counts.
-    Over,
-}
-
-impl Followed {
-    /// A drop of a plate as one of a box of this thickness, at real tilt, followed until a time.
-    ///
-    /// # Errors
-    /// [`Error::Contact`], and [`Error::Flight`] and [`Error::Bar`] for a box that is not followed so.
-    pub(crate) fn as_block(drop: &SingleDrop, thickness_m: f64, until_s: f64) -> Result<Self, Error> {
-        let (Some(across), Physics::Contacts(contact)) = (&drop.across, Model::Compliant.physics(drop)?) else {
-            return Err(Error::Contact);
-        };
-        let block = drop.block_drop(across, thickness_m)?.with_time_limit_s(until_s)?;
-        let motion = Course::Block(BlockMotion::new(&block, &contact)?);
-        let largest_m_s = motion.largest_m_s();
-        Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s })
-    }
-
-    /// Follows one drop until nothing later counts: until the energy that is left allows no velocity shock above `tolerance` of the
-    /// largest times the restitution.
-    ///
-    /// # Errors
-    /// [`Error::Contact`] for contacts whose time is not known; [`Error::Flight`] and [`Error::Bar`] for a drop that the model
-    /// does not take.
-    pub(crate) fn new(drop: &SingleDrop, model: Model, tolerance: f64) -> Result<Self, Error> {
-        Self::until(drop, model, tolerance, Until::Over)
-    }
-
-    /// The same, left at a moment.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    pub(crate) fn until(drop: &SingleDrop, model: Model, tolerance: f64, until: Until) -> Result<Self, Error> {
-        let precision = PRECISION * tolerance;
-        // Without restitution the strikes of one instant add up, and end by themselves.
-        let share = if drop.restitution == 0.0 { 0.0 } else { tolerance * drop.restitution.max(LEAST_SHARE) };
-        let clatter_s = drop.clatter_s();
-        // A strike gives back the restitution's share of what it takes.
-        let given_back = 0.5 * (1.0 + drop.restitution);
-        let is_over = |time_s: f64, later: f64, largest: f64, lands: bool| {
-            later <= share * largest
-                || match until {
-                    Until::Lands => lands && time_s > clatter_s,
-                    Until::Rebounded => lands && time_s > clatter_s && later <= LATE * largest,
-                    Until::Past(most_s) => lands && time_s > clatter_s && (later <= LATE * largest || time_s > most_s),
-                    Until::Over => false,
-                }
-        };
-        let posture = drop.across.and_then(|across| across.posture);
-        let (motion, precision) = if let (Some(across), Some(posture)) = (&drop.across, posture) {
-            let Physics::Contacts(contact) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
-            let until_s = match until {
-                Until::Lands => clatter_s,
-                Until::Past(time_s) => time_s.max(clatter_s),
-                Until::Rebounded | Until::Over => drop.settled_s(),
-            };
-            let block = drop.block_drop(across, posture.thickness_m)?.with_time_limit_s(until_s)?;
-            let block = block.with_impact_limit(PRESSES_OF_BOX);
-            (Course::Block(BlockMotion::new(&block, &contact)?), 0.0)
-        } else if let Some(across) = &drop.across {
-            let Physics::Contacts(contact) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
-            let enough =
-                |ahead: &Ahead<4>| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
-            let scene = drop.plate_scene(across)?.with_impact_limit(MOST_STRIKES);
-            (Course::Plate(scene.contacts_until(&contact, precision, enough)?), precision)
-        } else {
-            let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?;
-            let enough =
-                |ahead: &Ahead| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
-            if drop.flat {
-                (Course::Bar(scene.fly_flat(share)), 0.0)
-            } else {
-                (Course::Bar(scene.fly_until(model.physics(drop)?, precision, enough)?), precision)
-            }
-        };
-        let largest_m_s = motion.largest_m_s();
-        let early = motion.later_m_s() > share * largest_m_s && !matches!(motion.stop(), Stop::AtRest { .. });
-        Ok(Self { drop: *drop, motion, precision, early, largest_m_s })
-    }
-
-    pub(crate) fn is_early(&self) -> bool {
-        self.early
-    }
-    /// Whether what comes after the motion was left is not even bounded.
-    pub(crate) fn is_cut(&self) -> bool {
-        self.motion.later_m_s() == f64::INFINITY
-    }
-    /// Whether the motion was left at a limit, though strikes that count may follow.
-    pub(crate) fn is_given_up(&self) -> bool {
-        let stop = self.motion.stop();
-        matches!(stop, Stop::ImpactLimit { .. } | Stop::TimeLimit { .. } | Stop::EnergyLimit { .. })
-    }
-    /// Whether the product lies still at the end, or nothing that is left counts: then it carries its weight, on the mean over what it
-    /// still bounces.
-    fn lies(&self) -> bool {
-        matches!(self.motion.stop(), Stop::AtRest { .. } | Stop::Enough { .. }) && !self.early
-    }
-    /// What a place feels for ever after the motion.
-    pub(crate) fn carried_m_s2(&self, spot: &Spot) -> f64 {
-        match &self.motion {
-            _ if !self.lies() => 0.0,
-            Course::Block(motion) => motion.carried_m_s2(self.drop.place_in_box(spot), spot.inside.axis),
-            Course::Bar(_) | Course::Plate(_) => self.motion.gravity_m_s2(),
-        }
-    }
-    /// What a place will come to feel for ever, that is not among what it feels yet.
-    pub(crate) fn weight_to_come_m_s2(&self) -> f64 {
-        let flies = matches!(self.motion.stop(), Stop::BouncedClear { .. });
-        if flies || self.lies() { 0.0 } else { self.motion.gravity_m_s2() }
-    }
-    /// How long nothing has pressed as the motion was left.
-    pub(crate) fn quiet_s(&self) -> f64 {
-        (self.motion.stop().time_s() - self.motion.parted_s()).max(0.0)
-    }
-    /// Number, from 1, of the last strike that began by a time; contacts do nothing as they begin.
-    pub(crate) fn impact_at(&self, time_s: f64) -> u64 {
-        let instant = self.motion.contact().is_none();
-        let begun = |touch_s: f64| touch_s < time_s || instant && touch_s <= time_s;
-        self.motion.struck_s().partition_point(|s| begun(*s)).max(1) as u64
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use clatter_flight::Stop;
+
     use super::*;
     use crate::Inside;
 

@@ -172,31 +172,31 @@ mod tests {
     use crate::engine::Spot;
     use crate::{ContactLaw, Width};
 
+    /// A box of 120 mm × 80 mm × 20 mm with these radii of gyration of its mass along length and width, that lands flat at 2 m/s.
+    fn lying([along, gyration_m]: [f64; 2], restitution: f64) -> SingleDrop {
+        let width =
+            Width { edges_m: [0.04; 2], gyration_m, product_of_inertia_m2: 0.0, thickness_m: Some(0.02), depth: None };
+        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02 });
+        SingleDrop {
+            body: clatter_flight::Body::new(0.12, along).unwrap(),
+            across: Some(Across { width, direction_rad: 0.0, posture }),
+            first: clatter::End::A,
+            tilt_rad: 0.0,
+            flat: false,
+            speed_m_s: 2.0,
+            restitution,
+            gravity_m_s2: 9.81,
+            contact_time_s: Some(2e-4),
+            contact_law: ContactLaw::Hysteretic,
+        }
+    }
+
     /// Mass near the edges, landing flat: it lands again with e times its speed, all four corners along one line of their springs. Its
     /// center feels (1 + e) e v, and √(4/μ) times the peak of a lone contact, 13 % more than one of its own.
     #[test]
     fn a_box_that_lands_again_stays_within_its_bounds() {
         let (e, v, time_s) = (0.6, 2.0, 2e-4);
-        let width = Width {
-            edges_m: [0.04; 2],
-            gyration_m: 0.039,
-            product_of_inertia_m2: 0.0,
-            thickness_m: Some(0.02),
-            depth: None,
-        };
-        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02 });
-        let drop = SingleDrop {
-            body: clatter_flight::Body::new(0.12, 0.058).unwrap(),
-            across: Some(Across { width, direction_rad: 0.0, posture }),
-            first: clatter::End::A,
-            tilt_rad: 0.0,
-            flat: false,
-            speed_m_s: v,
-            restitution: e,
-            gravity_m_s2: 9.81,
-            contact_time_s: Some(time_s),
-            contact_law: ContactLaw::Hysteretic,
-        };
+        let drop = lying([0.058, 0.039], e);
         let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let later = PlaceHistory::new(&followed, [0.0; 2]).unwrap().later();
         // Gravity works during the contact, by a thousandth.
@@ -214,26 +214,7 @@ mod tests {
     /// Along a box that lands flat nothing is felt, until it lands otherwise: that is bounded.
     #[test]
     fn where_nothing_is_felt_what_may_come_is_bounded() {
-        let width = Width {
-            edges_m: [0.04; 2],
-            gyration_m: 0.025,
-            product_of_inertia_m2: 0.0,
-            thickness_m: Some(0.02),
-            depth: None,
-        };
-        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02 });
-        let drop = SingleDrop {
-            body: clatter_flight::Body::new(0.12, 0.04).unwrap(),
-            across: Some(Across { width, direction_rad: 0.0, posture }),
-            first: clatter::End::A,
-            tilt_rad: 0.0,
-            flat: false,
-            speed_m_s: 2.0,
-            restitution: 0.5,
-            gravity_m_s2: 9.81,
-            contact_time_s: Some(2e-4),
-            contact_law: ContactLaw::Hysteretic,
-        };
+        let drop = lying([0.04, 0.025], 0.5);
         let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let along = crate::Inside { height_m: 0.0, axis: crate::Axis::X };
         let place = PlaceHistory::new(&up, Spot { at_m: [0.0; 2], inside: along }).unwrap();
