@@ -114,6 +114,9 @@ fn an_atlas_is_drawn_as_a_ring() {
     assert_eq!(areas(&[UNIFORM]), 4 * words(&[UNIFORM]));
     let off = ["--gyration-ratio=0.5,0.6", "--center-of-mass=0.1,-0.2"];
     assert_eq!(areas(&off), words(&off));
+    // Hundreds of orders of corners are too narrow to be seen.
+    let svg = clatter(["atlas", UNIFORM, "--e=0.02", "-o", "-"]).stdout;
+    assert!(svg.len() < 500_000, "{} bytes", svg.len());
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("ring.svg").display().to_string();
     let told = clatter(["atlas", UNIFORM, "--e=0.3", "-o", &path]);

@@ -10,7 +10,7 @@
 //! # Ok::<(), clatter::Error>(())
 //! ```
 
-use clatter::{AtlasPeak, Error, Plate, Word};
+use clatter::{Atlas, AtlasPeak, Error, Plate, Word};
 use serde::Serialize;
 
 use crate::Json;
@@ -85,21 +85,28 @@ pub struct Peak {
 /// A limit that is not from 1 to 100.
 pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { plate, limit } = question;
-    let atlas = plate.atlas(*limit)?;
-    let directions = |word: &Word| Directions {
-        from: Json(word.from),
-        to: Json(word.to),
-        word: word.corners.iter().map(|corner| corner.letter()).collect(),
-        ended: word.ended,
-        peak: Peak { corner: Json(word.peak()), center: Json(word.center), later: Json(word.later) },
-    };
-    let AtlasPeak { corner, center, later, .. } = atlas.peak();
-    Ok(Answer {
-        gyration_ratio: plate.gyration_ratios().map(Json),
-        center_of_mass: plate.center_of_mass().map(Json),
-        e: Json(plate.e()),
-        limit: *limit,
-        words: atlas.words().iter().map(directions).collect(),
-        peak: Peak { corner: Json(corner), center: Json(center), later: Json(later) },
-    })
+    Ok(Answer::of(plate, *limit, &plate.atlas(*limit)?))
+}
+
+impl Answer {
+    /// What an atlas says of its plate, of which so many strikes were followed.
+    #[must_use]
+    pub fn of(plate: &Plate, limit: usize, atlas: &Atlas) -> Self {
+        let directions = |word: &Word| Directions {
+            from: Json(word.from),
+            to: Json(word.to),
+            word: word.corners.iter().map(|corner| corner.letter()).collect(),
+            ended: word.ended,
+            peak: Peak { corner: Json(word.peak()), center: Json(word.center), later: Json(word.later) },
+        };
+        let AtlasPeak { corner, center, later, .. } = atlas.peak();
+        Self {
+            gyration_ratio: plate.gyration_ratios().map(Json),
+            center_of_mass: plate.center_of_mass().map(Json),
+            e: Json(plate.e()),
+            limit,
+            words: atlas.words().iter().map(directions).collect(),
+            peak: Peak { corner: Json(corner), center: Json(center), later: Json(later) },
+        }
+    }
 }

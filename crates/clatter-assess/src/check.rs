@@ -120,6 +120,12 @@ impl Product {
         one(keys::PRODUCT, "width", width_m)?;
         optional(keys::PRODUCT, "thickness", width.thickness_m)?;
         width_of(width_m, width.center_m(), width.gyration_m)?;
+        if let (Some(depth), Some(thickness_m)) = (width.depth, width.thickness_m) {
+            let center_m = depth.center_m;
+            if center_m.is_nan() || center_m.abs() > FARTHEST_CENTER * thickness_m {
+                return Err(DataFault::CenterDeep { center_m, thickness_m });
+            }
+        }
         let (product_m2, most_m2) =
             (width.product_of_inertia_m2, FARTHEST_LEAN * self.gyration_m.lo() * width.gyration_m);
         if product_m2.is_nan() || product_m2.abs() > most_m2 {

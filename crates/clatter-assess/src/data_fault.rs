@@ -40,6 +40,13 @@ pub enum DataFault {
         /// Width of the product.
         width_m: f64,
     },
+    /// The same across the thickness.
+    CenterDeep {
+        /// Its place, from the middle.
+        center_m: f64,
+        /// Thickness of the product.
+        thickness_m: f64,
+    },
     /// The same of the mass along the width.
     GyrationAcross {
         /// The radius.
@@ -208,6 +215,14 @@ impl DataFault {
                     mm(*width_m)
                 ),
                 "allowed: within 0.45 of the width from the middle".to_owned(),
+            ],
+            Self::CenterDeep { center_m, thickness_m } => [
+                format!(
+                    "the center of mass is {} mm from the middle of a product {} mm thick",
+                    mm(*center_m),
+                    mm(*thickness_m)
+                ),
+                "allowed: within 0.45 of the thickness from the middle".to_owned(),
             ],
             Self::GyrationAcross { gyration_m, width_m } => [
                 format!(

@@ -82,7 +82,7 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 const REBOUNDS: [f64; 2] = [3.0, 6.0];
 /// Drops that are followed besides those of the grid where rebounds count.
 const SAMPLE: u32 = 128;
-const SAMPLE_OF_BOX: u32 = 16;
+const SAMPLE_OF_BOX: u32 = 12;
 /// About as many drops are followed in a climb.
 const CLIMB: usize = 72;
 /// Drops that are followed side by side, knowing the worst of those before.
@@ -131,10 +131,7 @@ impl Ranges<'_> {
         }
         // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
-        let best = all.best();
-        // Those of a box, which take long, where they may decide.
-        let open = |(later, worst): (&f64, &f64)| if of_all { *later > 0.0 } else { *worst <= 1.0 && *later > 1.0 };
-        let only: Vec<bool> = all.later.iter().zip(&best).map(open).collect();
+        let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
         if only.contains(&true) {
             let sample = if of_all { SAMPLE } else { SAMPLE_OF_BOX };
             let sample: Vec<(u32, Place)> = (1..=sample).map(|k| (k, self.spread_out(k))).collect();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter::Plate;
-use clatter_answer::atlas::{self, Answer, Peak, Question};
+use clatter_answer::atlas::{Answer, Peak};
 
 use crate::input::is_standard;
 use crate::inputs::{FallingBody, OffCenterArgs, RowFormat};
@@ -55,12 +55,10 @@ impl Args {
                 "an atlas is that of a plate: give --gyration-ratio=KX,KY, its two gyration ratios",
             ));
         };
-        let mut question = Question::new(plate);
-        question.limit = self.limit;
-        let answer = atlas::answer(&question).map_err(Failure::flag("--limit"))?;
+        let atlas = plate.atlas(self.limit).map_err(Failure::flag("--limit"))?;
+        let answer = Answer::of(&plate, self.limit, &atlas);
         if let Some(path) = &self.output {
-            let ring = plate.atlas(self.limit).map_err(Failure::flag("--limit"))?;
-            let svg = clatter_figures::ring(&plate, &ring)?;
+            let svg = clatter_figures::ring(&plate, &atlas)?;
             if is_standard(path) {
                 return streams.out.write_all(svg.as_bytes()).map_err(Failure::Answer);
             }

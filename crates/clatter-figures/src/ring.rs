@@ -15,6 +15,8 @@ const INNER: f64 = 36.0;
 const OUTER: f64 = 124.0;
 /// Arcs are drawn in steps of this, in rad.
 const STEP: f64 = 0.02;
+/// Sectors are at least as wide, in rad: a tenth of a point.
+const NARROW: f64 = 1e-3;
 /// Rows of the list at most, and letters of a word.
 const ROWS: usize = 16;
 const LETTERS: usize = 14;
@@ -52,11 +54,13 @@ pub fn ring(plate: &Plate, atlas: &Atlas) -> Result<String, FigureError> {
     let mirrors: [fn(f64) -> f64; 4] = [|x| x, |x| PI - x, |x| PI + x, |x| -x];
     let quarters = if plate.is_centered() { &mirrors[..] } else { &mirrors[..1] };
     for mirrored in quarters {
-        for word in words {
-            let ends = [word.from, word.to].map(|r| mirrored(angle(r)));
-            let mut sector = arc(ends, radius(word.peak()));
+        for some in sectors(words) {
+            let (Some(first), Some(last)) = (some.first(), some.last()) else { continue };
+            let ends = [first.from, last.to].map(|r| mirrored(angle(r)));
+            let highest = some.iter().fold(first, |most, word| if word.peak() > most.peak() { word } else { most });
+            let mut sector = arc(ends, radius(highest.peak()));
             sector.extend(arc([ends[1], ends[0]], INNER));
-            paper.path(&sector, true, Ink { stroke: "#ffffff", width: 0.3, ..Ink::fill(shade(word, strikes)) });
+            paper.path(&sector, true, Ink { stroke: "#ffffff", width: 0.3, ..Ink::fill(shade(highest, strikes)) });
         }
     }
     paper.describe("sectors, as far out as the largest shock of a corner, darker the more strikes");
@@ -74,6 +78,18 @@ pub fn ring(plate: &Plate, atlas: &Atlas) -> Result<String, FigureError> {
     paper.text([x, y], "width", beside);
     list(&mut paper, words, flat, 1.0 + plate.e());
     paper.finish("Where the plate rises to, and what each direction does: inside, the corner that strikes first")
+}
+
+/// Words one by one, but those that together are narrower than is seen: of these the highest shock is drawn.
+fn sectors(words: &[Word]) -> Vec<&[Word]> {
+    let (mut all, mut from) = (Vec::new(), 0);
+    for (k, word) in words.iter().enumerate() {
+        if angle(word.to) - angle(words[from].from) >= NARROW || k + 1 == words.len() {
+            all.push(&words[from..=k]);
+            from = k + 1;
+        }
+    }
+    all
 }
 
 /// Darker the more strikes a word has, between the least and the most.

@@ -102,7 +102,7 @@ impl Reader {
             contact_time_s: contact_time.map(|t| t.value),
             contact_law: contact_law.and_then(|law| ContactLaw::from_name(law.value)),
         };
-        if let Err(fault @ DataFault::ProductOfInertia { .. }) = product.check() {
+        if let Err(fault @ (DataFault::ProductOfInertia { .. } | DataFault::CenterDeep { .. })) = product.check() {
             self.data(span, &fault, "these together");
         }
         Some(product)

@@ -185,9 +185,12 @@ impl Ranges<'_> {
             [false, false] => &[[false, false]],
         }
     }
-    /// On how many faces at once a box lands: 1 a face, 2 an edge, 3 a corner; 0 of a bar or a plate.
+    /// On how many faces at once a box lands at least, turned off its posture by all of its tolerance: 1 a face, 2 an edge, 3 a corner; 0
+    /// of a bar or a plate.
     pub(super) fn faces(&self) -> usize {
-        self.posture.map_or(0, |posture| posture.upward.iter().filter(|side| **side != 0.0).count())
+        // So far its tolerance levels a side.
+        let level = libm::sin(self.drop.tilt_rad.hi());
+        self.posture.map_or(0, |posture| posture.upward.iter().filter(|side| side.abs() > level).count())
     }
     /// The longest way from the lowest point to the highest, along the body.
     pub(super) fn reach_m(&self) -> f64 {
