@@ -191,7 +191,8 @@ mod tests {
             let untimed = written.files.iter().filter(|file| !timed(file));
             untimed.map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
         };
-        for report in [Report::Paper, Report::Plate, Report::Shock, Report::Accuracy] {
+        // Numbers of plates, which take long, are held by their golden.
+        for report in [Report::Paper, Report::Shock, Report::Accuracy] {
             let files = run(report);
             assert!(files.len() > 3 && files == run(report), "two runs of {report:?} differ");
         }

@@ -269,12 +269,12 @@ pub fn answer(question: &Question) -> Result<Answer<'_>, Error> {
 ///
 /// # Errors
 /// As [`answer`].
-pub fn counted(question: &Question, progress: impl FnMut(u64)) -> Result<Answer<'_>, Error> {
+pub fn counted(question: &Question, mut progress: impl FnMut(u64)) -> Result<Answer<'_>, Error> {
     let Question { dampings, quantity, .. } = question;
     let list = question.frequencies()?;
     let alone = |spectrum: &dyn Fn(DampingRatio) -> Spectrum| dampings.iter().map(|of| (None, spectrum(*of))).collect();
     let spectra: Vec<(Option<String>, Spectrum)> = match &question.excitation {
-        Excitation::Records(records) => of_records(question, records, &list, progress)?,
+        Excitation::Records(records) => of_records(question, records, &list, &mut progress)?,
         Excitation::Shocks(shocks) => alone(&|damping| shocks.spectrum(&list, damping, *quantity)),
         Excitation::Pulses(pulses) => {
             within_periods(pulses, list.hz())?;
@@ -294,7 +294,7 @@ fn of_records(
     question: &Question,
     records: &[Measured],
     list: &Frequencies,
-    mut progress: impl FnMut(u64),
+    progress: &mut dyn FnMut(u64),
 ) -> Result<Vec<(Option<String>, Spectrum)>, Error> {
     let bad = |measured: &Measured| {
         let file = measured.file.clone();

@@ -212,7 +212,7 @@ fn changes_of_plates_hold_when_assessed() {
     let text = BOARD
         .replace(
             "tilt = { uniform = [\"0.5 deg\", \"4 deg\"] }",
-            "direction = [\"30 deg\", \"40 deg\"]\ntilt = [\"1 deg\", \"2 deg\"]",
+            "direction = \"35 deg\"\ntilt = [\"1.5 deg\", \"2 deg\"]",
         )
         .replace("[\"-20 mm\", { uniform = [\"-10 mm\", \"15 mm\"] }]", "[\"10 mm\", [\"18 mm\", \"20 mm\"]]")
         .replace("acceleration_limit = \"1400 gn\"\n", "")
@@ -255,10 +255,10 @@ fn changes_of_plates_hold_when_assessed() {
         held.push(remedy.lever);
     }
     assert!(held.contains(&Lever::Across) && held.contains(&limit), "{held:?}");
-    // Towards the middle, to a millimeter, and as wide as it was.
+    // Towards the middle and as wide as it was, both ends rounded to a tenth of a millimeter.
     let across = found[0].levers.iter().find(|remedy| remedy.lever == Lever::Across).unwrap();
     let Outcome::Change { change, .. } = &across.outcome else { panic!("{across:?}") };
-    assert!(change.to[1] < 0.02 && (change.to[1] - change.to[0] - 0.002).abs() < 1e-9, "{change:?}");
+    assert!(change.to[1] < 0.02 && (change.to[1] - change.to[0] - 0.002).abs() < 1.01e-4, "{change:?}");
 }
 
 /// Where no place is good enough, each lever tells from where to where it was tried: as far as the part fits on the plate along its own
@@ -268,7 +268,7 @@ fn a_part_is_tried_as_far_as_it_fits_on_the_plate() {
     let text = BOARD
         .replace(
             "tilt = { uniform = [\"0.5 deg\", \"4 deg\"] }",
-            "direction = [\"30 deg\", \"40 deg\"]\ntilt = [\"1 deg\", \"2 deg\"]",
+            "direction = \"35 deg\"\ntilt = [\"1 deg\", \"2 deg\"]",
         )
         .replace(
             "[\"-20 mm\", { uniform = [\"-10 mm\", \"15 mm\"] }]",

@@ -49,7 +49,7 @@ fn a_report_that_is_cut_leaves_a_whole_answer() {
             scope.spawn(move || {
                 let mut command = clatter(dir);
                 let name = if step.starts_with("setting") { "p.pdf" } else { "q.pdf" };
-                command.args(["assess", "p.toml", "-o", name, "--time-limit=20s"]).envs(set);
+                command.args(["assess", "p.toml", "-o", name, "--time-limit=8s"]).envs(set);
                 let (code, stdout, stderr) = told(&command.output().unwrap());
                 assert_eq!((code, &stdout), (Some(0), &alone.1), "{stderr}");
                 let cut = "warning: stopped, --time-limit is over: making the printed report was cut (";
@@ -60,7 +60,7 @@ fn a_report_that_is_cut_leaves_a_whole_answer() {
         }
         // On standard output the report is the answer.
         let mut command = clatter(dir.path());
-        command.args(["assess", "p.toml", "-o", "-", "--time-limit=20s"]).env("CLATTER_TYPST", at("typst"));
+        command.args(["assess", "p.toml", "-o", "-", "--time-limit=8s"]).env("CLATTER_TYPST", at("typst"));
         let (code, stdout, stderr) = told(&command.output().unwrap());
         assert_eq!((code, stdout.as_str()), (Some(2), ""), "{stderr}");
         assert!(stderr.contains("the answer is not whole"), "{stderr}");

@@ -48,7 +48,7 @@ impl Channel {
         damping: DampingRatio,
         quantity: Quantity,
         between: Between,
-        progress: &mut impl FnMut(u64),
+        progress: &mut dyn FnMut(u64),
     ) -> Result<Spectrum, Error> {
         let values = &self.values;
         let Some(step_s) = self.times.step_s() else {
@@ -112,7 +112,7 @@ impl Channel {
 fn points<const POINTS: usize>(
     values: &[f64],
     mut filter: SpectrumFilter,
-    progress: &mut impl FnMut(u64),
+    progress: &mut dyn FnMut(u64),
 ) -> Result<Spectrum, Error> {
     let mut more = UpSampler::<POINTS>::new();
     for (i, piece) in values.chunks(PIECE / POINTS).enumerate() {
