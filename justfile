@@ -6,7 +6,7 @@ report:
 
 # Every test of every crate
 test:
-    cargo test --release --workspace
+    cargo test --release
 
 # The same answers as WebAssembly, to the last byte; needs node and `rustup target add wasm32-wasip1`
 wasm:
@@ -28,7 +28,7 @@ check:
 golden:
     cargo insta test --release -p clatter-golden --check --unreferenced=reject
 
-# Times and instruction counts
+# Times
 bench:
     cargo bench --workspace
 

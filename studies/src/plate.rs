@@ -225,16 +225,20 @@ impl Data {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::LazyLock;
+
     use super::*;
+
+    static DATA: LazyLock<Data> = LazyLock::new(|| Data::compute().unwrap());
 
     #[test]
     fn figures_stay_within_their_frame() {
-        crate::frame::stay_within_their_frame(&Data::compute().unwrap().files().unwrap());
+        crate::frame::stay_within_their_frame(&DATA.files().unwrap());
     }
 
     #[test]
     fn every_worst_case_on_the_page_is_proven() {
-        let data = Data::compute().unwrap();
+        let data = &*DATA;
         let all = data.over_e.iter().chain(&data.plane).chain(data.over_inertia.iter().flatten()).chain(&data.designs);
         for plate in all {
             assert!(plate.later <= plate.corner, "{plate:?}");

@@ -297,11 +297,11 @@ fn a_bouncy_body_fails_as_often_as_single_drops_do() {
         acceleration_limit = \"550 gn\"";
     for body in [body, contact] {
         let file = product(&body, SPREAD, soft);
-        let (columns, rows) = values(&file, settings(1000, 77));
+        let (columns, rows) = values(&file, settings(600, 77));
         let survives = |row: &&[f64]| answers(&file, &columns, row)[0].1 <= 1.0;
         let survivors = rows.chunks(columns.len()).filter(survives).count();
-        let known = clopper_pearson(survivors as u64, 1000, 0.999);
-        let found = draw(&file, settings(10_000, 1)).survival;
+        let known = clopper_pearson(survivors as u64, 600, 0.999);
+        let found = draw(&file, settings(5000, 1)).survival;
         assert!(known.lo > 0.1 && known.hi < 0.9, "{known:?}");
         assert!(known.lo <= found.estimate && found.estimate <= known.hi, "{found:?}, not {known:?}");
     }
