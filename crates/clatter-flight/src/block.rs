@@ -232,3 +232,25 @@ impl Block {
         one.max(other)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A box stands on its end, its center of mass 0.15 m over the ground, and rolls over its nearest edge, 0.158 m from there, where its
+    /// energy lets it: then it may come to lie 0.05 m over the ground, or in the deepest dent of all.
+    #[test]
+    fn a_box_keeps_no_energy_that_it_can_roll_off_with() {
+        let (block, g) = (Block::new([0.2, 0.1, 0.3], [0.0; 3], [0.09, 0.1, 0.07]).unwrap(), 9.81);
+        let kept = |height: f64, dent: f64| {
+            let mut ground = [0.0; 8];
+            ground[6] = -dent;
+            block.kept([0.0, 0.0, 1.0], g * height, g, 0.0, ground) / g
+        };
+        assert!((kept(0.157, 0.0) - 0.15).abs() < 1e-12, "{}", kept(0.157, 0.0));
+        for height in [0.159, 0.179, 0.3] {
+            assert!((kept(height, 0.0) - 0.05).abs() < 1e-12, "{height}: {}", kept(height, 0.0));
+            assert!((kept(height, 0.002) - 0.048).abs() < 1e-12, "{height}: {}", kept(height, 0.002));
+        }
+    }
+}

@@ -214,3 +214,19 @@ impl Body<2> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A body lies lowest on the side nearest to its center of mass; lines through it are no sides.
+    #[test]
+    fn a_body_lies_lowest_on_its_nearest_side() {
+        let of = |points: [[f64; 2]; 4]| Body::of_points(points, 0.05).unwrap().lowest_m();
+        let corners = [[-0.15, -0.03], [0.15, -0.03], [0.15, 0.05], [-0.15, 0.05]];
+        assert!((of(corners) - 0.03).abs() < 1e-15, "{}", of(corners));
+        // Its corners in another order, and stood on its end.
+        let [a, b, c, d] = corners.map(|[x, z]| [z, x]);
+        assert!((of([c, a, d, b]) - 0.03).abs() < 1e-15, "{}", of([c, a, d, b]));
+    }
+}

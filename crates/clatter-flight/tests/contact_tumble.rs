@@ -135,6 +135,30 @@ fn a_bar_with_corners_turns_over() {
         );
         let hard = scene.fly(Model::FiniteTilt).expect("a motion").stop.time_s();
         assert!((time_s / hard - 1.0).abs() < 1e-2, "{time_s} {hard}");
+        assert!(flight.later_m_s.is_infinite(), "{law:?}: nobody knows what it comes down on");
+    }
+}
+
+/// A box that stands on its end topples: from there on it may be as fast as its fall to the long side makes it, and it is told before.
+#[test]
+fn what_topples_is_told_ahead() {
+    let points = [[-0.15, -0.03], [0.15, -0.03], [0.15, 0.03], [-0.15, 0.03]];
+    let body = Body::of_points(points, 0.09).expect("a box");
+    let scene = Scene::new(body, 0.1, 0.1, 75.0, G).and_then(|scene| scene.with_impact_limit(60)).expect("a drop");
+    let mut told = Vec::new();
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.1, 1e-3).expect("a contact");
+    let flight = scene.contacts_until(&contact, 1e-5, |ahead| {
+        told.push(*ahead);
+        false
+    });
+    let strikes = flight.expect("a flight").strikes;
+    let fastest = strikes.iter().map(|strike| -strike.approach_m_s).fold(0.0, f64::max);
+    // It lands with 0.1 m/s; from 0.15 m to 0.03 m over the ground its center gains √(2 g 0.12 m) = 1.5 m/s, the far end twice that.
+    assert!(fastest > 1.0, "{fastest}: it does not topple");
+    for ahead in told {
+        for strike in strikes.iter().filter(|strike| strike.time_s >= ahead.time_s) {
+            assert!(-strike.approach_m_s <= 0.5 * ahead.most_m_s * (1.0 + 1e-6), "{strike:?} after {ahead:?}");
+        }
     }
 }
 

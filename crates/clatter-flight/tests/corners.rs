@@ -146,6 +146,7 @@ fn a_body_that_turns_past_its_end_says_when() {
     let turn = 0.5 * std::f64::consts::PI - last.tilt_rad * last.spin_rad_s.signum();
     assert!((time_s - last.time_s - turn / last.spin_rad_s.abs()).abs() < 1e-14, "{flight:?}");
     assert_eq!(flight.stop.reason(), "turned-over", "{flight:?}");
+    assert!(flight.later_m_s.is_infinite(), "nobody knows what it comes down on: {}", flight.later_m_s);
 
     let tall = Scene::new(brick(0.1), 0.0, 0.1, 80.0, 9.81).expect("a drop").fly(Model::FiniteTilt).expect("a motion");
     assert!(matches!(tall.stop, Stop::TurnedOver { .. }), "{:?}", tall.stop);

@@ -197,4 +197,40 @@ mod tests {
             assert!(left.iter().all(|v| v.abs() < 1e-14), "{idle:?}: {left:?}");
         }
     }
+
+    /// Forces that carry the weight and do not turn the plate.
+    fn carries(level: &Level, forces: [f64; 4]) {
+        let corners = level.plate.corners_m();
+        let moment = |axis: usize| (0..4).map(|i| forces[i] * corners[i][axis]).sum::<f64>();
+        assert!((forces.iter().sum::<f64>() - level.gravity).abs() < 1e-12, "{forces:?}");
+        assert!(moment(0).abs() < 1e-13 && moment(1).abs() < 1e-13, "{forces:?}");
+    }
+
+    /// Four springs of any stiffness and height carry a plate whose corners, each where its spring gives its force, lie in one plane.
+    #[test]
+    fn a_plate_at_rest_on_four_springs_stays_plane() {
+        let plate = Plate::new([0.08, 0.07, 0.03, 0.045], [0.043, 0.02]).unwrap();
+        let level = Level::start(&PlateScene::new(plate, 1.0, [0.0; 2], 9.81).unwrap());
+        let lines = [[4e4, 0.0], [9e4, -1e-5], [2e4, 2e-5], [6e4, 0.0]];
+        let Borne { forces, .. } = level.borne(&(), &level.points().0, |i| lines[i]).unwrap();
+        carries(&level, forces);
+        assert!(forces.iter().all(|force| *force > 0.1), "none is idle: {forces:?}");
+        let heights: [f64; 4] = std::array::from_fn(|i| lines[i][1] - forces[i] / lines[i][0]);
+        let warp = heights[0] - heights[1] + heights[2] - heights[3];
+        assert!(warp.abs() < 1e-15, "{heights:?}");
+    }
+
+    /// Where three corners lie, they bear what the spring of the fourth leaves them.
+    #[test]
+    fn corners_that_lie_bear_what_the_other_leaves() {
+        let plate = Plate::new([0.08, 0.07, 0.03, 0.045], [0.043, 0.02]).unwrap();
+        let level = Level::start(&PlateScene::new(plate, 1.0, [0.0; 2], 9.81).unwrap());
+        for other in 0..4 {
+            let mut given = [0.0; 4];
+            given[other] = 1.3;
+            let forces = level.held_by(&std::array::from_fn(|i| i != other), &given).unwrap();
+            carries(&level, forces);
+            assert!((forces[other] - 1.3).abs() < 1e-12, "{forces:?}");
+        }
+    }
 }

@@ -185,9 +185,11 @@ impl<const N: usize> Pose<N> for Planar<N> {
     }
     fn lower(&self) -> f64 {
         let arms = self.arms();
-        let on = Self::lowest(&arms.x, &self.points_by(&arms).0);
-        let lower = on.map_or(0.0, |on| self.body.height_over(on).abs() - self.body.lowest_m());
-        self.gravity * lower.max(0.0)
+        let Some(on @ [i, j]) = Self::lowest(&arms.x, &self.points_by(&arms).0) else { return 0.0 };
+        // Straight above a side that is steep the center is higher than over it.
+        let [[x1, z1], [x2, z2]] = [i, j].map(|point| self.body.points_m()[point]);
+        let above = self.body.height_over(on).abs() * libm::hypot(x2 - x1, z2 - z1) / (arms.x[j] - arms.x[i]);
+        self.gravity * (above - self.body.lowest_m()).max(0.0)
     }
     fn held_by(&self, lying: &[bool; N], forces: &[f64; N]) -> Option<[f64; N]> {
         let x = self.arms().x;
