@@ -201,4 +201,13 @@ mod tests {
         let got = effective_duration(&two, 1.0).expect("a shock");
         assert!(got.tenth_of_rms_s > 0.0 && got.tenth_of_rms_s <= 2e5, "{got:?}");
     }
+
+    /// The line to a neighbor of the other sign: from 3 to −0.6 it is at a third of the peak after 2/3.6 of a sample, up to it after 2/3.
+    #[test]
+    fn a_line_to_the_other_sign_goes_through_zero() {
+        for sign in [1.0, -1.0] {
+            let got = effective_duration(&[0.0, 3.0 * sign, -0.6 * sign, 0.0].map(|a| a + 0.0), 1.0).expect("a shock");
+            assert!((got.third_of_peak_s - (2.0 / 3.0 + 2.0 / 3.6)).abs() < 1e-12, "{got:?}");
+        }
+    }
 }

@@ -164,4 +164,19 @@ mod tests {
         filter.push(&[0.0; 8]);
         assert_eq!(EnvelopingPulse::of(&filter.finish().expect("a spectrum"), Shape::HalfSine), Ok(None));
     }
+
+    /// A pulse envelopes itself, from a tenth of the shortest period to several of the longest.
+    #[test]
+    fn a_pulse_is_its_own_envelope() {
+        let part = DampingRatio::new(0.05).expect("a ratio");
+        let frequencies = Frequencies::per_octave(10.0, 3000.0, 3.0).expect("frequencies");
+        for duration in [3e-5, 1e-3, 0.3] {
+            let pulse = Pulse { shape: Shape::HalfSine, amplitude: 700.0, duration, start: 0.0 };
+            let pulses = Pulses::new(&[pulse]).expect("a pulse");
+            let measured = pulses.spectrum(&frequencies, part, Quantity::AbsoluteAcceleration);
+            let found = EnvelopingPulse::of(&measured, Shape::HalfSine).expect("a shape").expect("a pulse");
+            // Durations are tried in steps of 2^(1/512).
+            assert!(found.mean_db < 0.02, "{duration} s: {found:?}");
+        }
+    }
 }

@@ -150,4 +150,15 @@ mod tests {
         let allowed = curve.at(middle.exp2()).expect("within the curve");
         assert!((allowed.log2() - middle).abs() < 1e-9, "{allowed}");
     }
+
+    #[test]
+    fn a_corner_at_an_end_is_told_once() {
+        let points = vec![(10.0, 100.0), (1000.0, 10_000.0), (5000.0, 10_000.0)];
+        let curve = LimitCurve::new(points).expect("a curve");
+        for (ends, count) in [([10.0, 5000.0], 3), ([1000.0, 5000.0], 2), ([10.0, 1000.0], 2), ([500.0, 2000.0], 3)] {
+            let corners = curve.corners(ends[0], ends[1]);
+            assert_eq!(corners.len(), count, "{corners:?}");
+            assert!(corners.windows(2).all(|w| w[0].0 < w[1].0), "{corners:?}");
+        }
+    }
 }

@@ -366,4 +366,23 @@ mod tests {
                 .is_empty()
         );
     }
+
+    /// Two equal pulses of which the upper half alone is above the threshold: the second is as long as the first.
+    #[test]
+    fn a_shock_begins_at_its_tenth_whatever_was_before_it() {
+        let mut record = vec![0.0; 1000];
+        for begin in [100, 600] {
+            (0..=200).for_each(|i| record[begin + i] = 400.0 * (PI * float(i) / 200.0).sin());
+        }
+        let search = Search { threshold_m_s2: Some(200.0), quiet_s: 1e-3 };
+        let found = find_shocks(&record, 1e-5, &search).expect("a record").shocks;
+        assert_eq!(found.len(), 2, "{found:?}");
+        for shock in &found {
+            let between = 200e-5 * (1.0 - 2.0 * 0.1_f64.asin() / PI);
+            // Straight lines between samples, by (π/200)²/8 of the peak over the slope.
+            assert!((shock.duration_s - between).abs() < 1e-8, "{shock:?}, not {between}");
+        }
+        assert!((found[1].velocity_change_m_s / found[0].velocity_change_m_s - 1.0).abs() < 1e-12, "{found:?}");
+        assert!((found[1].start_s - found[0].start_s - 500e-5).abs() < 1e-12, "{found:?}");
+    }
 }

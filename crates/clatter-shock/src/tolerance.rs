@@ -434,4 +434,20 @@ mod tests {
             }
         }
     }
+
+    /// IEC 60068-2-27 integrates from 0.4 D before the nominal pulse to 0.1 D after it: what is felt there counts, and nothing beyond.
+    #[test]
+    fn the_velocity_change_counts_from_before_the_pulse_to_after_it() {
+        let (n, before, after) = (1000, 7.0, 30.0);
+        let pulse = Pulse { shape: Shape::HalfSine, amplitude: 5000.0, duration: float(n) * STEP, start: 0.0 };
+        let mut record = half_sine(5000.0, float(n), 1000.0, 3000);
+        record[..1000].fill(before);
+        record[1000 + n + 1..].fill(after);
+        let got = check_pulse(&record, STEP, &pulse, tolerance("IEC 60068-2-27")).expect("a shock");
+        let want = (2.0 / PI * 5000.0 + 0.4 * before + 0.1 * after) * pulse.duration;
+        // Straight lines lose (π/1000)²/12 of the pulse; where the levels begin, a sample of each.
+        let allowed = 1e-6 * want + (before + after) * STEP;
+        let measured = got.velocity_change_m_s.expect("limited").measured;
+        assert!((measured - want).abs() < allowed, "{measured}, not {want}");
+    }
 }

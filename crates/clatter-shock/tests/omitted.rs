@@ -101,3 +101,15 @@ fn what_ends_an_endless_train_is_no_shock() {
     // All together stop the center.
     assert!((shocks.net() - 1.0).abs() < 1e-9, "{}", shocks.net());
 }
+
+/// So elastic that a million impacts do not end it. At the center all shocks have one sign and bring it to rest, v0 in all: what was not
+/// followed is what those that were leave of it.
+#[test]
+fn what_a_million_impacts_leave_out_is_what_the_center_still_lacks() {
+    let bar = Bar::new(1.0 - 1e-12, 1.0 - 1e-5).unwrap();
+    let (shocks, omitted) = shocks_at(&bar, &Start::default(), 0.0, 1.0).unwrap();
+    let missing = 1.0 - shocks.net();
+    assert!(missing > 0.5, "{missing}");
+    // By then they shrink by one factor; q is known to 1e-4 of 1 - q.
+    assert!((omitted / missing - 1.0).abs() < 3e-3, "{omitted}, {missing}");
+}
