@@ -545,4 +545,23 @@ mod tests {
         assert_eq!(governing(vec![open.clone(), tight.clone()], &[]).verdict, Verdict::Undecided);
         assert_eq!(governing(vec![worse, open, over, loose, tight], &[]).margin, Some(-0.4));
     }
+
+    /// One law uses up a damage boundary by its velocity change, the other by its acceleration: they are told beside one another by what
+    /// they use up.
+    #[test]
+    fn what_the_other_law_asks_is_told_in_the_unit_of_the_demand() {
+        let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
+        let place = file.ranges(&Accuracy::default()).middle(&file.components[0]);
+        let of = |value, allowed, unit| {
+            let answer = crate::engine::Answer { value, allowed, unit, time_s: 0.0, impact: 1, off_by: 0.0 };
+            Candidate { place, part: None, answer, late: false }
+        };
+        let own = of(3.0, 4.0, Unit::MeterPerSecond);
+        // Two fifths of 4 m/s.
+        assert!(
+            (in_unit_of(&own, &of(2000.0, 5000.0, Unit::MeterPerSecondSquared)) - 1.6).abs() < 1e-12,
+            "by its share"
+        );
+        assert!((in_unit_of(&own, &of(2.0, 4.0, Unit::MeterPerSecond)) - 2.0).abs() < 1e-12, "as it is");
+    }
 }

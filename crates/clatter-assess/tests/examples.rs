@@ -152,6 +152,8 @@ fn a_search_that_is_stopped_calls_nothing_safe_but_by_energy() {
                     Verdict::Undecided => {
                         let why = cut.why_undecided().unwrap_or_default();
                         assert!(why.contains("stopped") || whole.verdict == Verdict::Undecided, "{most} drops: {why}");
+                        // Of a search that is cut in its grid nobody knows how far off it is.
+                        assert!(most > 10 || cut.uncertainty.is_infinite(), "{most} drops: {cut:?}");
                         undecided += 1;
                     }
                 }

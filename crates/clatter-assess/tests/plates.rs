@@ -412,3 +412,21 @@ fn energy_allows_what_falls_over() {
     let of_speed = 2.0 * 0.1 * (1.0 + (60.0_f64 / 43.0).powi(2) + (25.0_f64 / 20.0).powi(2)).sqrt();
     assert!(demand > 1.2 * of_speed && demand <= bound, "{demand} of {bound}, {of_speed} without gravity");
 }
+
+/// Its masses lie on one diagonal: turned about one side it is another plate, and what lands on that diagonal is not what lands on the
+/// other.
+#[test]
+fn a_plate_with_its_masses_on_a_diagonal_is_searched_all_around() {
+    let masses = r#"masses = [
+    { mass = "60 g", from = ["-75 mm", "-35 mm"], to = ["75 mm", "35 mm"] },
+    { mass = "40 g", position = ["60 mm", "28 mm"] },
+    { mass = "40 g", position = ["-60 mm", "-28 mm"] },
+]"#;
+    let even = "radius_of_gyration = [\"43 mm\", \"20 mm\"]\ncenter_of_mass = [\"0 mm\", \"0 mm\"]";
+    let text = HANDHELD.replace(even, masses).replace("[\"10 mm\", \"5 mm\"]", "[\"0 mm\", \"0 mm\"]");
+    let of = |direction: &str| demands(&text.replace("tilt = ", &format!("{direction}tilt = ")))[0];
+    let [heavy, light] = ["direction = [\"10 deg\", \"80 deg\"]\n", "direction = [\"100 deg\", \"170 deg\"]\n"].map(of);
+    assert!((heavy / light - 1.0).abs() > 0.1, "{heavy}, {light}");
+    let all = of("");
+    assert!(all > (1.0 - SEARCHES) * heavy.max(light), "{all} beside {heavy}, {light}");
+}

@@ -480,3 +480,17 @@ fn what_a_named_model_lacks_is_told_as_doubt() {
     }
     assert!(most > 0.01, "no limit on which the map asks for too little: {most}");
 }
+
+/// What rebounds may ask of ranges is no less than of one product in them: a stiff part in an elastic one.
+#[test]
+fn rebounds_of_ranges_are_those_of_any_product_in_them() {
+    let most = |frequency: &str, restitution: &str| {
+        let text = with(ELASTIC, "rattle_space = \"20 mm\"", "acceleration_limit = \"900 gn\"");
+        let text = with(&text, "[\"80 Hz\", \"120 Hz\"]", frequency);
+        let limit = only(&with(&text, "[0.75, 0.93]", restitution));
+        limit.demand.expect("an answer") * (1.0 + limit.uncertainty)
+    };
+    let (ranges, one) = (most("[\"40 Hz\", \"120 Hz\"]", "[0.3, 0.93]"), most("\"120 Hz\"", "0.93"));
+    // Both are searched.
+    assert!(ranges > 0.96 * one, "{ranges} beside {one}");
+}

@@ -249,6 +249,12 @@ mod tests {
         let mut tightest = 0.0_f64;
         for n in 0..60 {
             let hz = 20.0 + 0.5 * f64::from(n);
+            let damped = Suspension::from_hz(hz, clatter_shock::DampingRatio::new(0.02).unwrap()).unwrap();
+            // What does not come above what was reached by then need not be said.
+            let reached = up.answer(&limit, Some(&damped), 0.0).unwrap().unwrap().utilization();
+            let said = up.later_most(&limit, [&damped], reached).max(reached);
+            let asked = on.answer(&limit, Some(&damped), 0.0).unwrap().unwrap().utilization();
+            assert!(asked <= said * (1.0 + 1e-9), "{hz} Hz, damped: {asked}, not {said} above {reached}");
             let part = Suspension::from_hz(hz, clatter_shock::DampingRatio::new(0.0).unwrap()).unwrap();
             let said = up.later_most(&limit, [&part], 0.0);
             let asked = on.answer(&limit, Some(&part), 0.0).unwrap().unwrap().utilization();
@@ -316,5 +322,39 @@ mod tests {
             let in_turn = later.given_up.expect("given up").in_turn;
             assert!((in_turn / (points * series) - 1.0).abs() < 1e-9, "{in_turn}");
         }
+    }
+
+    /// A part that is stiffer than the contact follows its force: of the half-sine with which both ends of a bar land flat again, lasting
+    /// √(μ/2) times as long as a lone contact, an undamped part is asked for no more than is said.
+    #[test]
+    fn a_stiff_part_is_asked_for_no_more_than_said_as_it_lands_again() {
+        let (e, v, time_s) = (0.6, 2.0, 2e-4);
+        let drop = SingleDrop {
+            body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
+            across: None,
+            first: clatter::End::A,
+            tilt_rad: 0.0,
+            flat: false,
+            speed_m_s: v,
+            restitution: e,
+            gravity_m_s2: 9.81,
+            contact_time_s: Some(time_s),
+            contact_law: ContactLaw::Hysteretic,
+        };
+        let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let later = PlaceHistory::new(&followed, [0.0; 2]).unwrap().later();
+        let duration = time_s * (0.5 * (1.0 + (0.075_f64 / 0.045).powi(2))).sqrt();
+        let amplitude = (1.0 + e) * e * v * std::f64::consts::FRAC_PI_2 / duration;
+        let shape = clatter_shock::Shape::HalfSine;
+        let blow =
+            clatter_shock::Pulses::new(&[clatter_shock::Pulse { shape, amplitude, duration, start: 0.0 }]).unwrap();
+        let mut tightest = 0.0_f64;
+        for hz in [100.0, 1000.0, 2500.0, 4000.0, 8000.0, 20_000.0] {
+            let part = Suspension::from_hz(hz, clatter_shock::DampingRatio::new(0.0).unwrap()).unwrap();
+            let (asked, said) = (blow.respond(&part).pseudo_velocity().magnitude(), later.shock_of(&part));
+            assert!(asked <= said, "{hz} Hz: {asked}, not {said}");
+            tightest = tightest.max(asked / said);
+        }
+        assert!(tightest > 0.4, "{tightest}");
     }
 }

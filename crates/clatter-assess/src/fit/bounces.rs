@@ -153,4 +153,19 @@ mod tests {
             assert_eq!(fit.estimates[0].interval.is_some(), spare > 0, "{fit:?}");
         }
     }
+
+    /// Let go at rest from 0.8 m, with e = 0.7: it touches at v₀ = √(2 g h) and is up for 2 eⁿ v₀/g.
+    #[test]
+    fn a_ball_that_was_let_go_tells_its_height() {
+        let (g, height, e) = (9.81_f64, 0.8, 0.7_f64);
+        let speed = (2.0 * g * height).sqrt();
+        let mut times = vec![0.4];
+        (1..6).for_each(|n| times.push(times[times.len() - 1] + 2.0 * e.powi(n) * speed / g));
+        let fit = bounces(&times, g, Some(1e-5)).unwrap();
+        for (estimate, want) in fit.estimates.iter().zip([e, height]) {
+            let [lo, hi] = estimate.interval.expect("an interval");
+            assert!((estimate.value / want - 1.0).abs() < 1e-6 && lo < want && want < hi, "{estimate:?}, not {want}");
+            assert!(hi - lo < 1e-3 * want, "{estimate:?}");
+        }
+    }
 }

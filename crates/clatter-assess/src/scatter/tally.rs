@@ -160,3 +160,26 @@ impl Tally {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scatter::clopper_pearson;
+
+    /// Of five samples one fails, one may fail, one has no answer, and two are stood.
+    #[test]
+    fn every_sample_is_counted_once() {
+        let mut count = Count::default();
+        let of = |used, least, most| {
+            Some(SampleDemand { utilization: used, within: [least, most], ..SampleDemand::default() })
+        };
+        for full in [of(1.2, 1.1, 1.3), of(0.98, 0.95, 1.01), None, of(0.5, 0.4, 0.6), of(0.7, 0.6, 0.8)] {
+            count.take(None, Some(full.as_ref()));
+        }
+        assert_eq!(count.counts(5), [1, 1, 1]);
+        let survival = count.survival(0.95);
+        assert!((survival.estimate - 0.6).abs() < 1e-12, "what has no answer is no survivor: {survival:?}");
+        assert!(survival.lo < clopper_pearson(2, 5, 0.95).lo + 1e-12, "nor is what may fail: {survival:?}");
+        assert!(survival.hi > clopper_pearson(4, 5, 0.95).hi - 1e-12, "{survival:?}");
+    }
+}

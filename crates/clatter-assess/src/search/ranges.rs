@@ -227,3 +227,54 @@ fn image(direction_rad: f64, [along, across]: [bool; 2]) -> f64 {
     let turned = if along { PI - direction_rad } else { direction_rad };
     if across { -turned } else { turned }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drop::Model;
+    use crate::engine::Part;
+    use crate::{Accuracy, ProductFile};
+    use clatter_shock::{DampingRatio, Suspension};
+
+    /// A drop of the ranges is found in them where it was taken from, each range from its least to its most.
+    #[test]
+    fn a_drop_is_where_it_was_taken_from() {
+        let text = r#"
+product = { name = "bar", length = "150 mm", radius_of_gyration = ["40 mm", "45 mm"], restitution = [0.2, 0.4], contact_time = ["0.3 ms", "0.5 ms"] }
+drop = { speed = ["2 m/s", "4 m/s"], tilt = ["1 deg", "9 deg"] }
+component = [{ name = "part", position = "30 mm", natural_frequency = ["80 Hz", "120 Hz"], damping_ratio = [0.02, 0.1], rattle_space = "9 mm" }]
+"#;
+        let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let (ranges, component) = (file.ranges(&Accuracy::default()), &file.components[0]);
+        let place = Place {
+            first: End::B,
+            flat: false,
+            mirrored: [false; 2],
+            at_m: [0.03, 0.0],
+            shares: [0.3, 0.2, 0.7, 0.1, 0.6, 0.4, 0.9, 0.0],
+        };
+        let drop = ranges.single(&place);
+        let near = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-9, "{got}, not {want}");
+        near(drop.tilt_rad.to_degrees(), (1.0 + 0.3 * 2.0_f64).powi(2));
+        near(drop.speed_m_s, 2.4);
+        near(drop.restitution, 0.34);
+        near(drop.contact_time_s.unwrap(), 0.32e-3);
+        near(drop.body.gyration_m(), 0.0445);
+        let part = Suspension::from_hz(104.0, DampingRatio::new(0.052).unwrap()).unwrap();
+        let worst = WorstCase {
+            drop,
+            part: Part::new(0.03, Some(part)),
+            gyration_varies: true,
+            landing: None,
+            impact: 1,
+            time_s: 0.0,
+            model: Model::Compliant,
+            tolerance: 0.01,
+        };
+        let found = ranges.place_of(component, &worst);
+        assert!(found.first == End::B && found.at_m == [0.03, 0.0] && !found.flat, "{found:?}");
+        for (got, want) in found.shares.iter().zip(place.shares) {
+            assert!((got - want).abs() < 1e-9, "{found:?}");
+        }
+    }
+}
