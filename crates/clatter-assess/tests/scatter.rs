@@ -479,3 +479,20 @@ fn extremes_are_next_to_the_worst_of_an_assessment() {
         assert!(worst < 1.02 * known && worst > 0.97 * known, "{worst}, not {known}: {body}");
     }
 }
+
+/// Where either end may touch first the worst is that of the worse end, alone; a part off the middle tells both apart.
+#[test]
+fn extremes_of_either_end_are_those_of_the_worse_end() {
+    let of = |position: &str, first: &str| {
+        let part = SOFT.replace("40 mm", position).replace("{ uniform = [\"80 Hz\", \"120 Hz\"] }", "\"100 Hz\"");
+        // Steep enough that no two ends land as one.
+        let drop = format!("height = \"1 m\"\ntilt = [\"3 deg\", \"6 deg\"]\nfirst = \"{first}\"");
+        let file = product(BODY, &drop, &part);
+        extremes(&file, &[(file.product.body, 0.3)]).unwrap().worst[0][0].unwrap()
+    };
+    for position in ["40 mm", "-55 mm"] {
+        let [a, b, either] = ["a", "b", "either"].map(|first| of(position, first));
+        assert!((a / b - 1.0).abs() > 0.01, "{position}: {a} and {b}");
+        assert!((either / a.max(b) - 1.0).abs() < 1e-9, "{position}: {either}, not {}", a.max(b));
+    }
+}

@@ -199,3 +199,45 @@ pub(super) fn starts(found: &mut [Candidate]) -> Vec<Candidate> {
     }
     starts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::ranges::Place;
+    use super::*;
+    use crate::engine::Answer;
+    use crate::{Accuracy, Limit, ProductFile, Unit};
+    use clatter::End;
+
+    /// Real tilt shifts what a plate is asked for: the box beside it is followed in drops next to the worst one too, and beside the other
+    /// drops from which the search climbed.
+    #[test]
+    fn real_tilt_is_asked_next_to_the_worst_drop_and_to_the_others() {
+        let text = r#"
+product = { name = "plate", length = "150 mm", width = "70 mm", radius_of_gyration = ["43 mm", "20 mm"], restitution = 0.3, contact_time = "0.3 ms" }
+drop = { speed = "3 m/s", tilt = ["2 deg", "14 deg"], direction = "20 deg" }
+component = [{ name = "part", position = ["70 mm", "30 mm"], mount = "hard", velocity_change_limit = "9 m/s" }]
+"#;
+        let file = ProductFile::read(text, "plate.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let (ranges, component) = (file.ranges(&Accuracy::default()), &file.components[0]);
+        let task = Task { component, limit: Limit::of(component)[0] };
+        let at = |tilt: f64| {
+            let mut shares = [0.0; AXES];
+            shares[TILT] = tilt;
+            let place = Place { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.07, 0.03], shares };
+            let unit = Unit::MeterPerSecond;
+            let answer = Answer { value: 0.0, allowed: 9.0, unit, time_s: 5e-3, impact: 1, off_by: 0.0 };
+            Candidate { place, part: None, answer, late: false }
+        };
+        let alone = |tilt: f64| ranges.as_block_next_to(&task, &at(tilt), 7e-3, 0).unwrap();
+        let beside = |tilt: f64| alone(tilt - 0.03).max(alone(tilt + 0.03));
+        let rises = |tilt: &f64| beside(*tilt) > 1.001 * alone(*tilt);
+        let tilt = [0.2, 0.4, 0.6, 0.8].into_iter().find(rises).expect("it is no plain");
+        let most = ranges.as_block(&task, &at(tilt), &[], 7e-3).unwrap();
+        assert!(most >= beside(tilt), "{most} below {}", beside(tilt));
+        let mut tilts = [0.1, 0.3, 0.5, 0.7, 0.9];
+        tilts.sort_by(|a, b| alone(*a).total_cmp(&alone(*b)));
+        let [low, .., high] = tilts;
+        let most = ranges.as_block(&task, &at(low), &[at(high)], 7e-3).unwrap();
+        assert!(most >= alone(high) && alone(high) > 1.01 * alone(low), "{most}, {}, {}", alone(high), alone(low));
+    }
+}
