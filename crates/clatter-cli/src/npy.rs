@@ -98,4 +98,18 @@ mod tests {
         let read: Vec<f64> = file[128..].chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect();
         assert_eq!(read, values);
     }
+
+    /// A structured array that is written in several parts holds each row once.
+    #[test]
+    fn columns_are_written_row_by_row_across_chunks() {
+        let rows = CHUNK + 5;
+        let count = u32::try_from(rows).unwrap();
+        let [a, b] = [0.0, 0.5].map(|more| (0..count).map(|i| f64::from(i) + more).collect::<Vec<f64>>());
+        let mut file = Vec::new();
+        write_columns(&mut file, &[("a".to_owned(), &a), ("b".to_owned(), &b)]).unwrap();
+        let cells = &file[10 + usize::from(u16::from_le_bytes([file[8], file[9]]))..];
+        let read: Vec<f64> = cells.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect();
+        let want: Vec<f64> = a.iter().zip(&b).flat_map(|(a, b)| [*a, *b]).collect();
+        assert!(read == want, "{} cells, not {}", read.len(), want.len());
+    }
 }
