@@ -207,6 +207,10 @@ mod tests {
         };
         // The mean of the first 16 lies at 37.5; the first sample is 0.6 of the furthest away.
         assert_eq!(refused(&shock, 1e-3, pre), Error::NoQuiet { samples: 0, needed: 16, share: 0.05 });
+        // A peak at sample 10, which the mean knows by a sixteenth.
+        let early: Vec<f64> = (0..100).map(|i| if i == 10 { 100.0 } else { 0.0 }).collect();
+        let half = Baseline::PreShock { share: 0.5 };
+        assert_eq!(refused(&early, 1e-3, half), Error::NoQuiet { samples: 10, needed: 16, share: 0.5 });
         assert_eq!(refused(&[5.0; 100], 1e-3, pre), Error::Shock(NoShock));
         assert!(matches!(refused(&[1.0; 16], 1e-3, pre), Error::Shock(Short { samples: 16, needed: 17, .. })));
         assert!(matches!(refused(&[], 1e-3, Baseline::Mean), Error::Shock(Short { samples: 0, needed: 1, .. })));

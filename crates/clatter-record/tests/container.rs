@@ -473,3 +473,31 @@ fn files() -> Vec<String> {
     names.sort();
     names
 }
+
+/// Parts behind the samples hold none, of a file too whose length stands in another place; 12 bits stand in two bytes.
+#[test]
+fn wav_of_other_programs() {
+    let values = |bytes: &[u8]| -> Vec<Values> {
+        let table = read(Kind::of(bytes).expect("wav"), bytes, MOST).unwrap_or_else(|error| panic!("{error}"));
+        table.columns.into_iter().map(|column| column.values).collect()
+    };
+    let whole = bytes("rf64.wav");
+    let more = [&whole[..], b"LIST\x04\0\0\0abcd"].concat();
+    assert_eq!(values(&more), values(&whole));
+    let of_16 = bytes("i16_two.wav");
+    let mut of_12 = of_16.clone();
+    assert_eq!(std::mem::replace(&mut of_12[34], 12), 16, "bits of a sample");
+    assert_eq!(values(&of_12), values(&of_16));
+}
+
+/// Text beside the numbers of a row takes four bytes a letter.
+#[test]
+fn npy_with_text_beside_its_numbers() {
+    let header = b"{'descr': [('name', '<U3'), ('a', '<f8')], 'fortran_order': False, 'shape': (2,), }\n";
+    let row = |letter: u8, value: f64| [&[letter, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0][..], &value.to_le_bytes()].concat();
+    let length = u8::try_from(header.len()).unwrap();
+    let file = [b"\x93NUMPY\x01\0", &[length, 0][..], header, &row(b'x', 1.5), &row(b'y', -2.0)].concat();
+    let found = read(Kind::of(&file).expect("npy"), &file, MOST).unwrap_or_else(|error| panic!("{error}")).columns;
+    assert_eq!(found.len(), 1);
+    assert_eq!((found[0].name.as_str(), &found[0].values), ("a", &Values::Float(vec![1.5, -2.0])));
+}

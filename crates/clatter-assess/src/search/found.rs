@@ -109,3 +109,18 @@ impl Candidate {
         Self { place: Place { at_m: image(at_m, sides), ..place }, ..self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What rebounds may ask is the most of any drop, in whatever order they come.
+    #[test]
+    fn rebounds_of_all_drops_are_the_most_of_any() {
+        for order in [[3.0, 1.0, 2.0], [1.0, 2.0, 3.0]] {
+            let mut all = Candidates { found: vec![Vec::new()], refused: None, later: vec![0.0], drops: 0 };
+            all.take(order.map(|most| Ok(OfDrop { asked: Vec::new(), later: vec![(0, most)] })).into());
+            assert!((all.later[0] - 3.0).abs() < 1e-12 && all.drops == 3, "{:?} of {order:?}", all.later);
+        }
+    }
+}
