@@ -798,3 +798,56 @@ fn an_extended_part_is_answered_at_its_worst_end() {
     let acceleration = of(&got, "omega") * of(&got, PEAKS[1]);
     assert!((of(limit, "share") / (acceleration / (1600.0 * 9.806_65)) - 1.0).abs() < 1e-9, "{limit}, {acceleration}");
 }
+
+/// A product of these values, and what a drop of it asks of its part.
+fn drop_of([restitution, contact, speed, tilt, hz, damping]: [&str; 6], more: &str, flags: &[&str]) -> Value {
+    let text = format!(
+        "[product]\nname = \"bar\"\nlength = \"150 mm\"\nradius_of_gyration = \"43 mm\"\nrestitution = {restitution}\n\
+         contact_time = {contact}\n{more}[drop]\nspeed = {speed}\ntilt = {tilt}\n[[component]]\nname = \"part\"\n\
+         position = \"20 mm\"\nnatural_frequency = {hz}\ndamping_ratio = {damping}\nrattle_space = \"9 mm\"\n"
+    );
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("bar.toml");
+    fs::write(&path, text).unwrap();
+    let product = format!("--product={}", path.display());
+    let asked = ["respond", &product, "--component=part", "--format=json"];
+    let outcome = clatter(asked.iter().chain(flags));
+    assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
+    serde_json::from_str(&outcome.stdout).unwrap()
+}
+
+const VALUES: [&str; 6] = ["0.4", "\"0.3 ms\"", "\"4 m/s\"", "\"4 deg\"", "\"100 Hz\"", "0.02"];
+
+/// Of a range is taken what harms most as a rule: the shortest contact, the least damping, the most bounce and speed; else the middle.
+#[test]
+fn of_ranges_the_values_are_taken_that_harm_most() {
+    let ranges = [
+        "[0.2, 0.4]",
+        "[\"0.3 ms\", \"0.5 ms\"]",
+        "[\"2 m/s\", \"4 m/s\"]",
+        "[\"2 deg\", \"6 deg\"]",
+        "[\"80 Hz\", \"120 Hz\"]",
+        "[0.02, 0.1]",
+    ];
+    assert_eq!(drop_of(ranges, "", &["--first=a"]), drop_of(VALUES, "", &["--first=a"]));
+    for (n, other) in ["0.3", "\"0.4 ms\"", "\"3 m/s\"", "\"5 deg\"", "\"90 Hz\"", "0.05"].into_iter().enumerate() {
+        let mut values = VALUES;
+        values[n] = other;
+        assert_ne!(drop_of(values, "", &["--first=a"]), drop_of(VALUES, "", &["--first=a"]), "{other} changes nothing");
+    }
+}
+
+/// With end b first the product is seen from behind, and so is a center of mass that is given beside its file: the same but for roundings.
+#[test]
+fn a_center_of_mass_beside_a_product_is_turned_with_it() {
+    for first in ["--first=a", "--first=b"] {
+        let of_file = drop_of(VALUES, "center_of_mass = \"6 mm\"\n", &[first]);
+        let beside = drop_of(VALUES, "", &[first, "--center-of-mass=6mm"]);
+        for name in
+            ["center_of_mass", "at", "acceleration_m_s2", "angular_velocity_change_rad_s", "velocity_change_m_s"]
+        {
+            let [own, other] = [&of_file, &beside].map(|drop| drop[name].as_f64().unwrap());
+            assert!((own / other - 1.0).abs() < 1e-12, "{first}, {name}: {own} and {other}");
+        }
+    }
+}
