@@ -486,13 +486,16 @@ proptest! {
         let (plain, shaken) = (run(0.0, until_s)?, run(1e-7, until_s)?);
         let fast = |a: [f64; 4], b: [f64; 4]| (0..4).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max) / drop.speed;
         let times = (fast(plain.velocities(), shaken.velocities()) / 1e-7).max(1.0);
-        // What grazes, or lets go within a step of another, the integration sees in small steps alone.
-        let finer = run_in_steps(0.0, until_s, 1000.0)?;
         let moved = until(&drop, until_s);
         prop_assume!(moved.strikes.iter().all(|strike| !grazes(strike.approach_m_s, &drop)));
         let moved = moved.sample(until_s).expect("contacts");
-        let off = fast(moved.velocity_m_s, finer.velocities());
-        prop_assert!(times > 1e3 || off < 1e-6 * times, "{off:e}, {times}-fold of {drop:?}");
+        let off = |plain: &PlainPlate| fast(moved.velocity_m_s, plain.velocities());
+        let is_near = |off: f64| times > 1e3 || off < 1e-6 * times;
+        if !is_near(off(&plain)) {
+            // What grazes, or lets go within a step of another, the integration sees in small steps alone.
+            let off = off(&run_in_steps(0.0, until_s, 1000.0)?);
+            prop_assert!(is_near(off), "{off:e}, {times}-fold of {drop:?}");
+        }
     }
 }
 
