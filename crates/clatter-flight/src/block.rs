@@ -253,4 +253,21 @@ mod tests {
             assert!((kept(height, 0.002) - 0.048).abs() < 1e-12, "{height}: {}", kept(height, 0.002));
         }
     }
+
+    /// On a ground of three heights a face stands on the three corners around its center of mass: of a square on the diagonal that is higher,
+    /// and off the middle of it on the corner beside that too.
+    #[test]
+    fn a_face_stands_on_the_corners_that_hold_it_highest() {
+        let ground = |on: [f64; 4]| std::array::from_fn(|corner| on[corner & 3]);
+        let over = |center: [f64; 3], on: [f64; 4]| {
+            let block = Block::new([0.2, 0.2, 0.1], center, [0.07, 0.07, 0.08]).unwrap();
+            block.height_on(2, [0.0, 0.0, 1.0], ground(on))
+        };
+        let near = |got: f64, want: f64| assert!((got - want).abs() < 1e-15, "{got}, not {want}");
+        // Corners −−, +−, −+ and ++.
+        near(over([0.0; 3], [-0.002, 0.0, 0.0, -0.004]), 0.0);
+        near(over([0.0; 3], [0.0, -0.002, -0.004, -0.001]), -0.0005);
+        // A quarter of the side towards +x: half of the weight is on the diagonal, half on the side +x alone.
+        near(over([0.05, 0.0, 0.0], [0.0, -0.002, -0.004, -0.001]), -0.001);
+    }
 }

@@ -83,3 +83,26 @@ fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
         assert_eq!(matches!(run.ends(), Some(Stop::EnergyLimit { .. })), ends, "off by {off}");
     }
 }
+
+/// Without gravity a box that rises is left once its center of mass is higher than it reaches: before, a corner may come down again.
+#[test]
+fn without_gravity_it_is_clear_where_no_corner_reaches_the_ground() {
+    let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, 0.0).unwrap();
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap();
+    let reach = 0.5 * (0.15_f64.powi(2) + 0.07_f64.powi(2) + 0.014_f64.powi(2)).sqrt();
+    for (height, rises, clear) in [(0.99, 1.0, false), (1.01, 1.0, true), (1.01, -1.0, false)] {
+        let mut run = Run::new(&drop, &contact);
+        (run.y[0], run.y[1]) = (height * reach, rises);
+        assert_eq!(matches!(run.ends(), Some(Stop::BouncedClear { .. })), clear, "{height}, {rises}");
+    }
+}
+
+/// A box that spins lands with a corner faster than its center of mass, by no more than is reckoned with.
+#[test]
+fn no_corner_of_a_spinning_box_is_faster_than_reckoned_with() {
+    let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
+    let drop = drop.with_spin([5.0, -20.0, 3.0]).unwrap();
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap();
+    let fastest = fastest(&Run::new(&drop, &contact));
+    assert!(fastest > 2.0 && drop.fastest() >= fastest && drop.fastest() < 1.5 * fastest, "{fastest}");
+}
