@@ -455,6 +455,18 @@ fn the_account_closes() {
     );
 }
 
+/// Rows are counted in whole numbers.
+#[test]
+fn what_rises_without_whole_numbers_is_no_number_of_the_row() {
+    let taken = |samples: [&str; 3]| {
+        let rows: String = (0..3).zip(samples).map(|(i, n)| format!("{i},{n},{i}\n")).collect();
+        let record = read(format!("time [s],Sample,Ax [m/s2]\n{rows}")).expect("a record");
+        record.account().expect("a text").columns[1].1.clone()
+    };
+    assert_eq!(taken(["1", "2", "3"]), "number of the row");
+    assert_eq!(taken(["0.5", "1.25", "3.5"]), "no acceleration by its name");
+}
+
 /// What a file counts in is no acceleration, whatever unit is given for it.
 #[test]
 fn counts_of_a_converter() {
