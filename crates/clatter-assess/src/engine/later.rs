@@ -191,6 +191,22 @@ mod tests {
         }
     }
 
+    /// A bar of 150 mm that lands flat, with contacts of 0.2 ms.
+    fn bar(speed_m_s: f64, restitution: f64) -> SingleDrop {
+        SingleDrop {
+            body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
+            across: None,
+            first: clatter::End::A,
+            tilt_rad: 0.0,
+            flat: false,
+            speed_m_s,
+            restitution,
+            gravity_m_s2: 9.81,
+            contact_time_s: Some(2e-4),
+            contact_law: ContactLaw::Hysteretic,
+        }
+    }
+
     /// Mass near the edges, landing flat: it lands again with e times its speed, all four corners along one line of their springs. Its
     /// center feels (1 + e) e v, and √(4/μ) times the peak of a lone contact, 13 % more than one of its own.
     #[test]
@@ -230,18 +246,7 @@ mod tests {
     /// more than was said as the product was up.
     #[test]
     fn what_rings_on_adds_to_what_comes() {
-        let drop = SingleDrop {
-            body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
-            across: None,
-            first: clatter::End::A,
-            tilt_rad: 0.0,
-            flat: false,
-            speed_m_s: 1.0,
-            restitution: 0.9,
-            gravity_m_s2: 9.81,
-            contact_time_s: Some(2e-4),
-            contact_law: ContactLaw::Hysteretic,
-        };
+        let drop = bar(1.0, 0.9);
         let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let on = Followed::until(&drop, Model::Compliant, 0.01, Until::Past(0.3)).unwrap();
         let [up, on] = [&up, &on].map(|followed| PlaceHistory::new(followed, [0.0; 2]).unwrap());
@@ -268,18 +273,7 @@ mod tests {
     /// product is still up and felt only from when it lies.
     #[test]
     fn a_weight_that_comes_is_among_what_may_come() {
-        let drop = SingleDrop {
-            body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
-            across: None,
-            first: clatter::End::A,
-            tilt_rad: 0.0,
-            flat: false,
-            speed_m_s: 0.3,
-            restitution: 0.6,
-            gravity_m_s2: 9.81,
-            contact_time_s: Some(2e-4),
-            contact_law: ContactLaw::Hysteretic,
-        };
+        let drop = bar(0.3, 0.6);
         let part = Suspension::from_hz(1.0, clatter_shock::DampingRatio::new(0.0).unwrap()).unwrap();
         let hangs = drop.gravity_m_s2 / (part.omega() * part.omega());
         let limit = Limit::new(crate::LimitKind::RattleSpace, hangs);
@@ -329,18 +323,7 @@ mod tests {
     #[test]
     fn a_stiff_part_is_asked_for_no_more_than_said_as_it_lands_again() {
         let (e, v, time_s) = (0.6, 2.0, 2e-4);
-        let drop = SingleDrop {
-            body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
-            across: None,
-            first: clatter::End::A,
-            tilt_rad: 0.0,
-            flat: false,
-            speed_m_s: v,
-            restitution: e,
-            gravity_m_s2: 9.81,
-            contact_time_s: Some(time_s),
-            contact_law: ContactLaw::Hysteretic,
-        };
+        let drop = bar(v, e);
         let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let later = PlaceHistory::new(&followed, [0.0; 2]).unwrap().later();
         let duration = time_s * (0.5 * (1.0 + (0.075_f64 / 0.045).powi(2))).sqrt();
