@@ -19,7 +19,7 @@ const STEP: f64 = 0.02;
 const NARROW: f64 = 1e-3;
 /// Rows of the list at most, and letters of a word.
 const ROWS: usize = 16;
-const LETTERS: usize = 14;
+const LETTERS: usize = 12;
 
 /// A direction of the ring, in rad: r = h_d/(h_b + h_d) from 0 to 1 as a quarter of a turn.
 fn angle(r: f64) -> f64 {
