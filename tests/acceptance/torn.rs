@@ -98,7 +98,7 @@ fn each(cases: u32) -> ProptestConfig {
 }
 
 proptest! {
-    #![proptest_config(each(3000))]
+    #![proptest_config(each(1000))]
     #[test]
     fn records(seed in prop::sample::select(seeds(&["fuzz/corpus/record", "crates/clatter-record/tests/cases", "crates/clatter-record/tests/cases/field"])), tears in tears()) {
         inputs::record(&torn(&seed, &tears));

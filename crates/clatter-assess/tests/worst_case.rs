@@ -222,13 +222,13 @@ fn no_single_drop_is_worse() {
 #[test]
 fn no_single_drop_of_a_plate_is_worse() {
     // What rebounds may ask by their energy is more: it turns about two axes.
-    none_is_worse(plate, [2, 100], 4, false);
+    none_is_worse(plate, [2, 50], 4, false);
 }
 
 /// The same at real tilt: of a box of small thickness with full rotation, by another integration.
 #[test]
 fn no_single_drop_of_a_box_at_real_tilt_is_worse() {
-    none_is_worse(plate, [2, 60], 4, true);
+    none_is_worse(plate, [2, 30], 4, true);
 }
 
 /// Of so many limits at most one is undecided.
