@@ -125,6 +125,66 @@ pub(crate) fn repeated(limit: &Value) -> f64 {
     }
 }
 
+/// Of a bar and a plate on feet, with parts beyond them.
+#[test]
+fn the_command_below_a_worst_drop_on_feet_says_the_same() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("feet.toml").display().to_string();
+    let bar = r#"
+product = { name = "laptop", length = "300 mm", radius_of_gyration = "85 mm", restitution = [0.2, 0.3], contact_time = "1 ms", feet_inset = "30 mm", feet_height = "20 mm" }
+drop = { height = "0.5 m", tilt = ["1 deg", "8 deg"] }
+component = [
+    { name = "drive", position = "-140 mm", natural_frequency = "90 Hz", damping_ratio = 0.15, acceleration_limit = "900 gn" },
+    { name = "hinge", position = "145 mm", extent = "10 mm", mount = "hard", velocity_change_limit = "20 m/s" },
+]
+"#;
+    let plate = bar
+        .replace("\"300 mm\"", "\"300 mm\", width = \"210 mm\"")
+        .replace("\"85 mm\"", "[\"85 mm\", \"60 mm\"]")
+        .replace("\"30 mm\"", "[\"30 mm\", \"20 mm\"]")
+        .replace("\"-140 mm\"", "[\"-140 mm\", \"100 mm\"]")
+        .replace("\"145 mm\"", "[\"145 mm\", \"0 mm\"]")
+        .replace("\"10 mm\"", "[\"10 mm\", \"200 mm\"]");
+    for text in [bar, &plate] {
+        fs::write(&path, text).unwrap();
+        let outcome = clatter(["assess", &path, "--format=json"]);
+        let json: Value = serde_json::from_str(&outcome.stdout).unwrap();
+        for component in json["components"].as_array().unwrap() {
+            let limit = &component["limits"][0];
+            let (demand, again) = (limit["demand"].as_f64().unwrap(), repeated(limit));
+            assert!((again / demand - 1.0).abs() < 1e-9, "{again}, not {limit}");
+            let name = component["name"].as_str().unwrap();
+            let short = format!("--component={name}");
+            let product = format!("--product={path}");
+            let short = clatter(["respond", &product, &short, "--worst", "--format=json"]);
+            let short: Value = serde_json::from_str(&short.stdout).unwrap();
+            let again = short["limits"][0]["value"].as_f64().unwrap();
+            assert!((again / demand - 1.0).abs() < 1e-6, "{again}, not {limit}");
+        }
+        // Beyond the edge, and on feet so low that the edge touches.
+        let beyond = clatter([
+            "respond",
+            &format!("--product={path}"),
+            &format!("--at=151mm{}", if text == bar { "" } else { ",0mm" }),
+        ]);
+        assert!(beyond.stderr.contains("beyond the ends: allowed is up to 150 mm"), "{}", beyond.stderr);
+    }
+    let low = [
+        "respond",
+        "--model=compliant",
+        "--length=240mm",
+        "--gyration=85mm",
+        "--e=0.3",
+        "--speed=3m/s",
+        "--tilt=2deg",
+        "--at=0mm",
+        "--contact-time=1ms",
+        "--feet-m=0.03,0,0.0015",
+    ];
+    let outcome = clatter(low);
+    assert!(outcome.stderr.contains("an edge beyond the feet comes down"), "{}", outcome.stderr);
+}
+
 /// Of a plate whose masses lie askew.
 #[test]
 fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {

@@ -380,6 +380,7 @@ fn drops_drive_components_as_in_an_assessment() {
         gravity_m_s2: 9.806_65,
         contact_time_s: Some(contact_s),
         contact_law: ContactLaw::Hysteretic,
+        feet: None,
     };
     let part = Suspension::new(1131.0, DampingRatio::new(0.05).unwrap()).unwrap();
     for model in Model::FOLLOWED {

@@ -245,17 +245,38 @@ fn plans_and_arguments_that_are_wrong_are_told() {
     refused(&folder.part("1/1", "bar.parquet"), &["bar.parquet is read by this command and would be lost"]);
 }
 
-/// A sample of a box goes through all of its drops, which no row holds.
+/// A sample of a box goes through all of its drops: a row tells what each part is asked in all of them and in each, and any number of
+/// parts gives the answer of `scatter`. Boxes of a grid go through the same drops.
 #[test]
-fn a_box_is_none_of_a_study() {
-    let folder = Folder::new(PLAN);
+fn a_box_is_studied_through_all_of_its_drops() {
+    let folder = Folder::new("product = \"bar.toml\"\nsamples = 150\nseed = 7\n");
     let thick = BAR
-        .replace("\"140 mm\"", "\"140 mm\"\nwidth = \"70 mm\"\nthickness = \"12 mm\"\ncontact_time = \"0.4 ms\"")
+        .replace(
+            "\"140 mm\"",
+            "\"140 mm\"\nmass = \"190 g\"\nwidth = \"70 mm\"\nthickness = \"12 mm\"\ncontact_time = \"0.4 ms\"",
+        )
         .replace("\"40 mm\"", "[\"40 mm\", \"20 mm\"]")
-        .replace("tilt = { triangular = [\"0.5 deg\", \"2 deg\", \"10 deg\"] }", "face = \"bottom\"")
+        .replace("tilt = { triangular = [\"0.5 deg\", \"2 deg\", \"10 deg\"] }", "face = [\"bottom\", \"end-a\"]")
         .replace("\"60 mm\"", "[\"60 mm\", \"0 mm\"]")
         .replace("velocity_change", "acceleration")
         .replace("\"7.5 m/s\"", "\"900 gn\"");
-    fs::write(folder.at("bar.toml"), thick).unwrap();
-    refused(&folder.part("1/1", "part.parquet"), &["a box goes through all of its drops"]);
+    fs::write(folder.at("bar.toml"), &thick).unwrap();
+    let [whole, cut] = [1, 3].map(|of| merge(&folder.parts(of), &["--format=json"]));
+    assert_eq!((whole.exit, whole.stderr.as_str()), (Exit::Done, ""));
+    assert_eq!(whole.stdout, cut.stdout);
+    let scatter = clatter(["scatter", &folder.at("bar.toml"), "--samples=150", "--seed=7", "--format=json"]);
+    let of_scatter: Value = serde_json::from_str(&scatter.stdout).unwrap();
+    let found: Value = serde_json::from_str(&whole.stdout).unwrap();
+    for of in ["components", "landings", "survival"] {
+        assert_eq!(found["members"][0][of], of_scatter[of], "{of}");
+    }
+    assert_eq!(found["members"][0]["landings"].as_array().unwrap().len(), 2);
+    // Heavier ones are dropped otherwise.
+    let listed =
+        thick.replace("height = \"1 m\"\nface = [\"bottom\", \"end-a\"]", "standard = \"MIL-STD-810H/516.8-IV\"");
+    fs::write(folder.at("bar.toml"), listed).unwrap();
+    let plan = "product = \"bar.toml\"\nsamples = 5\n[grid]\nproduct.mass = [\"190 g\", \"60 kg\"]\n";
+    fs::write(folder.at("plan.toml"), plan).unwrap();
+    let other = "product 2 of the grid goes through other drops than the first";
+    refused(&folder.part("1/1", "part.parquet"), &[other]);
 }

@@ -48,13 +48,13 @@ pub(crate) fn plan(name: &str, given: &str) -> Result<Reply, String> {
     let (file, warnings) = products::read(name, given)?;
     let body = &file.product.body;
     let [a, b] = body.arms_m();
-    let width = file.product.width;
+    let (width, sides_m) = (file.product.width, file.product.sides_m());
     let e = file.product.restitution.at(0.5);
     let bar = clatter::Bar::from_arms([a, b], body.gyration_m(), e);
     let plan = Plan {
         product: file.product.name.clone(),
-        length_m: a + b,
-        width_m: width.map(|width| width.m()),
+        length_m: sides_m[0],
+        width_m: width.map(|_| sides_m[1]),
         center_m: [0.5 * (a - b), width.map_or(0.0, |width| width.center_m())],
         q: bar.ok().map(|bar| bar.q()),
         e,

@@ -86,6 +86,22 @@ fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), clatter::Erro
     }
 }
 
+/// The same of a body so long that lands on feet: parts may lie beyond them.
+fn on_body_beyond(
+    positions: impl IntoIterator<Item = f64>,
+    length_m: f64,
+    inset_m: Option<f64>,
+) -> Result<(), clatter::Error> {
+    let Some(inset_m) = inset_m else { return on_body(positions) };
+    let most = (1.0 + 2.0 * inset_m / length_m) * (1.0 + 1e-9);
+    match positions.into_iter().find(|s| !(-most..=most).contains(s)) {
+        Some(value) => {
+            Err(clatter::Error::Quantity { name: "position", value, allowed: "up to the edges beyond its feet" })
+        }
+        None => Ok(()),
+    }
+}
+
 /// That all places lie on the plate.
 fn on_plate(places: &[[f64; 2]]) -> Result<(), clatter::Error> {
     on_body(places.iter().flatten().copied())

@@ -31,7 +31,9 @@ use std::io;
 use std::ops::Range;
 
 use clatter_assess::scatter::{Column, PartRow, Sampler, Settings};
-use clatter_assess::{Accuracy, Assessment, Component, Family, Faults, LimitKind, Plan, ProductFile, Verdict};
+use clatter_assess::{
+    Accuracy, Assessment, Attitude, Component, Family, Faults, LimitKind, Plan, ProductFile, Verdict,
+};
 use clatter_record::{Field, FieldKind};
 
 pub use answer::{Answer, Member, Outcome, SearchedLimit};
@@ -51,11 +53,11 @@ pub enum Error {
     /// A product that is not assessed.
     #[error(transparent)]
     Assess(#[from] clatter_assess::Error),
-    /// A box, whose samples go through all of its drops.
+    /// Boxes of one grid that do not go through the same drops.
     #[error(
-        "a study draws drops of bars and plates; a box goes through all of its drops, which `scatter` and `assess` tell"
+        "product {0} of the grid goes through other drops than the first; allowed: the same list for all, as the columns tell them"
     )]
-    Box,
+    Drops(u64),
     /// A shard that there is not.
     #[error("shard {index}/{of} is none: the plan has {rows} rows, in shards from 1/N to N/N with N from 1 to {rows}")]
     Shard {
@@ -80,6 +82,8 @@ pub struct Study {
     drawn: Vec<Column>,
     /// The parts of all products.
     components: Vec<Component>,
+    /// What all boxes land on, in one drop after the other; none of bars, of plates, and of a search.
+    attitudes: Vec<Attitude>,
 }
 
 /// Rows of a group of the file: 1 MiB of each column.
@@ -96,16 +100,21 @@ impl Study {
     pub fn new(plan: Plan, product: &str, origin: &str) -> Result<Self, Error> {
         let family = plan.family(product, origin)?;
         let first = family.member(0)?;
-        let mut study = Self { plan, family, drawn: Vec::new(), components: first.components.clone() };
+        let (drawn, attitudes, components) = (Vec::new(), Vec::new(), first.components.clone());
+        let mut study = Self { plan, family, drawn, components, attitudes };
         if study.plan.search {
             return Ok(study);
         }
         let sampler = study.sampler(&first, NO_INTERVAL)?;
+        study.attitudes = sampler.attitudes().to_vec();
         let quantities = sampler.quantities();
         let values = sampler.drawn(0, &quantities);
         let mut differs: Vec<bool> = quantities.iter().map(|column| sampler.varies(*column)).collect();
         for i in 1..study.family.members() {
             let sampler = study.sampler(&study.family.member(i)?, NO_INTERVAL)?;
+            if sampler.attitudes() != study.attitudes {
+                return Err(Error::Drops(i + 1));
+            }
             for (k, (value, other)) in sampler.drawn(0, &quantities).iter().zip(&values).enumerate() {
                 differs[k] |= sampler.varies(quantities[k]) || value.to_bits() != other.to_bits();
             }
@@ -164,9 +173,6 @@ impl Study {
 
     fn sampler(&self, file: &ProductFile, confidence: f64) -> Result<Sampler, Error> {
         let Plan { samples, seed, .. } = self.plan;
-        if !file.landings.is_empty() {
-            return Err(Error::Box);
-        }
         Ok(Sampler::new(file, Settings { samples, seed, confidence, merge_s: Accuracy::default().merge_s })?)
     }
 
@@ -184,14 +190,23 @@ impl Study {
         }
         fields.push(field("sample", "", FieldKind::Whole));
         fields.extend(self.drawn.iter().map(|column| self.drawn_field(*column)));
-        for component in &self.components {
-            let of = |what: &str| format!("{what} of {}", component.name);
+        for (component, on) in self.asked() {
+            let of = |what: &str| {
+                let what = format!("{what} of {}", component.name);
+                on.map_or(what.clone(), |n| self.on(&what, n))
+            };
             fields.push(field(&of("utilization"), "1", FieldKind::FloatOrNone));
             fields.push(field(&of("open"), "", FieldKind::Flag));
             let exceeded = |kind: LimitKind| field(&of(&format!("exceeds {}", kind.name())), "", FieldKind::Flag);
             fields.extend(component.limits.kinds().into_iter().map(exceeded));
         }
         fields
+    }
+
+    /// What is asked of a part in a row: through all of its drops, and of a box in each of them too, by its number from 0.
+    fn asked(&self) -> impl Iterator<Item = (&Component, Option<usize>)> {
+        let drops = std::iter::once(None).chain((0..self.attitudes.len()).map(Some));
+        drops.flat_map(|on| self.components.iter().map(move |component| (component, on)))
     }
 
     /// Places in [`fields`](Self::fields) of what [`Merge`] counts.
@@ -203,6 +218,11 @@ impl Study {
 
     fn limits(&self) -> impl Iterator<Item = (&Component, LimitKind)> {
         self.components.iter().flat_map(|part| part.limits.kinds().into_iter().map(move |kind| (part, kind)))
+    }
+
+    /// Of one of the drops of a box, by its number from 0.
+    fn on(&self, what: &str, n: usize) -> String {
+        self.attitudes.get(n).map_or(what.to_owned(), |attitude| format!("{what} on drop {}, {attitude}", n + 1))
     }
 
     fn drawn_field(&self, column: Column) -> Field {
@@ -220,6 +240,9 @@ impl Study {
             Column::DampingRatio(i) => (of("damping_ratio", i), "1"),
             Column::PositionM(i) => (of("position_m", i), "m"),
             Column::AcrossM(i) => (of("position_across_m", i), "m"),
+            Column::LandingSpeedMS(n) => (self.on("speed_m_s", n), "m/s"),
+            Column::LandingTiltDeg(n) => (self.on("tilt_rad", n), "rad"),
+            Column::LandingDirectionDeg(n) => (self.on("direction_rad", n), "rad"),
             Column::Limit(i, kind) => (of(&in_unit(kind, "limit"), i), kind.unit().name()),
             Column::CriticalAccelerationMS2(i) => (of("critical_acceleration_m_s2", i), "m/s2"),
             other => (format!("{other:?}"), ""),
@@ -277,8 +300,8 @@ impl Study {
         let before = rows.start / self.rows_a_member() * self.rows_a_member();
         let drawn = sampler.rows(rows.start - before..rows.end - before, &self.drawn, done);
         for (row, (drawn, asked)) in rows.zip(drawn) {
-            let each = asked.iter().zip(&self.components);
-            let told = each.flat_map(|(asked, component)| {
+            let each = asked.iter().zip(self.asked());
+            let told = each.flat_map(|(asked, (component, _))| {
                 let kinds = component.limits.kinds().len();
                 let flag = |is: bool| f64::from(u8::from(is));
                 let PartRow { utilization, open, exceeded } = asked.unwrap_or(UNANSWERED);

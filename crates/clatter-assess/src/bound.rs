@@ -31,7 +31,9 @@ pub(crate) fn bound(
     if product.width.is_some() {
         return of_plate(product, drop, posture, component, limit, law);
     }
-    let [a, b] = product.body.arms_m();
+    // Beyond feet an edge may touch, if not before the product lands again.
+    let beyond = product.feet.map_or(0.0, |feet| feet.inset_m[0]);
+    let [a, b] = product.body.arms_m().map(|arm| arm + beyond);
     // All that follows grows as the radius of gyration shrinks.
     let rho = product.gyration_m.lo();
     let [_, fastest] = drop.speeds_m_s();
@@ -104,6 +106,7 @@ fn of_plate(
         gravity_m_s2: drop.gravity_m_s2,
         contact_time_s: Some(contact_s.lo()),
         contact_law: law,
+        feet: product.feet,
     };
     let norm = |[x, y]: [f64; 2]| libm::hypot(x, y);
     let spot = |at_m: [f64; 2]| Spot { at_m, inside: component.inside };
@@ -122,7 +125,11 @@ fn of_plate(
         Source::Response(peak) if peak.is_acceleration() && component.mount == Mount::Hard && law.leaves_a_dent() => {
             let contact = Contact::new(law, product.restitution.hi(), contact_s.lo()).ok()?;
             let of = |q: f64| (1.0 + farthest * q) / (1.0 + q * q).sqrt();
-            let pressed = corners.into_iter().fold(0.0, |all, q| libm::hypot(all, of(norm(q))));
+            // Where edges beyond feet may touch as well, four points with the lever arm that does most.
+            let pressed = match product.feet {
+                Some(_) => 2.0 * (1.0 + farthest * farthest).sqrt(),
+                None => corners.into_iter().fold(0.0, |all, q| libm::hypot(all, of(norm(q)))),
+            };
             Some(speed * contact.frequency_rad_s() * pressed)
         }
         Source::Response(_) => None,

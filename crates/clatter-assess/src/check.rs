@@ -8,10 +8,12 @@ use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
 use crate::{
-    Axis, Component, Damping, DataFault, Drop, Error, Fall, First, Inside, Law, LimitKind, Mount, Product, ProductFile,
-    RecordFile, Spread, Width,
+    Axis, Component, Damping, DataFault, Drop, Error, Fall, Feet, First, Inside, Law, LimitKind, Mount, Product,
+    ProductFile, RecordFile, Spread, Width,
 };
 
+/// Feet may lie so far inside the edges, over the side.
+pub(crate) const FEET_INSIDE: f64 = 0.4;
 /// How far the center of mass may lie from the middle, over the length.
 const FARTHEST_CENTER: f64 = 0.45;
 /// Product of inertia over the mass, over the product of both radii of gyration: next to 1 all mass is along one line.
@@ -42,6 +44,7 @@ impl ProductFile {
         self.product.check()?;
         self.drop.check(self.product.width.is_some())?;
         self.check_landings()?;
+        self.check_feet()?;
         number_of_components(self.components.len())?;
         let mut names = HashSet::new();
         for component in &self.components {
@@ -87,6 +90,15 @@ impl ProductFile {
         }
         Ok(())
     }
+    /// Whether feet touch first, also in the steepest drop.
+    fn check_feet(&self) -> Result<(), DataFault> {
+        let Some(feet) = &self.product.feet else { return Ok(()) };
+        if !self.landings.is_empty() {
+            return Err(DataFault::FeetOfBox);
+        }
+        let (tilt_rad, most_rad) = (self.drop.tilt_rad.hi(), feet.steepest_rad(self.drop.direction_rad.as_ref()));
+        if tilt_rad > most_rad { Err(DataFault::FeetLow { tilt_rad, most_rad }) } else { Ok(()) }
+    }
     /// Refuses a plate where bars alone are taken.
     pub(crate) fn check_bar(&self, what: &'static str) -> Result<(), Error> {
         if self.product.width.is_some() { Err(Error::OfBars(what)) } else { Ok(()) }
@@ -112,7 +124,19 @@ impl Product {
         if (gyration_m - middle_m).abs() > ROUNDINGS * middle_m {
             return Err(DataFault::OtherGyration { gyration_m, middle_m });
         }
+        self.feet.as_ref().map_or(Ok(()), |feet| self.check_feet(feet))?;
         self.width.as_ref().map_or(Ok(()), |width| self.check_width(width))
+    }
+
+    fn check_feet(&self, feet: &Feet) -> Result<(), DataFault> {
+        one(keys::PRODUCT, "feet_height", feet.height_m)?;
+        for (inset_m, side_m) in feet.inset_m.into_iter().zip(self.sides_m()) {
+            one(keys::PRODUCT, "feet_inset", inset_m)?;
+            if inset_m > FEET_INSIDE * side_m {
+                return Err(DataFault::FeetApart { inset_m, side_m });
+            }
+        }
+        Ok(())
     }
 
     fn check_width(&self, width: &Width) -> Result<(), DataFault> {
@@ -213,12 +237,12 @@ impl Component {
     /// Whether it is within the product.
     pub(crate) fn fits(&self, product: &Product) -> Result<(), DataFault> {
         let reach_m = self.position_m.lo().abs().max(self.position_m.hi().abs()) + 0.5 * self.extent_m;
-        let half_m = 0.5 * product.body.length_m();
+        let [half_m, half_across_m] = product.sides_m().map(|side_m| 0.5 * side_m);
         if reach_m.is_nan() || reach_m > half_m * (1.0 + ROUNDINGS) {
             return Err(DataFault::Reach { reach_m, half_m });
         }
         let reach_m = self.across_m.lo().abs().max(self.across_m.hi().abs()) + 0.5 * self.extent_across_m;
-        let half_m = product.width.map_or(0.0, |width| 0.5 * width.m());
+        let half_m = half_across_m;
         if reach_m <= half_m * (1.0 + ROUNDINGS) { Ok(()) } else { Err(DataFault::ReachAcross { reach_m, half_m }) }
     }
 
@@ -285,7 +309,7 @@ impl RecordFile {
 
 /// Whether an acceleration was measured at a place of the product.
 pub(crate) fn sensor(position_m: f64, product: &Product) -> Result<(), DataFault> {
-    let half_m = 0.5 * product.body.length_m();
+    let half_m = 0.5 * product.sides_m()[0];
     let within = position_m.abs() <= half_m * (1.0 + ROUNDINGS);
     if within { Ok(()) } else { Err(DataFault::Sensor { position_m, half_m }) }
 }

@@ -131,6 +131,22 @@ pub enum DataFault {
         /// Half of the width of the product.
         half_m: f64,
     },
+    /// Feet that are too close to one another.
+    FeetApart {
+        /// How far inside the edges.
+        inset_m: f64,
+        /// From edge to edge.
+        side_m: f64,
+    },
+    /// Feet of a box that lands on any side.
+    FeetOfBox,
+    /// A drop so steep that an edge touches before the foot.
+    FeetLow {
+        /// The steepest of the drops.
+        tilt_rad: f64,
+        /// The steepest at which feet touch first.
+        most_rad: f64,
+    },
     /// A component without a limit.
     NoLimit,
     /// A damage boundary without an acceleration.
@@ -193,6 +209,18 @@ impl DataFault {
             Self::Reach { reach_m, half_m } => [
                 format!("the component reaches {} mm from the middle", mm(*reach_m)),
                 format!("allowed: up to {} mm, half of the product's length; extent counts on both sides", mm(*half_m)),
+            ],
+            Self::FeetApart { inset_m, side_m } => [
+                format!("the feet are {} mm inside the edges of a side of {} mm", mm(*inset_m), mm(*side_m)),
+                format!("allowed: up to {} mm, 0.4 of it", mm(crate::check::FEET_INSIDE * side_m)),
+            ],
+            Self::FeetOfBox => [
+                "a box lands on any of its sides, and feet are on one".to_owned(),
+                "leave `feet_inset` and `feet_height` out, or let it land as a plate, by `tilt` alone".to_owned(),
+            ],
+            Self::FeetLow { tilt_rad, most_rad } => [
+                format!("at a tilt of {} deg an edge touches before the foot", degrees(*tilt_rad)),
+                format!("allowed: up to {} deg, by `feet_inset` and `feet_height`", degrees(*most_rad)),
             ],
             Self::NoLimit => {
                 let keys = LimitKind::ALL.map(LimitKind::key).join(", ");
@@ -302,6 +330,11 @@ impl std::fmt::Display for DataFault {
 /// What messages say of a value as it was written.
 pub(crate) fn out_of_range(field: &str, value: impl std::fmt::Display) -> String {
     format!("`{field}` = {value} is out of its range")
+}
+
+/// Degrees to a hundredth.
+fn degrees(angle_rad: f64) -> f64 {
+    (100.0 * angle_rad.to_degrees()).round() / 100.0
 }
 
 /// Millimeters to the micrometer, as messages have them.

@@ -1,5 +1,6 @@
 //! A single drop of a bar, followed by one of four models, or of a plate whose contacts take time.
 
+mod edges;
 mod followed;
 
 use std::f64::consts::TAU;
@@ -11,7 +12,7 @@ use serde::Serialize;
 use crate::attitude::turned_off;
 use crate::course::Course;
 use crate::engine::Spot;
-use crate::{Axis, Error, Width};
+use crate::{Axis, Error, Feet, Width};
 
 pub(crate) use followed::{Followed, PRECISION, Until};
 
@@ -90,6 +91,8 @@ pub struct SingleDrop {
     pub contact_time_s: Option<f64>,
     /// What the ground does to an end while it touches.
     pub contact_law: ContactLaw,
+    /// Feet that it lands on; none where its ends or corners are what lands.
+    pub feet: Option<Feet>,
 }
 
 /// The side of a plate across its length, and how it falls.
@@ -162,6 +165,7 @@ impl SingleDrop {
             gravity_m_s2: scene.gravity_m_s2(),
             contact_time_s: Some(contact.time_s()),
             contact_law: contact.law(),
+            feet: None,
         })
     }
     /// The model with the most physics that the data allow: contacts where their time is known, else real tilt.
@@ -178,18 +182,22 @@ impl SingleDrop {
             return Err(Error::Setting { name: "contact time in s", value, allowed: "in [1e-12, 1000]" });
         }
         // Places are rounded as they are converted.
-        let most = 0.5 * self.body.length_m() * (1.0 + 1e-9);
+        let [most, most_across] = self.sides_m().map(|side_m| 0.5 * side_m * (1.0 + 1e-9));
         if position_m.is_nan() || position_m.abs() > most {
             let (name, allowed) = ("position of the part in m", "up to half of the length on both sides");
             return Err(Error::Setting { name, value: position_m, allowed });
         }
-        let most = self.across.map_or(0.0, |across| 0.5 * across.width.m() * (1.0 + 1e-9));
-        if across_m.is_nan() || across_m.abs() > most {
+        if across_m.is_nan() || across_m.abs() > most_across {
             let (name, allowed) =
                 ("place of the part across the product in m", "up to half of the width on both sides");
             return Err(Error::Setting { name, value: across_m, allowed });
         }
         Ok(())
+    }
+    /// From edge to edge, along the length and along the width; 0 across a bar.
+    pub(crate) fn sides_m(&self) -> [f64; 2] {
+        let [x, y] = self.feet.map_or([0.0; 2], |feet| feet.inset_m);
+        [self.body.length_m() + 2.0 * x, self.across.map_or(0.0, |across| across.width.m() + 2.0 * y)]
     }
     /// Whether it is a box that lands on a face, an edge or a corner.
     pub(crate) fn is_box(&self) -> bool {
@@ -362,9 +370,11 @@ impl SingleDrop {
         // Of a plate that a box stands for, a place is as high as its center of mass.
         [x, y, depth.map_or(0.0, |depth| spot.inside.height_m - depth.center_m)]
     }
-    /// Position s in [−1, 1], −1 the end that touches first, of a place in m from the middle.
+    /// Position s, −1 the end that touches first and 1 the other, of a place in m from the middle; beyond them where the product goes on
+    /// beyond its feet.
     pub(crate) fn relative(&self, position_m: f64) -> f64 {
-        let s = (2.0 * position_m / self.body.length_m()).clamp(-1.0, 1.0);
+        let most = self.sides_m()[0] / self.body.length_m();
+        let s = (2.0 * position_m / self.body.length_m()).clamp(-most, most);
         if self.first == End::A { s } else { -s }
     }
 }
@@ -391,6 +401,7 @@ mod tests {
             gravity_m_s2: 9.81,
             contact_time_s: Some(1e-4),
             contact_law: ContactLaw::Hysteretic,
+            feet: None,
         }
     }
 

@@ -128,6 +128,7 @@ impl Answer {
 ///     gravity_m_s2: 0.0,
 ///     contact_time_s: None,
 ///     contact_law: ContactLaw::Hysteretic,
+///     feet: None,
 /// };
 /// let part = Part::new(0.075, None);
 /// let asked = answer(&drop, &part, &Limit::new(LimitKind::VelocityChange, 9.0), Model::Map, 0.01)?;

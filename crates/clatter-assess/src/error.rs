@@ -69,6 +69,19 @@ pub enum Error {
     /// A motion that was given up while more was to come.
     #[error("the motion goes on beyond 1024 strikes or 150 000 phases, and was left there")]
     Unfinished,
+    /// An edge beyond the feet that comes down to the ground.
+    #[error(
+        "an edge beyond the feet comes down to {} mm below the ground, {} ms after the first touch, and what it does there is not \
+         followed: higher feet, or feet nearer to the edges",
+        rounded(1e3 * depth_m),
+        rounded(1e3 * time_s)
+    )]
+    Edge {
+        /// When it is found there, since the first touch.
+        time_s: f64,
+        /// How far below it would be then.
+        depth_m: f64,
+    },
     /// A search that was told to stop.
     #[error("the search for the worst drop was stopped before")]
     Stopped,
@@ -83,10 +96,25 @@ pub enum Error {
     Contact,
 }
 
+impl Error {
+    /// Of edges that touch the one that does deeper, so that what is told is enough; else the first.
+    pub(crate) fn or_deeper(self, other: Self) -> Self {
+        match (&self, &other) {
+            (Self::Edge { depth_m: one, .. }, Self::Edge { depth_m: two, .. }) if two > one => other,
+            _ => self,
+        }
+    }
+}
+
 impl From<DataFault> for Error {
     fn from(fault: DataFault) -> Self {
         Self::Data { component: None, fault }
     }
+}
+
+/// To two decimals.
+fn rounded(value: f64) -> f64 {
+    (100.0 * value).round() / 100.0
 }
 
 fn of(component: Option<&String>) -> String {

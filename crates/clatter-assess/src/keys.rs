@@ -77,6 +77,19 @@ pub(crate) static PRODUCT: &[Key] = &[
         Quantity(&units::LENGTH, ["0.1 mm", "100 m"]),
         "Thickness of a plate, where real tilt counts; a twentieth of the length unless given.",
     ),
+    key(
+        "feet_inset",
+        false,
+        Sides(&Quantity(&units::LENGTH, ["0 mm", "50 m"])),
+        "How far inside the edges its feet or bumpers lie, which alone touch the ground; of a plate across it too. Parts may lie beyond \
+         them. Unless given, it lands on its ends or corners. Needs feet_height.",
+    ),
+    key(
+        "feet_height",
+        false,
+        Quantity(&units::LENGTH, ["0.01 mm", "1 m"]),
+        "By how much the feet stand out: a drop in which an edge beyond them comes down to the ground as well is not answered.",
+    ),
     key("mass", false, Quantity(&units::MASS, MASSES), "Mass; needed with moment_of_inertia only."),
     key(
         "radius_of_gyration",

@@ -186,6 +186,7 @@ impl Ladder {
     ///     gravity_m_s2: 9.81,
     ///     contact_time_s: Some(2e-4),
     ///     contact_law: clatter_flight::ContactLaw::Hysteretic,
+    ///     feet: None,
     /// };
     /// let part = Part::new(0.06, None);
     /// let ladder = Ladder::measure(&drop, &part, &Limit::new(LimitKind::VelocityChange, 3.0), 0.01)?;

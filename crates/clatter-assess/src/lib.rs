@@ -93,7 +93,7 @@ pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use portrait::{Changes, CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
-pub use product::{Depth, Drop, Fall, First, Landing, Product, ProductFile, RecordFile, Width};
+pub use product::{Depth, Drop, Fall, Feet, First, Landing, Product, ProductFile, RecordFile, Width};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::{Family, GridAxis, LARGEST_FILE, Plan};
 pub use reason::{Doubt, Note, Reason};

@@ -121,7 +121,7 @@ impl ProductFile {
         };
         let drops: Vec<Drops> = laws.iter().map(of_law).collect();
         let fastest = self.components.iter().map(rough_to_rad_s).fold(0.0, f64::max);
-        let places = zone::grid(self.product.body.length_m());
+        let places = zone::grid(self.product.sides_m()[0]);
         let grids: Vec<_> = drops.iter().map(|drops| Places::new(drops, places.clone(), fastest)).collect();
         let bounds = Bounds::default();
         let (file, accuracy) = (self, assessment.accuracy);

@@ -58,10 +58,12 @@ impl ProductFile {
 pub struct Product {
     /// As the file names it.
     pub name: String,
-    /// Length, center of mass and radius of gyration; where that has a range, of the middle of it.
+    /// Length, or how far apart its feet are, center of mass and radius of gyration; where that has a range, of the middle of it.
     pub body: Body,
     /// What makes a plate of the bar: none of a product that is followed as a bar.
     pub width: Option<Width>,
+    /// What it lands on where that is not its ends or corners: body and width are then as long as its feet are apart.
+    pub feet: Option<Feet>,
     /// Radius of gyration about the center of mass, in m.
     pub gyration_m: Spread,
     /// Mass, where the file gives it: it cancels out of every answer.
@@ -87,6 +89,15 @@ pub struct Width {
     pub thickness_m: Option<f64>,
     /// How mass lies across the thickness; spread evenly over it if not given.
     pub depth: Option<Depth>,
+}
+
+/// Feet or bumpers inside the edges: they alone touch the ground, and the product goes on beyond them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Feet {
+    /// How far inside the edges, along the length and along the width; 0 across a bar.
+    pub inset_m: [f64; 2],
+    /// By how much they stand out.
+    pub height_m: f64,
 }
 
 /// How mass lies across a thickness.
@@ -136,6 +147,7 @@ impl Product {
             name: name.into(),
             body,
             width: None,
+            feet: None,
             gyration_m: Spread::finite(body.gyration_m()),
             mass_kg: None,
             restitution,
@@ -154,6 +166,12 @@ impl Product {
     #[must_use]
     pub fn law(&self) -> ContactLaw {
         self.contact_law.unwrap_or_default()
+    }
+    /// From edge to edge, along the length and along the width; 0 across a bar.
+    #[must_use]
+    pub fn sides_m(&self) -> [f64; 2] {
+        let [x, y] = self.feet.map_or([0.0; 2], |feet| feet.inset_m);
+        [self.body.length_m() + 2.0 * x, self.width.map_or(0.0, |width| width.m() + 2.0 * y)]
     }
     /// Distances of the faces of a box from its center of mass, −x, +x, −y and so on, and its thickness; none without one.
     pub(crate) fn faces_m(&self) -> Option<([[f64; 2]; 3], f64)> {

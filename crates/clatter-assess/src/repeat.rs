@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use clatter::End;
 use clatter_flight::ContactLaw;
 
-use crate::{Accuracy, Across, LimitKind, Model, Posture, WorstCase, visible};
+use crate::{Accuracy, Across, Feet, LimitKind, Model, Posture, WorstCase, visible};
 
 /// `clatter respond --product=… --component=… --worst=…`, which searches the worst drop of a limit again and answers it; with the model
 /// and the tolerance, where they are not those that an assessment has by itself. None where the command line cannot say it: for a file
@@ -65,7 +65,11 @@ impl WorstCase {
         }
         let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
         add("gravity-m-s2", drop.gravity_m_s2);
-        add("at", drop.relative(self.part.position_m) + 0.0);
+        if let Some(feet) = &drop.feet {
+            Self::of_feet(feet, &[side * self.part.position_m], &mut command);
+        } else {
+            add("at", drop.relative(self.part.position_m) + 0.0);
+        }
         self.of_part(&mut command);
         let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
         let contacts = self.model == Model::Compliant;
@@ -77,6 +81,13 @@ impl WorstCase {
             }
         }
         command
+    }
+
+    /// Feet that it lands on, and the place, which may be beyond them.
+    fn of_feet(feet: &Feet, at_m: &[f64], command: &mut String) {
+        let (Feet { inset_m: [x, y], height_m }, places) = (feet, at_m.iter().map(|m| format!("{:?}m", m + 0.0)));
+        let places = places.collect::<Vec<_>>().join(",");
+        command.extend([" --at=", &places, " --feet-m=", &format!("{x:?},{y:?},{height_m:?}")]);
     }
 
     /// The part and the tolerance.
@@ -116,7 +127,11 @@ impl WorstCase {
         add("gaps-m", &drop.gaps_m(across));
         add("gravity-m-s2", &[drop.gravity_m_s2]);
         let [x, y] = self.part.at_m();
-        add("at", &[2.0 * sx * x / length, 2.0 * sy * y / width]);
+        if let Some(feet) = &drop.feet {
+            Self::of_feet(feet, &[sx * x, sy * y], &mut command);
+        } else {
+            add("at", &[2.0 * sx * x / length, 2.0 * sy * y / width]);
+        }
         self.of_part(&mut command);
         if let Some(time) = drop.contact_time_s {
             command.extend([" --contact-time-s=", &format!("{time:?}")]);

@@ -59,6 +59,7 @@ fn single(
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: Some(contact_s),
         contact_law: file.product.law(),
+        feet: None,
     }
 }
 

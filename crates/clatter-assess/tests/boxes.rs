@@ -252,6 +252,7 @@ fn hunted(file: &ProductFile, posture: Posture, name: &str, singles: u32, r: &mu
                 gravity_m_s2: file.drop.gravity_m_s2,
                 contact_time_s: file.product.contact_time_s.map(|time| time.at(x[3])),
                 contact_law: file.product.law(),
+                feet: None,
             };
             let places = component.ends_m();
             #[expect(
@@ -452,6 +453,7 @@ fn one([length, width, thickness_m]: [f64; 3], [kx, ky]: [f64; 2], center: [f64;
         gravity_m_s2: 9.806_65,
         contact_time_s: Some(1e-4),
         contact_law: ContactLaw::Hysteretic,
+        feet: None,
     }
 }
 

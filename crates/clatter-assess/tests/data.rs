@@ -499,6 +499,7 @@ fn single_drops_are_checked() {
         gravity_m_s2: 9.81,
         contact_time_s: None,
         contact_law: clatter_assess::ContactLaw::Hysteretic,
+        feet: None,
     };
     let part = Part::new(0.0, None);
     let limit = Limit::new(LimitKind::VelocityChange, 9.0);

@@ -78,6 +78,7 @@ fn drops(file: &ProductFile) -> Vec<SingleDrop> {
                     gravity_m_s2: file.drop.gravity_m_s2,
                     contact_time_s: file.product.contact_time_s.map(|time| time.lo()),
                     contact_law: file.product.law(),
+                    feet: None,
                 });
             }
         }

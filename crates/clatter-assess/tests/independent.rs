@@ -45,6 +45,7 @@ fn any_drop(r: &mut Random, tilt_deg: f64) -> SingleDrop {
         gravity_m_s2: G,
         contact_time_s: Some(r.decades(1e-4, 1.5e-3).min(0.09 * 2.0 * half / speed_m_s)),
         contact_law,
+        feet: None,
     }
 }
 

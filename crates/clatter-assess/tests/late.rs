@@ -32,6 +32,7 @@ fn drop(restitution: f64, tilt_deg: f64, speed_m_s: f64) -> SingleDrop {
         gravity_m_s2: G,
         contact_time_s: None,
         contact_law: ContactLaw::Hysteretic,
+        feet: None,
     }
 }
 

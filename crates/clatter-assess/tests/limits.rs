@@ -109,6 +109,7 @@ fn the_largest_shock_is_the_largest_of_the_train() {
             gravity_m_s2: 0.0,
             contact_time_s: None,
             contact_law: ContactLaw::Hysteretic,
+            feet: None,
         };
         for kind in [LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
             let of =
@@ -133,6 +134,7 @@ fn a_damage_boundary_is_used_up_by_the_lesser_share() {
         gravity_m_s2: 0.0,
         contact_time_s: Some(2e-4),
         contact_law: ContactLaw::Hysteretic,
+        feet: None,
     };
     let of = |limit: &Limit| answer(&drop, &Part::new(0.0, None), limit, Model::Compliant, 0.01).expect("an answer");
     for (change, acceleration, unit) in [(1.0, 1e5, Unit::MeterPerSecondSquared), (10.0, 1e3, Unit::MeterPerSecond)] {

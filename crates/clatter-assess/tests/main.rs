@@ -9,6 +9,7 @@ mod boxes;
 mod data;
 mod design;
 mod examples;
+mod feet;
 mod fit;
 mod independent;
 mod late;

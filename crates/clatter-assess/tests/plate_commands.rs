@@ -135,6 +135,7 @@ fn one(file: &ProductFile, tilt_deg: f64, direction_deg: f64) -> (SingleDrop, Pa
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: Some(4e-4),
         contact_law: file.product.law(),
+        feet: None,
     };
     (drop, Part { across_m: 0.02, ..Part::new(0.05, None) })
 }

@@ -237,6 +237,7 @@ fn answers(file: &ProductFile, columns: &[Column], row: &[f64]) -> Vec<(LimitKin
         gravity_m_s2: STANDARD_GRAVITY_M_S2,
         contact_time_s: value(Column::ContactTimeS),
         contact_law: ContactLaw::Hysteretic,
+        feet: None,
     };
     let component = &file.components[0];
     let ratio = match &component.mount {
@@ -344,6 +345,7 @@ fn a_part_whose_contacts_overlap_fails_as_often_as_single_drops_do() {
             gravity_m_s2: STANDARD_GRAVITY_M_S2,
             contact_time_s: Some(4e-4),
             contact_law: ContactLaw::Hysteretic,
+            feet: None,
         };
         !fails(&drop)
     });

@@ -158,6 +158,7 @@ fn single(
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: file.product.contact_time_s.map(|time| time.at(shares[3])),
         contact_law: file.product.law(),
+        feet: None,
     };
     let suspension = match component.mount {
         Mount::Suspended { frequency_hz, damping } => {

@@ -17,7 +17,7 @@ use crate::measured;
 use crate::numbers::given;
 use crate::output::{Files, no_kind};
 use crate::progress::Counted;
-use crate::quantities::{self, Place, neat, positions};
+use crate::quantities::{self, Place, neat, positions_beyond};
 use crate::record_args::RecordArgs;
 use crate::{Failure, Streams, assess, input, output, text};
 
@@ -139,11 +139,12 @@ impl Args {
     fn question<'a>(&self, file: &'a ProductFile) -> Result<Question<'a>, Failure> {
         let mut places = self.position.iter();
         let half_m = 0.5 * file.product.body.length_m();
+        let beyond_m = file.product.feet.map_or(0.0, |feet| feet.inset_m[0]);
         let timing_s = self.timing.map(|timing| timing.si);
         let read = |path: &PathBuf| {
             let position = || {
                 let Some(place) = places.next() else { return Ok(None) };
-                let s = positions(&[*place], "--position", half_m)?;
+                let s = positions_beyond(&[*place], "--position", half_m, beyond_m)?;
                 Ok(Some(s[0] * half_m))
             };
             measured::read(path, position, timing_s, &self.reading)

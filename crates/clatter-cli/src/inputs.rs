@@ -302,6 +302,13 @@ pub(crate) fn products(text: &str) -> Result<[f64; 3], String> {
     if text.contains(',') { list(text, "XY,XZ,YZ") } else { Ok([number(text)?, 0.0, 0.0]) }
 }
 
+/// Feet: how far beyond them a product goes on along and across it, and how far they stand out.
+pub(crate) fn feet(text: &str) -> Result<[f64; 3], String> {
+    let feet @ [x, y, height] = list(text, "X,Y,HEIGHT in m")?;
+    let within = [x, y].iter().all(|beyond| (0.0..=50.0).contains(beyond)) && (1e-5..=1.0).contains(&height);
+    if within { Ok(feet) } else { Err("allowed: X and Y from 0 to 50 m, HEIGHT from 1e-5 to 1 m".to_owned()) }
+}
+
 pub(crate) fn quaternion(text: &str) -> Result<[f64; 4], String> {
     list(text, "W,X,Y,Z, the unit quaternion of a rotation")
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use clatter::End;
 use clatter_assess::units::{Quantity, Unit};
 use clatter_assess::{
-    Accuracy, Component, Damping, Fall, First, Limit, LimitKind, Limits, Mount, ProductFile, Spread, Width, WorstCase,
+    Accuracy, Component, Damping, Fall, Feet, First, Limit, LimitKind, Limits, Mount, ProductFile, Spread, Width,
+    WorstCase,
 };
 use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
@@ -207,6 +208,10 @@ impl OneDrop {
         let spread = self.file.product.contact_time_s?;
         Some(Self::take(&mut self.notes, "contact time", &spread, Taken::Least, "s"))
     }
+    /// Feet that it lands on.
+    pub(crate) fn feet(&self) -> Option<Feet> {
+        self.file.product.feet
+    }
     pub(crate) fn contact_law(&self) -> ContactLaw {
         self.file.product.law()
     }
@@ -282,7 +287,9 @@ impl OneDrop {
                 })
             }
         };
+        let beyond_m = self.file.product.feet.map_or([0.0; 2], |feet| feet.inset_m);
         for (side, half_m) in halves_m.into_iter().enumerate() {
+            let half_m = half_m + beyond_m[side];
             let farthest = places_m.iter().fold(0.0_f64, |most, at| most.max(at[side].abs()));
             if farthest > half_m * (1.0 + 1e-9) {
                 return Err(Failure::Wrong(format!(

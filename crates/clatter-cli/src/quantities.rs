@@ -219,12 +219,23 @@ pub(crate) fn center_of_mass(text: &str) -> Result<PerAxis<Place>, String> {
 
 /// Positions on a body of this half-length, an end that is missed by roundings taken for it.
 pub(crate) fn positions(places: &[Place], flag: &'static str, half_m: f64) -> Result<Vec<f64>, Failure> {
+    positions_beyond(places, flag, half_m, 0.0)
+}
+
+/// The same of a body that goes on so far beyond the feet which are its ends.
+pub(crate) fn positions_beyond(
+    places: &[Place],
+    flag: &'static str,
+    half_m: f64,
+    beyond_m: f64,
+) -> Result<Vec<f64>, Failure> {
+    let most = 1.0 + beyond_m / half_m;
     let within = |place: &Place| {
         let s = place.relative(flag, Some(half_m))?;
-        if s.abs() <= 1.0 + 1e-9 {
-            return Ok(s.clamp(-1.0, 1.0));
+        if s.abs() <= most * (1.0 + 1e-9) {
+            return Ok(s.clamp(-most, most));
         }
-        let (place, half) = (place.said(), Show { unit: place.unit(), name: "m" }.given(half_m));
+        let (place, half) = (place.said(), Show { unit: place.unit(), name: "m" }.given(neat(half_m + beyond_m)));
         Err(Failure::Wrong(format!("{flag} {place} is beyond the ends: allowed is up to {half} from the middle")))
     };
     places.iter().map(within).collect()

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use clap::ValueHint;
 use clatter::Bar;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Model, Slip, slip};
+use clatter_assess::{Accuracy, Feet, Model, Slip, slip};
 use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
 use crate::block::Axis;
@@ -116,6 +116,10 @@ pub(crate) struct Args {
     /// Angular velocity of a box as it lands, about its axes, in rad/s
     #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true, value_parser = inputs::triple, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
     spin_rad_s: Option<[f64; 3]>,
+    /// Feet which are the ends or corners of the body: how far the product goes on beyond them along its length and along its width, 0 of
+    /// a bar, and how far they stand out; places beyond them are then allowed, and a drop in which an edge touches is not answered
+    #[arg(long, value_name = "X,Y,HEIGHT", value_parser = inputs::feet, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
+    feet_m: Option<[f64; 3]>,
     #[command(flatten)]
     damping: DampingArgs,
     /// Velocities of ends a and b at first contact, upward positive; VA is negative: end a strikes; in v0, or with their
@@ -327,6 +331,11 @@ impl Args {
     /// What clap requires unless there is a file.
     fn e(&self) -> f64 {
         self.e.unwrap_or(f64::NAN)
+    }
+    /// Feet that the product lands on, as they are given, or of the file.
+    fn feet(&self, file: Option<&OneDrop>) -> Option<Feet> {
+        let given = self.feet_m.map(|[x, y, height_m]| Feet { inset_m: [x, y], height_m });
+        given.or_else(|| file.and_then(OneDrop::feet))
     }
     /// The place on a bar.
     fn bar_at(&self) -> Result<Option<Place>, Failure> {

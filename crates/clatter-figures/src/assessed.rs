@@ -31,7 +31,7 @@ pub fn assessed(file: &ProductFile, assessment: &Assessment, portraits: &[Portra
             verdict: assessed.verdict,
             word,
         });
-        return plan(&plate, &area.collect::<Vec<_>>());
+        return plan(&plate, file.product.sides_m(), &area.collect::<Vec<_>>());
     }
     let place = parts.map(|(i, ((component, assessed), word))| Place {
         name: &component.name,
@@ -42,7 +42,8 @@ pub fn assessed(file: &ProductFile, assessment: &Assessment, portraits: &[Portra
         zone_m: portraits.get(i).and_then(|portrait| portrait.zone_m),
     });
     let body = &file.product.body;
-    product(body.arms_m(), body.gyration_m(), &place.collect::<Vec<_>>())
+    let beyond_m = file.product.feet.map_or(0.0, |feet| feet.inset_m[0]);
+    product(body.arms_m(), body.gyration_m(), beyond_m, &place.collect::<Vec<_>>())
 }
 
 /// Where a part may be along a plate and across it, in m from the middle.

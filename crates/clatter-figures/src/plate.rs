@@ -29,20 +29,26 @@ pub struct Area<'a> {
 /// Where the plan of a plate stands on the page: the length to the right, the width upward.
 struct View<'a> {
     plate: &'a Plate,
+    sides_m: [f64; 2],
     corner: Pt,
     scale: f64,
 }
 
 impl<'a> View<'a> {
     /// In the middle of a room, as large as it goes.
-    fn within(plate: &'a Plate, [left, top]: Pt, [wide, high]: Pt) -> Self {
-        let [length, width] = plate.sides_m();
+    fn within(plate: &'a Plate, sides_m: [f64; 2], [left, top]: Pt, [wide, high]: Pt) -> Self {
+        let [length, width] = sides_m;
         let scale = (wide / length).min(high / width);
-        Self { plate, corner: [left + 0.5 * (wide - scale * length), top + 0.5 * (high - scale * width)], scale }
+        Self {
+            plate,
+            sides_m,
+            corner: [left + 0.5 * (wide - scale * length), top + 0.5 * (high - scale * width)],
+            scale,
+        }
     }
     /// A place in m from the middle, held on the plate.
     fn at(&self, place: [f64; 2]) -> Pt {
-        let half = self.plate.sides_m().map(|side| 0.5 * side);
+        let half = self.sides_m.map(|side| 0.5 * side);
         let [x, y] = [0, 1].map(|k| place[k].clamp(-half[k], half[k]));
         [self.corner[0] + self.scale * (x + half[0]), self.corner[1] + self.scale * (half[1] - y)]
     }
@@ -56,14 +62,22 @@ impl<'a> View<'a> {
         [0.5 * (left - right), 0.5 * (front - back)]
     }
     fn size(&self) -> Pt {
-        self.plate.sides_m().map(|side| self.scale * side)
+        self.sides_m.map(|side| self.scale * side)
     }
     /// The corners a, b, c and d.
     fn corners(&self) -> [Pt; 4] {
-        self.plate.corners_m().map(|corner| self.about_center(corner))
+        let [x, y] = self.sides_m.map(|side| 0.5 * side);
+        [[-x, -y], [x, -y], [x, y], [-x, y]].map(|corner| self.at(corner))
     }
+    /// The plate, and its feet where it has some.
     fn outline(&self, paper: &mut Paper, fill: &str) {
         paper.rect(self.corner, self.size(), Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
+        let apart = self.plate.sides_m();
+        if (0..2).any(|side| self.sides_m[side] > apart[side] * (1.0 + 1e-9)) {
+            for [x, y] in self.plate.corners_m().map(|corner| self.about_center(corner)) {
+                paper.rect([x - 1.8, y - 1.8], [3.6, 3.6], Ink::fill(INK));
+            }
+        }
     }
     /// The letters of the corners, beside the ends.
     fn letters(&self, paper: &mut Paper) {
@@ -102,16 +116,17 @@ fn ground(verdict: Verdict) -> &'static str {
 const ROOM: Pt = [260.0, 140.0];
 const ROW: f64 = 10.5;
 
-/// The plate with its center of mass, the lines of percussion of its corners, and its parts, which are listed at the right.
-pub fn plan(plate: &Plate, parts: &[Area<'_>]) -> Result<String, FigureError> {
-    let [length, width] = plate.sides_m();
+/// The plate, from edge to edge, with its center of mass, the lines of percussion of the corners or feet that it lands on, and its parts,
+/// which are listed at the right.
+pub fn plan(plate: &Plate, sides_m: [f64; 2], parts: &[Area<'_>]) -> Result<String, FigureError> {
+    let [length, width] = sides_m;
     let (left, top) = (24.0, 10.0);
     let high = (ROOM[0] / length).min(ROOM[1] / width) * width;
     let rows = f64::from(u32::try_from(parts.len()).unwrap_or(u32::MAX));
     // A narrow plate leaves room for the numbers of its parts.
     let tall = high.max(ROW * rows).max(40.0);
     let mut paper = Paper::new(464.0, top + tall + 24.0);
-    let view = View::within(plate, [left, top], [ROOM[0], tall]);
+    let view = View::within(plate, sides_m, [left, top], [ROOM[0], tall]);
     view.outline(&mut paper, "#ffffff");
     let size = |part: &Area<'_>| part.reach_m.iter().map(|[from, to]| to - from).product::<f64>();
     let mut by_size: Vec<&Area<'_>> = parts.iter().collect();
@@ -193,8 +208,10 @@ pub struct Strike {
 /// How a plate lands.
 #[derive(Debug, Clone, Copy)]
 pub struct Landing<'a> {
-    /// Seen from above.
+    /// Seen from above: the corners or feet that it lands on.
     pub plate: &'a Plate,
+    /// From edge to edge.
+    pub sides_m: [f64; 2],
     /// In order of time, as many as are to be told.
     pub strikes: &'a [Strike],
     /// Where it rises to, in degrees.
@@ -216,7 +233,7 @@ const LINE: f64 = 9.5;
 /// The plate as it lands: at each corner its strikes by number, time and change of velocity.
 pub fn landing(of: &Landing<'_>) -> Result<String, FigureError> {
     let mut paper = Paper::new(PAGE[0], PAGE[1]);
-    let view = View::within(of.plate, [14.0, 36.0], [PAGE[0] - 28.0, PAGE[1] - 72.0]);
+    let view = View::within(of.plate, of.sides_m, [14.0, 36.0], [PAGE[0] - 28.0, PAGE[1] - 72.0]);
     view.outline(&mut paper, BLUES[1]);
     view.area(&mut paper, of.reach_m, Ink { stroke: GRAY, width: 0.8, dash: "2.5 1.5", ..Ink::fill("none") });
     arrow(&mut paper, &view, of.direction_deg);
@@ -271,8 +288,10 @@ fn arrow(paper: &mut Paper, view: &View<'_>, direction_deg: f64) {
 /// What a part would be asked anywhere on a plate.
 #[derive(Debug, Clone, Copy)]
 pub struct HeatMap<'a> {
-    /// Seen from above.
+    /// Seen from above: the corners or feet that it lands on.
     pub plate: &'a Plate,
+    /// From edge to edge.
+    pub sides_m: [f64; 2],
     /// Shares of what is allowed, over the plate.
     pub map: &'a PlaceMap,
     /// What is allowed, in the unit of the title.
@@ -291,7 +310,7 @@ const PIXELS: u16 = 160;
 /// A map over the plate in colors, with the border of what is allowed.
 pub fn heat_map(of: &HeatMap<'_>) -> Result<String, FigureError> {
     let mut paper = Paper::new(PAGE[0], PAGE[1]);
-    let view = View::within(of.plate, [14.0, 10.0], [138.0, PAGE[1] - 40.0]);
+    let view = View::within(of.plate, of.sides_m, [14.0, 10.0], [138.0, PAGE[1] - 40.0]);
     let most = of.map.shares.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
     let least = of.map.shares.iter().copied().filter(|v| v.is_finite()).fold(most, f64::min);
     // All alike would have no axis.
@@ -300,7 +319,7 @@ pub fn heat_map(of: &HeatMap<'_>) -> Result<String, FigureError> {
     let [wide, high] = view.size();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
     let rows = (f64::from(PIXELS) * high / wide).ceil().clamp(4.0, 400.0) as u16;
-    let sides = of.plate.sides_m();
+    let sides = of.sides_m;
     let mut pixels = Vec::with_capacity(3 * usize::from(PIXELS) * usize::from(rows));
     for j in 0..rows {
         for i in 0..PIXELS {
@@ -394,7 +413,7 @@ mod tests {
     /// uniform plate goes from a third of the way down its end to a third along its far edge.
     #[test]
     fn parts_and_lines_of_percussion_are_drawn_to_scale() {
-        let drawn = plan(&plate(), &[part(1, [[0.0, 0.08], [-0.01, 0.02]])]).unwrap();
+        let drawn = plan(&plate(), plate().sides_m(), &[part(1, [[0.0, 0.08], [-0.01, 0.02]])]).unwrap();
         assert!(drawn.contains("M24 10L284 10L284 140L24 140Z"), "{drawn}");
         assert!(drawn.contains("M154 23L284 23L284 101L154 101Z"), "{drawn}");
         assert!(drawn.contains("M284 118.33L67.33 10\""), "{drawn}");
@@ -404,7 +423,7 @@ mod tests {
     /// Along the length, as far as the plate goes: 20 mm are 52 pt, from the middle at 154 pt.
     #[test]
     fn the_scale_goes_along_the_whole_plate() {
-        let drawn = plan(&plate(), &[part(1, [[0.0, 0.01]; 2])]).unwrap();
+        let drawn = plan(&plate(), plate().sides_m(), &[part(1, [[0.0, 0.01]; 2])]).unwrap();
         for (mm, words) in [(-40.0, "−40"), (-20.0, "−20"), (20.0, "20"), (40.0, "40")] {
             let [x, _] = stands(&drawn, &format!("<tspan>{words}</tspan>"));
             assert!((x - (154.0 + 2.6 * mm)).abs() < 0.1, "{words} at {x}");
@@ -415,7 +434,7 @@ mod tests {
     fn numbers_of_parts_at_one_place_stand_apart() {
         for reach in [[[0.01; 2], [0.01; 2]], [[-0.05, 0.05], [-0.025, 0.025]]] {
             let parts: Vec<_> = (1..=12).map(|number| part(number, reach)).collect();
-            let drawn = plan(&plate(), &parts).unwrap();
+            let drawn = plan(&plate(), plate().sides_m(), &parts).unwrap();
             let at: Vec<Pt> = (1..=12).map(|number| stands(&drawn, &format!("<tspan>{number}</tspan>"))).collect();
             for (i, a) in at.iter().enumerate() {
                 let apart = |b: &Pt| (a[0] - b[0]).abs() > 9.0 || (a[1] - b[1]).abs() > 8.0;
@@ -430,7 +449,9 @@ mod tests {
         let strikes =
             [strike(3, 0.0), strike(0, 1e-17), strike(2, 1.5), strike(3, 2.0), strike(3, 3.0), strike(3, 4.0)];
         let (plate, reach_m, place_m) = (plate(), [[0.0, 0.01]; 2], [0.01; 2]);
-        let of = Landing { plate: &plate, strikes: &strikes, direction_deg: 280.0, reach_m, place_m, impact: 3 };
+        let sides_m = plate.sides_m();
+        let of =
+            Landing { plate: &plate, sides_m, strikes: &strikes, direction_deg: 280.0, reach_m, place_m, impact: 3 };
         let drawn = landing(&of).unwrap();
         let at = |words: &str| stands(&drawn, &format!("<tspan>{words}</tspan>"));
         let (d, a, c) = (at("1: 0 ms, 2 m/s"), at("2: 0 ms, 2 m/s"), at("3: 1.5 ms, 2 m/s"));
@@ -450,7 +471,16 @@ mod tests {
             let line: Vec<f64> = along_m.iter().map(|x| scale * (1.0 + 10.0 * x)).collect();
             let map = PlaceMap { shares: [&line[..]; 3].concat(), along_m, across_m, drops: 1 };
             let (reach_m, place_m) = ([[0.0, 0.01]; 2], [0.01; 2]);
-            heat_map(&HeatMap { plate: &plate, map: &map, allowed: 300.0, title: "g", reach_m, place_m }).unwrap()
+            heat_map(&HeatMap {
+                plate: &plate,
+                sides_m: plate.sides_m(),
+                map: &map,
+                allowed: 300.0,
+                title: "g",
+                reach_m,
+                place_m,
+            })
+            .unwrap()
         };
         let border = |drawn: &str| {
             let lines = drawn.lines().filter(|line| line.contains(RUST) && line.contains("<path"));

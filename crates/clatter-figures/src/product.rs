@@ -34,9 +34,9 @@ pub(crate) fn shade(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The bar with its center of mass and centers of percussion, and a row a part.
-pub fn product(arms_m: [f64; 2], gyration_m: f64, places: &[Place<'_>]) -> Result<String, FigureError> {
-    let length = arms_m[0] + arms_m[1];
+/// The bar with its center of mass and centers of percussion, and a row a part; it goes on so far beyond the feet that are its ends.
+pub fn product(arms_m: [f64; 2], gyration_m: f64, beyond_m: f64, places: &[Place<'_>]) -> Result<String, FigureError> {
+    let length = arms_m[0] + arms_m[1] + 2.0 * beyond_m;
     let (left, wide, row) = (92.0, 316.0, 17.0);
     let top = 40.0;
     let bottom = top + 14.0 + row * f64::from(u32::try_from(places.len()).unwrap_or(u32::MAX));
@@ -44,6 +44,11 @@ pub fn product(arms_m: [f64; 2], gyration_m: f64, places: &[Place<'_>]) -> Resul
     let at = |m: f64| left + wide * (m / length + 0.5);
     // the bar
     paper.rect([left, top - 9.0], [wide, 9.0], Ink { stroke: INK, width: 0.8, ..Ink::fill(BLUES[2]) });
+    if beyond_m > 0.0 {
+        for m in [beyond_m - 0.5 * length, 0.5 * length - beyond_m] {
+            paper.rect([at(m) - 3.0, top], [6.0, 4.0], Ink { stroke: INK, width: 0.8, ..Ink::fill(INK) });
+        }
+    }
     for (x, name) in [(left - 9.0, "*a*"), (left + wide + 9.0, "*b*")] {
         paper.text([x, top - 1.5], name, LABEL);
     }
@@ -130,7 +135,7 @@ mod tests {
             word: "−3 %",
             zone_m: Some([-0.2, 0.025]),
         };
-        let drawn = product([0.05, 0.05], 0.02, &[place]).unwrap();
+        let drawn = product([0.05, 0.05], 0.02, 0.0, std::slice::from_ref(&place)).unwrap();
         // 316 pt for 100 mm from x = 92: the zone is cut at end a and ends three quarters along
         assert!(drawn.contains("M92 54L329 54L329 64L92 64Z"), "{drawn}");
         assert!(drawn.contains("M250 56.5L408 56.5L408 61.5L250 61.5Z"), "{drawn}");

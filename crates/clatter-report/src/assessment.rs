@@ -92,19 +92,20 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         .collect();
     let body = &file.product.body;
     let of_plate = file.product.plate();
+    let (sides_m, beyond_m) = (file.product.sides_m(), file.product.feet.map_or(0.0, |feet| feet.inset_m[0]));
     let mut files = Vec::new();
     let rows: Vec<_> = places.chunks(ROWS).collect();
     for (i, rows) in rows.iter().enumerate() {
         let drawn = match &of_plate {
-            Some(plate) => plate::plan(plate, &file.components, rows, i * ROWS)?,
-            None => product(body.arms_m(), body.gyration_m(), rows)?,
+            Some(plate) => plate::plan(plate, sides_m, &file.components, rows, i * ROWS)?,
+            None => product(body.arms_m(), body.gyration_m(), beyond_m, rows)?,
         };
         files.push((format!("product-{}.svg", i + 1), drawn));
     }
     for (i, part) in parts.iter().enumerate() {
         files.push(over_time(i + 1, part)?);
         match &of_plate {
-            Some(plate) => files.extend(plate::figures(i + 1, plate, part)?),
+            Some(plate) => files.extend(plate::figures(i + 1, (plate, sides_m), part)?),
             None => files.push(tilts(i + 1, part)?),
         }
     }

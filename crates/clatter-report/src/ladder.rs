@@ -57,6 +57,7 @@ mod tests {
                 gravity_m_s2: 9.81,
                 contact_time_s,
                 contact_law: ContactLaw::Hysteretic,
+                feet: None,
             };
             for kind in [LimitKind::Acceleration, LimitKind::VelocityChange] {
                 let place = Part::new(0.02, Some(part));

@@ -98,7 +98,8 @@ impl Product {
         let file: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
         let table = |key: &str| file.get(key).and_then(Value::as_table).ok_or(format!("no table [{key}]"));
         let (product, drop) = (table("product")?, table("drop")?);
-        let length = one(product, "length")?;
+        // The feet are the ends that land.
+        let length = one(product, "length")? - 2.0 * optional(product, "feet_inset")?.map_or(0.0, |inset| inset[0]);
         let (gyration, center) = inertia(product)?;
         let gravity = optional(drop, "gravity")?.map_or(9.806_65, |range| range[0]);
         let speed = match optional(drop, "height")? {

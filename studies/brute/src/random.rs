@@ -44,7 +44,7 @@ impl Random {
 }
 
 /// Kinds of random products.
-pub const KINDS: [&str; 7] = ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped"];
+pub const KINDS: [&str; 8] = ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped", "feet"];
 
 /// A value with its unit, or a range about it; three digits, as one writes them.
 fn spread(random: &mut Random, middle: f64, share: f64, chance: f64, unit: &str) -> String {
@@ -86,6 +86,11 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
         digits(e),
         digits(wide)
     );
+    if kind == "feet" {
+        // So high that no edge touches.
+        let inset = digits(length * r.within(0.02, 0.25));
+        let _ = writeln!(text, "feet_inset = \"{inset} mm\"\nfeet_height = \"{} mm\"", digits(0.3 * length));
+    }
     if r.chance(0.4) {
         let _ = writeln!(text, "center_of_mass = \"{} mm\"", digits(length * r.within(-0.12, 0.12)));
     }

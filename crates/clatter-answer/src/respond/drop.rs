@@ -13,14 +13,14 @@
 //! ```
 
 use clatter::End;
-use clatter_assess::{LimitKind, Model, Part, SingleDrop};
+use clatter_assess::{Feet, LimitKind, Model, Part, SingleDrop};
 use clatter_flight::{ContactLaw, Scene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
 use super::limits::{OneDrop, unlimited, value};
 use super::{Equivalent, Factors, LargestValues, Limit, Peaks, Position, swings};
-use crate::{Error, Json, letter, on_body};
+use crate::{Error, Json, letter, on_body_beyond};
 
 /// A drop of a bar and a part of it.
 #[derive(Debug, Clone)]
@@ -38,6 +38,8 @@ pub struct Question {
     pub contact_time_s: Option<f64>,
     /// What the ground does meanwhile.
     pub contact_law: ContactLaw,
+    /// Feet that it lands on, which are its ends here: places may lie beyond them.
+    pub feet: Option<Feet>,
     /// Where on the product the part may be, in [−1, 1]: of several the place is answered that asks most of a limit, else the first.
     pub at: Vec<f64>,
     /// The part; none that is mounted rigidly.
@@ -66,6 +68,7 @@ impl Question {
             flat: false,
             contact_time_s: None,
             contact_law: ContactLaw::default(),
+            feet: None,
             at: vec![at],
             suspension: None,
             limits: None,
@@ -88,6 +91,7 @@ impl Question {
             gravity_m_s2: self.scene.gravity_m_s2(),
             contact_time_s: self.contact_time_s,
             contact_law: self.contact_law,
+            feet: self.feet,
         }
     }
 }
@@ -162,7 +166,7 @@ pub struct Answer {
 /// No place or one off the body; a part too slow or too fast; a contact time that is none; those of [`clatter_assess::answer`].
 pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { scene, model, first, ref at, suspension, tolerance, .. } = *question;
-    on_body(at.iter().copied())?;
+    on_body_beyond(at.iter().copied(), scene.body().length_m(), question.feet.map(|feet| feet.inset_m[0]))?;
     let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
     let (body, side) = (scene.body(), if first == End::A { 1.0 } else { -1.0 });
     let half_m = 0.5 * body.length_m();

@@ -13,7 +13,7 @@
 //! ```
 
 use clatter::Corner;
-use clatter_assess::{LimitKind, Model, Part, SingleDrop};
+use clatter_assess::{Feet, LimitKind, Model, Part, SingleDrop};
 use clatter_flight::{Contact, PlateScene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
@@ -21,7 +21,7 @@ use serde::Serialize;
 use super::limits::{OneDrop, unlimited, value};
 use super::{Equivalent, Factors, LargestValues, Limit, Peaks, Position, swings};
 use crate::simulate::plate::told;
-use crate::{Error, Json, on_plate};
+use crate::{Error, Json, on_body_beyond};
 
 /// A drop of a plate and a part of it.
 #[derive(Debug, Clone)]
@@ -31,6 +31,8 @@ pub struct Question {
     pub scene: PlateScene,
     /// What the ground does to a corner.
     pub contact: Contact,
+    /// Feet that it lands on, which are its corners here: places may lie beyond them.
+    pub feet: Option<Feet>,
     /// Whether length and width of the product run the other way than those of the scene, so that another corner of it is a there.
     pub mirrored: [bool; 2],
     /// Where on the product the part may be, in half-lengths and half-widths from the middle: of several the place is answered that asks
@@ -61,6 +63,7 @@ impl Question {
         Self {
             scene,
             contact,
+            feet: None,
             mirrored: [false; 2],
             at: vec![at],
             suspension: None,
@@ -151,9 +154,13 @@ pub struct Answer {
 /// No place or one off the plate; a part too slow or too fast; those of [`SingleDrop::of_plate`] and of [`clatter_assess::answer`].
 pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { scene, contact, at, suspension, tolerance, .. } = question;
-    on_plate(at)?;
+    for (side, length_m) in scene.plate().sides_m().into_iter().enumerate() {
+        let inset_m = question.feet.map(|feet| feet.inset_m[side]);
+        on_body_beyond(at.iter().map(|place| place[side]), length_m, inset_m)?;
+    }
     let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
-    let asked = OneDrop { drop: SingleDrop::of_plate(scene, contact)?, model: Model::Compliant, tolerance: *tolerance };
+    let drop = SingleDrop { feet: question.feet, ..SingleDrop::of_plate(scene, contact)? };
+    let asked = OneDrop { drop, model: Model::Compliant, tolerance: *tolerance };
     let (plate, signs) = (scene.plate(), question.mirrored.map(|is| if is { -1.0 } else { 1.0 }));
     let [length, width] = plate.sides_m();
     // The corner that touches first feels every drop: where not even that is answered, none is.

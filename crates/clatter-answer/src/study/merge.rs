@@ -55,7 +55,7 @@ impl<'a> Merge<'a> {
                 self.searched(&mut cells)?;
             } else {
                 asked.clear();
-                asked.extend(self.study.components.iter().map(|component| of_part(component, &mut cells)));
+                asked.extend(self.study.asked().map(|(component, _)| of_part(component, &mut cells)));
                 self.counted(&asked)?;
             }
             self.next += 1;

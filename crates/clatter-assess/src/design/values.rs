@@ -83,9 +83,8 @@ impl Case<'_> {
 
     /// The side of the product along which a place is.
     fn side_m(&self, lever: Lever) -> f64 {
-        let product = &self.file.product;
-        let across = product.width.filter(|_| lever == Lever::Across);
-        across.map_or(product.body.length_m(), |width| width.m())
+        let [along, across] = self.file.product.sides_m();
+        if lever == Lever::Across { across } else { along }
     }
 
     /// To two digits in the unit of the file; a place to a hundredth of the decade of the side along it.

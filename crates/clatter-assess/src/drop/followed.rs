@@ -118,7 +118,8 @@ impl Followed {
         };
         let largest_m_s = motion.largest_m_s();
         let early = motion.later_m_s() > share * largest_m_s && !matches!(motion.stop(), Stop::AtRest { .. });
-        Ok(Self { drop: *drop, motion, precision, early, largest_m_s })
+        let followed = Self { drop: *drop, motion, precision, early, largest_m_s };
+        followed.edges_stay_up().map(|()| followed)
     }
 
     pub(crate) fn is_early(&self) -> bool {

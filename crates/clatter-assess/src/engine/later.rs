@@ -121,8 +121,8 @@ impl PlaceHistory<'_> {
             turn_rad_s: center / drop.least_gyration_m() * turned,
             // Nothing where nothing is left, also where a strike has no largest force.
             acceleration_m_s2: if center > 0.0 {
-                // Four corners of a box at most, each with no more than if it had all lever arms of the place.
-                let pressed = if is_box { 2.0 * mass(here) } else { pressed.max(mass(here)) };
+                // Four corners of a box at most, each with no more than if it had all lever arms of the place; so of edges beyond feet.
+                let pressed = if is_box || drop.feet.is_some() { 2.0 * mass(here) } else { pressed.max(mass(here)) };
                 center * pressed * self.peak_per_change()
             } else {
                 0.0
@@ -188,6 +188,7 @@ mod tests {
             gravity_m_s2: 9.81,
             contact_time_s: Some(2e-4),
             contact_law: ContactLaw::Hysteretic,
+            feet: None,
         }
     }
 
@@ -204,6 +205,7 @@ mod tests {
             gravity_m_s2: 9.81,
             contact_time_s: Some(2e-4),
             contact_law: ContactLaw::Hysteretic,
+            feet: None,
         }
     }
 
@@ -308,6 +310,7 @@ mod tests {
                 gravity_m_s2: 9.81,
                 contact_time_s: Some(2e-4),
                 contact_law: ContactLaw::Hysteretic,
+                feet: None,
             };
             let followed = Followed::new(&drop, Model::Compliant, 0.01).unwrap();
             assert!(followed.is_given_up(), "{:?}", followed.motion.stop());

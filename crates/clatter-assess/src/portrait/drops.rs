@@ -60,6 +60,7 @@ impl Drops {
                         gravity_m_s2: ranges.drop.gravity_m_s2,
                         contact_time_s,
                         contact_law: ranges.law,
+                        feet: ranges.product.feet,
                     };
                     let drop = SingleDrop { flat: drop.lands_as_one(ranges.merge_s), ..drop };
                     all.push(Kept { drop, tilt, followed: OnceLock::new() });
@@ -83,7 +84,7 @@ impl Drops {
     }
 
     pub(super) fn length_m(&self) -> f64 {
-        self.all.first().map_or(0.0, |kept| kept.drop.body.length_m())
+        self.all.first().map_or(0.0, |kept| kept.drop.sides_m()[0])
     }
 
     pub(super) fn tilt(&self, view: View) -> Tilt {

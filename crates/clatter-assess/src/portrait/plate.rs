@@ -183,7 +183,7 @@ fn strikes(own: &Followed, across: &Across) -> Vec<CornerStrike> {
 
 /// The map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.
 fn map(asked: &OneLimit<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
-    let (length, width) = (own.drop.body.length_m(), own.drop.across?.width.m());
+    let [length, width] = own.drop.sides_m();
     let [x, y] = asked.worst.part.at_m();
     let columns = (PLACES * length / width).sqrt().clamp(5.0, 16.0).round();
     let (along_m, across_m) = (lines(length, columns, x), lines(width, (PLACES / columns).max(5.0).round(), y));

@@ -10,7 +10,7 @@ use crate::check::{self, body_of, width_of};
 use crate::data_fault::out_of_range;
 use crate::slip;
 use crate::units;
-use crate::{DataFault, Depth, Product, Spread, Width};
+use crate::{DataFault, Depth, Feet, Product, Spread, Width};
 
 impl Reader {
     pub(super) fn product(&mut self, section: &Section<'_>) -> Option<Product> {
@@ -21,6 +21,8 @@ impl Reader {
         if let (Some(thickness), false) = (&thickness, self.is_plate) {
             self.data(thickness.span.clone(), &DataFault::OfBar { field: "thickness" }, "this");
         }
+        let sides_m = [length.as_ref().map(|length| length.value), width.as_ref().map(|width| width.value)];
+        let feet = self.feet(section, sides_m)?;
         let mass = self.quantity(section, "mass");
         let restitution = self.spread(section, "restitution");
         let contact_time = self.spread(section, "contact_time");
@@ -62,9 +64,10 @@ impl Reader {
         } else {
             (center.clone(), gyration?)
         };
-        let length_m = length?.value;
+        let inset_m = feet.map_or([0.0; 2], |feet| feet.inset_m);
+        let length_m = length?.value - 2.0 * inset_m[0];
         if masses.is_some() {
-            self.outside(section, [Some(length_m), width.as_ref().map(|width| width.value)]);
+            self.outside(section, sides_m);
         }
         let total = masses.as_ref().map(|m| m.value.iter().map(|[piece, ..]| mass_of(piece)).sum());
         if let (Some(total), Some(masses)) = (total, &masses)
@@ -84,7 +87,8 @@ impl Reader {
         let width = match width {
             Some(width) => {
                 let center_across = center_m.map(|At { value: [_, y], span }| At { value: y, span });
-                let width = self.width(width.value, center_across, &At { value: across, span: span.clone() })?;
+                let width_m = width.value - 2.0 * inset_m[1];
+                let width = self.width(width_m, center_across, &At { value: across, span: span.clone() })?;
                 let thickness_m = thickness.map(|t| t.value);
                 let width = Width { product_of_inertia_m2, thickness_m, depth, ..width };
                 Some(width)
@@ -96,6 +100,7 @@ impl Reader {
             name: name?,
             body,
             width,
+            feet,
             gyration_m: along,
             mass_kg: mass.map(|m| m.value).or(total),
             restitution: restitution?.value,
@@ -106,6 +111,30 @@ impl Reader {
             self.data(span, &fault, "these together");
         }
         Some(product)
+    }
+
+    /// Its feet, if it has any; none where they are at fault.
+    #[expect(clippy::option_option, reason = "as what else of a product is at fault")]
+    fn feet(&mut self, section: &Section<'_>, sides_m: [Option<f64>; 2]) -> Option<Option<Feet>> {
+        let inset = self.quantity_of_sides(section, "feet_inset");
+        let height = self.quantity(section, "feet_height");
+        for [one, other] in [["feet_inset", "feet_height"], ["feet_height", "feet_inset"]] {
+            if let (Some((key, _)), false) = (section.table.get_key_value(one), section.table.contains_key(other)) {
+                let help = format!("add {other} = \"2 mm\" or whatever it is");
+                self.fault(key.span(), format!("`{one}` needs `{other}`"), "this", help);
+            }
+        }
+        if !section.table.contains_key("feet_inset") {
+            return Some(None);
+        }
+        let (inset, height) = (inset?, height?);
+        for (inset_m, side_m) in inset.value.into_iter().zip(sides_m) {
+            if let Some(side_m) = side_m.filter(|side_m| inset_m > check::FEET_INSIDE * side_m) {
+                self.data(inset.span.clone(), &DataFault::FeetApart { inset_m, side_m }, "this");
+                return None;
+            }
+        }
+        Some(Some(Feet { inset_m: inset.value, height_m: height.value }))
     }
 
     /// The side across, with what it asks told in the file's terms.

@@ -7,7 +7,7 @@ use crate::check::{FLAT, STEEPEST_RAD};
 use crate::data_fault::out_of_range;
 use crate::keys;
 use crate::standard;
-use crate::{Attitude, DataFault, Drop, Fall, First, Landing, Product, Spread};
+use crate::{Attitude, DataFault, Drop, Fall, Feet, First, Landing, Product, Spread};
 
 /// Keys of what a box lands on, by so many faces at once.
 const LANDS_ON: [&str; 3] = ["face", "edge", "corner"];
@@ -28,6 +28,9 @@ impl Reader {
         for section in &sections {
             let mut landings = self.landings(section, product);
             let drop = self.drop(section);
+            if let (Some(feet), Some(drop)) = (product.and_then(|product| product.feet), &drop) {
+                self.on_feet(section, drop, &feet);
+            }
             if let (Some(drop), false) = (&drop, section.table.contains_key("standard")) {
                 for landing in &mut landings {
                     landing.fall = drop.fall;
@@ -56,6 +59,17 @@ impl Reader {
         let drop =
             drops.into_iter().next().map(|drop| Drop { fall: all.first().map_or(drop.fall, |l| l.fall), ..drop });
         (drop, all)
+    }
+
+    /// Whether feet touch first.
+    fn on_feet(&mut self, section: &Section<'_>, drop: &Drop, feet: &Feet) {
+        let (tilt_rad, most_rad) = (drop.tilt_rad.hi(), feet.steepest_rad(drop.direction_rad.as_ref()));
+        if self.is_box {
+            self.data(section.span.clone(), &DataFault::FeetOfBox, "in this drop");
+        } else if tilt_rad > most_rad {
+            let span = section.table.get("tilt").map_or(section.span.clone(), toml::Spanned::span);
+            self.data(span, &DataFault::FeetLow { tilt_rad, most_rad }, "this");
+        }
     }
 
     /// Of a box whose bottom is off level by an angle, to one direction.

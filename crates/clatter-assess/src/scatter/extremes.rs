@@ -175,6 +175,7 @@ impl Corners {
                         gravity_m_s2: drop.gravity_m_s2,
                         contact_time_s,
                         contact_law: product.law(),
+                        feet: product.feet,
                     }));
                     let least = drops.len() - 1 - steps as usize;
                     let flat: Option<SingleDrop> = drops.get(least).filter(|drop| drop.lands_as_one(MERGE_S)).copied();

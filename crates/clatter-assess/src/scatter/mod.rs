@@ -345,8 +345,7 @@ impl Sampler {
         let levels = levels.flatten();
         let samples = levels.as_ref().map_or(asked_for, |levels| levels.samples);
         let near = self.near();
-        let landings = self.inputs.landings() as u64;
-        let block = BLOCK_OF_BOXES.checked_div(landings).map_or(BLOCK, |samples| samples.max(1));
+        let block = self.block_size();
         let blocks = samples.div_ceil(block);
         let together = 4 * rayon::current_num_threads() as u64;
         let mut total = Block::new(&self.components, &self.inputs, &near);
@@ -369,6 +368,17 @@ impl Sampler {
         }
         let samples = done(total.all.samples).max(1);
         Ok(self.summary(total, samples, pilot))
+    }
+
+    /// Samples of one block.
+    fn block_size(&self) -> u64 {
+        BLOCK_OF_BOXES.checked_div(self.inputs.landings() as u64).map_or(BLOCK, |samples| samples.max(1))
+    }
+
+    /// What the drops of a box land on, in order; none of a bar and of a plate.
+    #[must_use]
+    pub fn attitudes(&self) -> &[Attitude] {
+        &self.attitudes
     }
 
     /// What came of all blocks, for the intervals of so many samples.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::sample::Sample;
 use super::tally::Block;
-use super::{Answers, BLOCK, Column, SampleDemand, Sampler, Scatter};
+use super::{Answers, Column, OfPart, SampleDemand, Sampler, Scatter};
 use crate::LimitKind;
 
 /// What a sample asks of a part.
@@ -60,7 +60,8 @@ impl Sampler {
     }
 
     /// Draws samples by the full model on the threads of the current pool, and gives these quantities of each in SI, angles in rad too,
-    /// and what it asks of each part; none where it has no answer. `done` is told of so many more, by any thread.
+    /// and what it asks of each part, of a box through all of its drops and then of each part in each of them; none where it has no answer.
+    /// `done` is told of so many more, by any thread.
     #[must_use]
     pub fn rows(
         &self,
@@ -82,7 +83,8 @@ impl Sampler {
                     let _ = self.inputs.draw(self.settings.seed, k, &mut sample);
                 }
                 let values = columns.iter().map(|column| in_si(&sample, *column)).collect();
-                (values, full.iter().map(|asked| asked.as_ref().ok().map(PartRow::new)).collect())
+                let asked = full.iter().chain(answers.landings.iter().flatten());
+                (values, asked.map(|asked| asked.as_ref().ok().map(PartRow::new)).collect())
             };
             let rows: Vec<_> = (from..until).map(row).collect();
             done(until - from);
@@ -97,6 +99,8 @@ fn in_si(sample: &Sample, column: Column) -> f64 {
     match column {
         Column::TiltDeg => sample.drops[0].tilt_rad,
         Column::DirectionDeg => sample.drops[0].across.map_or(f64::NAN, |across| across.direction_rad),
+        Column::LandingTiltDeg(n) => sample.drops[n].tilt_rad,
+        Column::LandingDirectionDeg(n) => sample.drops[n].across.map_or(f64::NAN, |across| across.direction_rad),
         other => sample.value(other),
     }
 }
@@ -121,7 +125,7 @@ impl Recount {
         Self { sample: sampler.inputs.blank(), total: block(), block: block(), near, next: 0, sampler }
     }
 
-    /// Takes in what the next sample asks of each part.
+    /// Takes in what the next sample asks of each part, of a box in each of its drops too, as [`Sampler::rows`] has it.
     pub fn take(&mut self, asked: &[Option<PartRow>]) {
         let (sampler, k) = (&self.sampler, self.next);
         let _ = sampler.inputs.draw(sampler.settings.seed, k, &mut self.sample); // its numbers stand, whatever is refused
@@ -131,16 +135,20 @@ impl Recount {
             // Why it has no answer was not kept, and is found once more.
             sampler.answer(k, None, true, &mut self.sample, &mut again);
         }
+        let parts = sampler.components.len();
         let reason = |i: usize| {
-            let own = again.full.get(i).and_then(|asked: &Result<_, crate::Error>| asked.as_ref().err());
-            own.or(known).cloned().unwrap_or(crate::Error::Unfinished)
+            let asked: Option<&OfPart> = again.full.iter().chain(again.landings.iter().flatten()).nth(i);
+            asked.and_then(|asked| asked.as_ref().err()).or(known).cloned().unwrap_or(crate::Error::Unfinished)
         };
         let each = asked.iter().enumerate();
-        let full = each.map(|(i, asked)| asked.map(|asked| asked.demand()).ok_or_else(|| reason(i))).collect();
-        let answers = Answers { full, ..Answers::default() };
+        let mut full: Vec<OfPart> =
+            each.map(|(i, asked)| asked.map(|asked| asked.demand()).ok_or_else(|| reason(i))).collect();
+        let of_drops = full.split_off(parts.min(full.len()));
+        let landings = of_drops.chunks(parts.max(1)).map(<[_]>::to_vec).collect();
+        let answers = Answers { full, landings, ..Answers::default() };
         self.block.take(k, &answers, &sampler.inputs, &self.sample.uniforms);
         self.next += 1;
-        if self.next.is_multiple_of(BLOCK) {
+        if self.next.is_multiple_of(sampler.block_size()) {
             self.total.merge(&self.block);
             self.block = Block::new(&sampler.components, &sampler.inputs, &self.near);
         }

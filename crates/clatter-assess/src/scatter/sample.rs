@@ -355,6 +355,7 @@ impl Inputs {
             gravity_m_s2: drop.gravity_m_s2,
             contact_time_s: product.contact_time_s.map(|time| time.lo()),
             contact_law: product.law(),
+            feet: product.feet,
         };
         let Finder { varied, assumed_even } = finder;
         let firsts = drop.first_ends();
@@ -447,8 +448,8 @@ impl Inputs {
     /// What a sample may be described by: all that the product has, whether it varies or not.
     pub(super) fn quantities(&self) -> Vec<Column> {
         let is_plate = self.drops[0].direction.is_some();
-        let falls = if is_plate { Column::DirectionDeg } else { Column::First };
-        let mut all = vec![falls, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
+        let mut all = self.falls();
+        all.push(Column::Restitution);
         all.extend(self.contact_time.map(|_| Column::ContactTimeS));
         all.push(Column::GyrationM);
         for (i, part) in self.parts.iter().enumerate() {
@@ -471,16 +472,19 @@ impl Inputs {
         if self.is_box() { self.drops.len() } else { 0 }
     }
 
-    /// What a row of values holds.
-    pub(super) fn columns(&self) -> Vec<Column> {
-        let mut columns = Vec::new();
+    /// How a sample falls.
+    fn falls(&self) -> Vec<Column> {
         if self.is_box() {
             let of = |n| [Column::LandingSpeedMS(n), Column::LandingTiltDeg(n), Column::LandingDirectionDeg(n)];
-            columns.extend((0..self.drops.len()).flat_map(of));
-        } else {
-            let falls = if self.drop.across.is_some() { Column::DirectionDeg } else { Column::First };
-            columns.extend([falls, Column::SpeedMS, Column::TiltDeg]);
+            return (0..self.drops.len()).flat_map(of).collect();
         }
+        let falls = if self.drop.across.is_some() { Column::DirectionDeg } else { Column::First };
+        vec![falls, Column::SpeedMS, Column::TiltDeg]
+    }
+
+    /// What a row of values holds.
+    pub(super) fn columns(&self) -> Vec<Column> {
+        let mut columns = self.falls();
         columns.push(Column::Restitution);
         columns.extend(self.contact_time.map(|_| Column::ContactTimeS));
         columns.extend(self.gyration.map(|_| Column::GyrationM));

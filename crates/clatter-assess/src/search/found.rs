@@ -26,7 +26,7 @@ pub(crate) struct Worst {
     pub(crate) near: Vec<Candidate>,
     /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
     pub(crate) later: f64,
-    /// Drops that the model does not take, and why the first of them.
+    /// Drops that the model does not take, and why the first of them; of edges that touch, the one that does deepest.
     pub(crate) refused: Option<(usize, Error)>,
     /// Drops that were followed besides climbing.
     pub(crate) drops: usize,
@@ -46,7 +46,7 @@ pub(super) struct OfDrop {
 impl Worst {
     pub(super) fn refuse(&mut self, count: usize, error: &Error) {
         let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
-        self.refused = Some((own + count, first));
+        self.refused = Some((own + count, first.or_deeper(error.clone())));
     }
 }
 
@@ -54,7 +54,7 @@ impl Worst {
 pub(super) struct Candidates {
     /// Of each task.
     pub(super) found: Vec<Vec<Candidate>>,
-    /// How many are not answered, and why the first is not.
+    /// How many are not answered, and why the first is not; of edges that touch, the one that does deepest.
     pub(super) refused: Option<(usize, Error)>,
     /// Of each task, what rebounds may ask by their energy; 0 where that is less than the worst.
     pub(super) later: Vec<f64>,
@@ -76,7 +76,9 @@ impl Candidates {
                     of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
                 }
                 Err(error) => {
-                    self.refused = Some(self.refused.take().map_or((1, error), |(n, first)| (n + 1, first)));
+                    self.refused = Some(
+                        self.refused.take().map_or((1, error.clone()), |(n, first)| (n + 1, first.or_deeper(error))),
+                    );
                 }
             }
         }

@@ -69,6 +69,7 @@ impl Ranges<'_> {
             gravity_m_s2: self.drop.gravity_m_s2,
             contact_time_s: self.product.contact_time_s.map(|time| time.at(contact)),
             contact_law: self.law,
+            feet: self.product.feet,
         }
     }
 

@@ -118,13 +118,13 @@ impl PlateSetup {
     pub(crate) fn in_scene_deg(&self) -> Option<f64> {
         self.direction_deg.map(|direction| folded(direction).0)
     }
-    /// Places in half-sides.
-    pub(crate) fn places(&self, at: &[PerAxis<Place>]) -> Result<Vec<[f64; 2]>, Failure> {
-        let [x, y] = self.halves_m();
+    /// Places in half-sides, of a plate that goes on so far beyond the feet which are its corners.
+    pub(crate) fn places(&self, at: &[PerAxis<Place>], beyond_m: [f64; 2]) -> Result<Vec<[f64; 2]>, Failure> {
+        let halves_m = self.halves_m();
         let one = |place: &PerAxis<Place>| {
-            let [of_x, of_y] = place.of_plate("--at")?;
-            let [x, y] = [(of_x, x), (of_y, y)].map(|(place, half)| quantities::positions(&[place], "--at", half));
-            Ok([x?[0], y?[0]])
+            let of = place.of_plate("--at")?;
+            let on = |side: usize| quantities::positions_beyond(&[of[side]], "--at", halves_m[side], beyond_m[side]);
+            Ok([on(0)?[0], on(1)?[0]])
         };
         at.iter().map(one).collect()
     }

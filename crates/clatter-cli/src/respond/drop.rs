@@ -30,7 +30,7 @@ pub(super) struct Drop<'a> {
 
 impl Args {
     pub(super) fn drop_by(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
-        let mass = &self.inertia.mass;
+        let (mass, feet) = (&self.inertia.mass, self.feet(file.as_ref()));
         let beside = ExtraArgs {
             flat: self.flat,
             model: self.model,
@@ -46,10 +46,12 @@ impl Args {
         let part = setup.part.as_ref();
         let half_m = 0.5 * setup.scene.body().length_m();
         // Places of the product, from end a at -1 to end b at 1.
+        let beyond_m = feet.map_or(0.0, |feet| feet.inset_m[0]);
+        let most = 1.0 + beyond_m / half_m;
         let asked = self.bar_at()?;
         let places = match (asked, part) {
-            (Some(place), _) => quantities::positions(&[place], "--at", half_m)?,
-            (None, Some(part)) => part.places_m.iter().map(|[x, _]| (x / half_m).clamp(-1.0, 1.0)).collect(),
+            (Some(place), _) => quantities::positions_beyond(&[place], "--at", half_m, beyond_m)?,
+            (None, Some(part)) => part.places_m.iter().map(|[x, _]| (x / half_m).clamp(-most, most)).collect(),
             (None, None) => {
                 return Err(Failure::Usage("the place is missing: --at=S, or with --product the --component=NAME"));
             }
@@ -60,6 +62,7 @@ impl Args {
         question.flat = setup.flat;
         question.contact_time_s = setup.contact_time_s;
         question.contact_law = setup.contact_law;
+        question.feet = feet;
         question.suspension = self.suspension(part.and_then(|part| part.suspension))?;
         question.limits = part.map(|part| part.allowed.clone());
         question.tolerance = self.tolerance;

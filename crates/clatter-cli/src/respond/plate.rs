@@ -55,7 +55,7 @@ impl Args {
         if matches!(self.model, Some(model) if model != Model::Compliant) {
             return Err(Failure::Usage("a part on a plate is answered by --model=compliant alone"));
         }
-        let (gyration, flag) = (self.inertia.given(), self.inertia.flag());
+        let (gyration, flag, feet) = (self.inertia.given(), self.inertia.flag(), self.feet(file.as_ref()));
         let beside = BesidePlate { model: self.model, e: self.e, gyration, gyration_flag: flag, file };
         let setup = self.drop.plate_setup(beside)?;
         // That there is a contact time was checked before.
@@ -63,18 +63,21 @@ impl Args {
             return Err(Failure::Usage("--model=compliant needs a --contact-time"));
         };
         let part = setup.part.as_ref();
-        let [half, across] = setup.halves_m();
+        let (halves, beyond_m) = (setup.halves_m(), feet.map_or([0.0; 2], |feet| feet.inset_m));
+        let on_side = |place: &[f64; 2], side: usize| {
+            let most = 1.0 + beyond_m[side] / halves[side];
+            (place[side] / halves[side]).clamp(-most, most)
+        };
         let places: Vec<[f64; 2]> = match (self.at, part) {
-            (Some(at), _) => setup.places(&[at])?,
-            (None, Some(part)) => {
-                part.places_m.iter().map(|[x, y]| [x / half, y / across].map(|s| s.clamp(-1.0, 1.0))).collect()
-            }
+            (Some(at), _) => setup.places(&[at], beyond_m)?,
+            (None, Some(part)) => part.places_m.iter().map(|place| [0, 1].map(|side| on_side(place, side))).collect(),
             (None, None) => {
                 return Err(Failure::Usage("the place is missing: --at=X,Y, or with --product the --component=NAME"));
             }
         };
         let mut question = Question::new(setup.scene, contact, places[0]);
         question.at = places;
+        question.feet = feet;
         question.mirrored = setup.mirrored;
         question.suspension = self.suspension(part.and_then(|part| part.suspension))?;
         question.limits = part.map(|part| part.allowed.clone());

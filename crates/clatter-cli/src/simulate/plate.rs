@@ -69,7 +69,7 @@ impl Args {
         let of_part = setup.part.iter().map(|part| PerAxis::Plate(part.place)).filter(|_| self.at.is_empty());
         let at: Vec<_> = self.at.iter().copied().chain(of_part).collect();
         let signs = setup.signs();
-        let at: Vec<_> = setup.places(&at)?.into_iter().map(|[x, y]| [signs[0] * x, signs[1] * y]).collect();
+        let at: Vec<_> = setup.places(&at, [0.0; 2])?.into_iter().map(|[x, y]| [signs[0] * x, signs[1] * y]).collect();
         let model = setup.contact.map_or(plate::Model::Map { e: setup.e }, plate::Model::Contacts);
         let by_map = setup.contact.is_none() && self.impact_limit == IMPACTS;
         let mut scene = setup.scene.with_impact_limit(if by_map { OF_MAP } else { self.impact_limit });

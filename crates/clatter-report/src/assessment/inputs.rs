@@ -21,7 +21,11 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     add("Restitution", range(&product.restitution, 1.0, ""));
     match product.contact_time_s {
         Some(time) => {
-            let who = if product.width.is_some() { "a corner" } else { "an end" };
+            let who = match (&product.feet, &product.width) {
+                (Some(_), _) => "a foot",
+                (None, Some(_)) => "a corner",
+                (None, None) => "an end",
+            };
             add("Contact", format!("{who} touches for {}; {}", range(&time, 1e-3, "ms"), product.law().words()));
         }
         None => add("Contact", "no contact time is given: impacts are instants".to_owned()),
@@ -86,17 +90,27 @@ fn body(file: &ProductFile) -> String {
     };
     let mass = file.product.mass_kg.map_or(String::new(), |kg| format!(", {} kg", three(kg)));
     format!(
-        "length {}, radius of gyration {}{off}{mass}: inertia ratio q = {}",
-        millimeters(body.length_m()),
+        "length {}{}, radius of gyration {}{off}{mass}: inertia ratio q = {}",
+        millimeters(file.product.sides_m()[0]),
+        feet(file),
         range(&file.product.gyration_m, 1e-3, "mm"),
         ratio(file),
     )
 }
 
+/// What it lands on, where that is not its ends or corners.
+fn feet(file: &ProductFile) -> String {
+    let Some(feet) = &file.product.feet else { return String::new() };
+    let ([x, y], high) = (feet.inset_m.map(millimeters), millimeters(feet.height_m));
+    let inside = if file.product.width.is_some() { format!("{x} and {y}") } else { x };
+    format!(", on feet {inside} inside the edges and {high} high")
+}
+
 /// Sides of a plate.
 fn sides(file: &ProductFile, width: &Width) -> String {
     let thick = width.thickness_m.map_or(String::new(), |m| format!(", thickness {}", millimeters(m)));
-    format!("length {}, width {}{thick}", millimeters(file.product.body.length_m()), millimeters(width.m()))
+    let [length, across] = file.product.sides_m().map(millimeters);
+    format!("length {length}, width {across}{thick}{}", feet(file))
 }
 
 /// Mass of a plate, and where it lies.

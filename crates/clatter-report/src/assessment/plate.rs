@@ -38,6 +38,7 @@ pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
 /// The plan with some of the parts, after as many others.
 pub(super) fn plan(
     plate: &clatter_flight::Plate,
+    sides_m: [f64; 2],
     components: &[Component],
     places: &[Place<'_>],
     after: usize,
@@ -50,7 +51,7 @@ pub(super) fn plan(
         verdict: place.verdict,
         word: place.word,
     });
-    draw(plate, &area.collect::<Vec<_>>())
+    draw(plate, sides_m, &area.collect::<Vec<_>>())
 }
 
 /// Direction in degrees, share, and whether the file gives the direction.
@@ -64,7 +65,7 @@ pub(super) fn around(of: &PlatePortrait) -> impl Iterator<Item = (f64, f64, bool
 /// The demand over the direction, the landing, and what would be asked anywhere.
 pub(super) fn figures(
     number: usize,
-    plate: &clatter_flight::Plate,
+    (plate, sides_m): (&clatter_flight::Plate, [f64; 2]),
     ((component, assessed), portrait): &Part<'_>,
 ) -> Result<Vec<(String, String)>, FigureError> {
     let tightest = assessed.tightest();
@@ -80,6 +81,7 @@ pub(super) fn figures(
     let (reach_m, place_m) = (reach_m(component), [worst.part.position_m, worst.part.across_m]);
     let lands = Landing {
         plate,
+        sides_m,
         strikes: &strikes,
         direction_deg: worst.direction_deg().unwrap_or_default(),
         reach_m,
@@ -91,7 +93,7 @@ pub(super) fn figures(
         (format!("landing-{number}.svg"), landing(&lands)?),
     ];
     if let Some(map) = &of.map {
-        let heat = HeatMap { plate, map, allowed, title: &title, reach_m, place_m };
+        let heat = HeatMap { plate, sides_m, map, allowed, title: &title, reach_m, place_m };
         files.push((format!("map-{number}.svg"), heat_map(&heat)?));
     }
     Ok(files)

@@ -1,0 +1,107 @@
+//! Edges that lie beyond feet, which must stay off the ground.
+
+use std::f64::consts::PI;
+
+use super::Followed;
+use crate::course::Course;
+use crate::{Error, Feet, Spread};
+
+/// Steps of a press in which the edges are looked at: of a half-sine each misses the lowest by 1/200 of its depth.
+const STEPS: u32 = 16;
+
+impl Feet {
+    /// How far below its foot the lowest edge lies of a product with these slopes along the length and along the width.
+    fn below_m(&self, [along, across]: [f64; 2]) -> f64 {
+        let [x, y] = self.inset_m;
+        x * along.abs() + y * across.abs()
+    }
+    /// The steepest tilt at which a foot touches before the edge beyond it, in all of these directions; of a plate any, unless given.
+    pub(crate) fn steepest_rad(&self, direction_rad: Option<&Spread>) -> f64 {
+        let [x, y] = self.inset_m;
+        let farthest_m = libm::hypot(x, y);
+        let overhang_m = direction_rad.map_or(farthest_m, |given| {
+            let within = |direction: f64| (given.lo()..=given.hi()).contains(&direction);
+            let corner = libm::atan2(y, x);
+            let at = |direction: f64| self.below_m([libm::cos(direction), libm::sin(direction)]);
+            let over_a_corner = [corner, PI - corner, PI + corner, 2.0 * PI - corner].into_iter().any(within);
+            if over_a_corner { farthest_m } else { at(given.lo()).max(at(given.hi())) }
+        });
+        libm::atan2(self.height_m, overhang_m)
+    }
+    /// Height of the lower edge of a bar, from those of its feet so far apart.
+    fn of_bar(&self, [a, b]: [f64; 2], apart_m: f64) -> f64 {
+        let slope = (b - a) / apart_m;
+        let up = self.height_m * (1.0 - slope * slope).max(0.0).sqrt();
+        a.min(b) - self.below_m([slope, 0.0]) + up
+    }
+    /// The same of the lowest corner of a plate, whose feet are so far apart along and across it.
+    fn of_plate(&self, heights_m: [f64; 4], [along_m, across_m]: [f64; 2]) -> f64 {
+        let [a, b, _, d] = heights_m;
+        let [x, y] = [(b - a) / along_m, (d - a) / across_m];
+        let up = self.height_m * (1.0 - x * x - y * y).max(0.0).sqrt();
+        heights_m.into_iter().fold(f64::INFINITY, f64::min) - self.below_m([x, y]) + up
+    }
+}
+
+impl Followed {
+    /// Whether the edges stay off the ground in the clatter. What they do as the product lands again is bounded by its energy, wherever
+    /// it is struck. Between presses all of it falls freely, so that an edge is lowest as one begins or ends.
+    ///
+    /// # Errors
+    /// [`Error::Edge`].
+    pub(super) fn edges_stay_up(&self) -> Result<(), Error> {
+        let Some(feet) = &self.drop.feet else { return Ok(()) };
+        let clatter_s = self.drop.clatter_s();
+        let presses = self.motion.presses().into_iter().map(|(_, press)| press);
+        let strikes = self.motion.struck_s().into_iter().map(|time_s| [time_s; 2]);
+        let (mut lowest_m, mut at_s) = (0.0, 0.0);
+        for [from_s, until_s] in presses.chain(strikes).filter(|[from_s, _]| *from_s <= clatter_s) {
+            // What lies as the motion ends presses for ever.
+            let length_s = until_s.min(clatter_s) - from_s;
+            let steps = if length_s > 0.0 { STEPS } else { 0 };
+            for time_s in (0..=steps).map(|k| from_s + length_s * f64::from(k) / f64::from(STEPS)) {
+                let edge_m = self.lowest_edge_m(feet, time_s);
+                if edge_m < lowest_m {
+                    (lowest_m, at_s) = (edge_m, time_s);
+                }
+            }
+        }
+        if lowest_m < 0.0 { Err(Error::Edge { time_s: at_s, depth_m: -lowest_m }) } else { Ok(()) }
+    }
+    fn lowest_edge_m(&self, feet: &Feet, time_s: f64) -> f64 {
+        let along_m = self.drop.body.length_m();
+        match (&self.motion, &self.drop.across) {
+            (Course::Bar(motion), _) => feet.of_bar(motion.at(time_s).height_m, along_m),
+            (Course::Plate(motion), Some(across)) => motion
+                .sample(time_s)
+                .map_or(f64::INFINITY, |sample| feet.of_plate(sample.height_m, [along_m, across.width.m()])),
+            // Boxes have no feet.
+            (Course::Plate(_) | Course::Block(_), _) => f64::INFINITY,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A plate turned any way: its third axis in the world tells how high its feet and its edges, 6 mm over them, are.
+    #[test]
+    fn edges_are_as_high_as_those_of_a_turned_plate() {
+        let feet = Feet { inset_m: [0.03, 0.02], height_m: 6e-3 };
+        for k in 0..24 {
+            let (direction, tilt) = (f64::from(k) * PI / 12.0, 0.02 * f64::from(k + 1));
+            let (sin, cos) = direction.sin_cos();
+            let upward = [tilt.sin() * cos, tilt.sin() * sin, tilt.cos()];
+            let height = |[x, y, z]: [f64; 3]| upward[0] * x + upward[1] * y + upward[2] * z + 0.01;
+            let corners = |x: f64, y: f64, z: f64| [[-x, -y, z], [x, -y, z], [x, y, z], [-x, y, z]].map(height);
+            let lowest = corners(0.15, 0.105, 6e-3).into_iter().fold(f64::INFINITY, f64::min);
+            let told = feet.of_plate(corners(0.12, 0.085, 0.0), [0.24, 0.17]);
+            assert!((told - lowest).abs() < 1e-15, "{direction}: {told}, not {lowest}");
+            // Seen from the side.
+            let [a, b] = [-0.12, 0.12].map(|x| tilt.sin() * x);
+            let told = feet.of_bar([a, b], 0.24);
+            assert!((told - (6e-3 * tilt.cos() - 0.15 * tilt.sin())).abs() < 1e-15, "{tilt}: {told}");
+        }
+    }
+}
