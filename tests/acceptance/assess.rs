@@ -255,7 +255,18 @@ fn the_command_below_a_worst_drop_of_a_box_says_the_same() {
         let asked = governs["limits"].as_array().unwrap().iter().find(|l| l["component"] == component["name"]).unwrap();
         assert_eq!(asked["demand"], limit["demand"], "{governs}");
     }
+    // The short command below it searches the same drop, and tells its limit as the assessment does.
     let table = clatter(["assess", &example("handheld-transit.toml")]).stdout;
+    let battery = table.lines().find(|line| line.contains("--component=battery --worst=rattle-space")).expect(&table);
+    let short = clatter(words(battery.trim_start()).into_iter().chain(["--format=json"]));
+    let short: Value = serde_json::from_str(&short.stdout).unwrap();
+    let (of, told) = (&json["components"][1]["limits"][0], &short["limits"][0]);
+    assert_eq!((&told["limit"], &told["allowed"]), (&of["limit"], &of["allowed"]));
+    let off = told["value"].as_f64().unwrap() / of["demand"].as_f64().unwrap() - 1.0;
+    assert!(off.abs() < 1e-9 && told["position_m"] == of["worst_case"]["position_m"], "{told}, not {of}");
+    let another =
+        clatter(["respond", &format!("--product={}", example("handheld-transit.toml")), "--component=battery"]);
+    assert!(another.stderr.contains("'clatter respond --worst' takes its worst drop"), "{}", another.stderr);
     for word in ["table 516.8-IX", "corner top back end-b", "off, deg"] {
         assert!(table.contains(word), "{word}: {table}");
     }

@@ -300,6 +300,14 @@ impl SingleDrop {
             None => BlockDrop::tilted(block, self.tilt_rad, across.direction_rad % TAU, speed, gravity)?,
         })
     }
+    /// The drop of a box that lands on anything, as flights take it; none of a bar and of a plate.
+    ///
+    /// # Errors
+    /// [`Error::Flight`] for a box that no body is.
+    pub fn of_box(&self) -> Result<Option<BlockDrop>, Error> {
+        let of = |across: &Across| across.posture.map(|posture| self.block_drop(across, posture.thickness_m));
+        self.across.as_ref().and_then(of).transpose()
+    }
     /// Points that touch the ground and a place, from the center of mass, in units in which an impulse of 1 over the mass at p does
     /// 1 + p·q to q: x/ρ of a bar.
     pub(crate) fn in_radii(&self, spot: &Spot) -> (Vec<[f64; 2]>, [f64; 2]) {

@@ -203,7 +203,7 @@ impl DropArgs {
         streams: &mut Streams<'_>,
     ) -> Result<Option<OneDrop>, Failure> {
         let Some(path) = &self.product else { return Ok(None) };
-        let file = OneDrop::read(path, self.component.as_deref(), first, files, streams)?;
+        let file = OneDrop::read(path, self.component.as_deref(), first, worst.is_some(), files, streams)?;
         Ok(Some(match worst {
             Some((of, accuracy)) => file.at_worst(of, &accuracy)?,
             None => file,

@@ -81,14 +81,15 @@ impl OneDrop {
         path: &Path,
         component: Option<&str>,
         first: Option<End>,
+        at_worst: bool,
         files: &Files<'_>,
         streams: &mut Streams<'_>,
     ) -> Result<Self, Failure> {
         let file = assess::read(path, files, streams)?;
-        if !file.landings.is_empty() {
+        if !(file.landings.is_empty() || at_worst) {
             let path = crate::text::path(path);
             return Err(Failure::Wrong(format!(
-                "{path} is that of a box: give the drop by --thickness and --orientation, as the command below a worst drop does"
+                "{path} is that of a box: 'clatter respond --worst' takes its worst drop; give others by --thickness and --orientation"
             )));
         }
         let found = match component {
@@ -153,6 +154,11 @@ impl OneDrop {
 
     pub(crate) fn is_plate(&self) -> bool {
         self.file.product.width.is_some()
+    }
+
+    /// The worst drop of a box, where that is the one.
+    pub(crate) fn worst_of_box(&self) -> Option<WorstCase> {
+        self.worst.filter(|worst| worst.landing.is_some())
     }
 
     pub(crate) fn is_mirrored(&self) -> bool {

@@ -288,6 +288,10 @@ impl Args {
         let accuracy = Accuracy { tolerance: self.tolerance, model: self.model, ..Accuracy::default() };
         let worst = self.worst.map(|of| (of, accuracy));
         let file = self.drop.file(self.first.map(Into::into), worst, &self.files(), streams)?;
+        let file = match file.map(|file| (file.worst_of_box(), file)) {
+            Some((Some(worst), file)) => return self.worst_of_box(file, &worst, streams),
+            other => other.map(|(_, file)| file),
+        };
         if file.as_ref().is_some_and(OneDrop::is_plate) {
             return self.run_plate(file, streams);
         }

@@ -14,10 +14,13 @@
 
 use std::f64::consts::TAU;
 
+use clatter_assess::{Model, Part, SingleDrop};
 use clatter_flight::{BlockDrop, BlockFlight, Contact, Stop};
 use clatter_shock::{Frequencies, Quantity, Spectrum, Suspension, UnevenFilter};
 use serde::Serialize;
 
+use super::limits::OneDrop;
+use super::{Limit, Position};
 use crate::simulate::block::{DropAnswer, StopAnswer};
 use crate::{Error, Json};
 
@@ -39,6 +42,17 @@ pub enum Axis {
     Any,
 }
 
+impl From<clatter_assess::Axis> for Axis {
+    fn from(axis: clatter_assess::Axis) -> Self {
+        match axis {
+            clatter_assess::Axis::X => Self::X,
+            clatter_assess::Axis::Y => Self::Y,
+            clatter_assess::Axis::Z => Self::Z,
+            clatter_assess::Axis::Any => Self::Any,
+        }
+    }
+}
+
 impl Axis {
     fn index(self) -> Option<usize> {
         if self == Self::Any { None } else { Some(self as usize) }
@@ -51,7 +65,7 @@ impl Axis {
 }
 
 /// A drop of a box and a part of it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Question {
     /// The drop.
@@ -64,13 +78,28 @@ pub struct Question {
     pub axis: Axis,
     /// The part; none that is mounted rigidly.
     pub suspension: Option<Suspension>,
+    /// Limits that are held against the drop, as an assessment does.
+    pub limits: Option<Limits>,
+}
+
+/// Limits of a part of a product, and the drop of a box that is held against them.
+#[derive(Debug, Clone)]
+pub struct Limits {
+    /// The drop, as an assessment has it.
+    pub drop: SingleDrop,
+    /// The place.
+    pub part: Part,
+    /// The limits.
+    pub limits: Vec<clatter_assess::Limit>,
+    /// How exact the answer is, as a share of it.
+    pub tolerance: f64,
 }
 
 impl Question {
     /// Of a place on which a part is mounted rigidly.
     #[must_use]
     pub fn new(drop: BlockDrop, contact: Contact, at_m: [f64; 3], axis: Axis) -> Self {
-        Self { drop, contact, at_m, axis, suspension: None }
+        Self { drop, contact, at_m, axis, suspension: None, limits: None }
     }
 }
 
@@ -87,6 +116,9 @@ pub struct Answer {
     pub at_m: [Json; 3],
     /// `x`, `y`, `z` or `any`.
     pub axis: &'static str,
+    /// The limits that were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<Vec<Limit>>,
     /// The part.
     #[serde(flatten)]
     pub part: Option<PartAnswer>,
@@ -198,13 +230,18 @@ impl PlaceHistory {
 /// # Errors
 /// A place beyond the box; a part that would swing along no axis; those of [`BlockDrop::contacts`], and frequencies that no spectrum has.
 pub fn answer(question: &Question) -> Result<Answer, Error> {
-    let Question { drop, contact, at_m, axis, suspension } = question;
+    let Question { drop, contact, at_m, axis, suspension, limits } = question;
     for (&value, size) in at_m.iter().zip(drop.block().size_m()) {
         if value.is_nan() || value.abs() > 0.5 * size * (1.0 + 1e-9) {
             let (name, allowed) = ("position in m", "within the box: from its middle, half of its size at most");
             return Err(Error::Quantity { name, value, allowed });
         }
     }
+    let of_limits = |of: &Limits| {
+        let asked = OneDrop { drop: of.drop, model: Model::Compliant, tolerance: of.tolerance };
+        asked.limits(&of.limits, &[(of.part, Position::All(at_m.map(Json)))], *suspension)
+    };
+    let limits = limits.as_ref().map(of_limits).transpose()?;
     let felt = PlaceHistory::new(question)?;
     let part = match (suspension, axis.index()) {
         (Some(part), Some(axis)) => Some(felt.part(axis, part)?),
@@ -220,6 +257,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         contact_law: contact.law().name(),
         at_m: at_m.map(Json),
         axis: axis.name(),
+        limits,
         part,
         acceleration: felt.largest(*axis),
         stop: StopAnswer::new(&felt.flight.stop),

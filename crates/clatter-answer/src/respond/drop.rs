@@ -174,13 +174,14 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     // The end that touches first feels every drop: where not even that is answered, none is.
     asked.answer(&unlimited(LimitKind::VelocityChange), &Part::new(-half_m, None))?;
     swings(suspension.as_ref())?;
-    let place = |at: &f64| ([side * at * half_m, 0.0], Position::Along(Json(at * half_m)));
+    let place = |at: &f64| (Part::new(side * at * half_m, None), Position::Along(Json(at * half_m)));
     let places: Vec<_> = at.iter().map(place).collect();
     let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, suspension)).transpose()?;
     let tightest = limits.as_ref().and_then(|limits| Limit::tightest(limits));
     let at = tightest.map_or(at_first, |limit| at[limit.place]);
     let at_m = [side * at * half_m, 0.0];
-    let largest = |kind, part| asked.largest(kind, at_m, part);
+    let place = Part::new(at_m[0], None);
+    let largest = |kind, part| asked.largest(kind, &place, part);
     let velocity_change = largest(LimitKind::VelocityChange, None)?;
     let acceleration = question.contact_time_s.map_or(Ok(None), |_| largest(LimitKind::Acceleration, None))?;
     let angular_velocity_change = largest(LimitKind::AngularVelocityChange, None)?;

@@ -42,6 +42,8 @@ pub enum Position {
     Along(Json),
     /// Along a plate and across it.
     Both([Json; 2]),
+    /// Along, across and in the thickness of a box.
+    All([Json; 3]),
 }
 
 impl Limit {
@@ -86,11 +88,11 @@ impl OneDrop {
     fn felt(
         &self,
         limit: &clatter_assess::Limit,
-        [position_m, across_m]: [f64; 2],
+        place: &Part,
         part: Option<Suspension>,
     ) -> Result<Option<clatter_assess::Answer>, Error> {
         let suspension = part.filter(|_| limit.is_response());
-        match self.answer(limit, &Part { across_m, ..Part::new(position_m, suspension) }) {
+        match self.answer(limit, &Part { suspension, ..*place }) {
             Err(clatter_assess::Error::Unfinished | clatter_assess::Error::Contact) => Ok(None),
             answer => Ok(Some(answer?)),
         }
@@ -100,24 +102,24 @@ impl OneDrop {
     pub(super) fn largest(
         &self,
         kind: LimitKind,
-        at_m: [f64; 2],
+        place: &Part,
         part: Option<Suspension>,
     ) -> Result<Option<Largest>, Error> {
-        Ok(self.felt(&unlimited(kind), at_m, part)?.map(Largest::from))
+        Ok(self.felt(&unlimited(kind), place, part)?.map(Largest::from))
     }
 
     /// Every limit at the worst of these places, which are told as they are on the product.
     pub(super) fn limits(
         &self,
         limits: &[clatter_assess::Limit],
-        places: &[([f64; 2], Position)],
+        places: &[(Part, Position)],
         part: Option<Suspension>,
     ) -> Result<Vec<Limit>, Error> {
         let mut found = Vec::with_capacity(limits.len());
         for limit in limits {
             let mut worst: Option<Limit> = None;
-            for (place, (at_m, position_m)) in places.iter().enumerate() {
-                let answer = self.felt(limit, *at_m, part)?;
+            for (place, (at, position_m)) in places.iter().enumerate() {
+                let answer = self.felt(limit, at, part)?;
                 let one = Limit {
                     limit: limit.kind,
                     unit: answer.map_or(limit.kind.unit(), |answer| answer.unit),

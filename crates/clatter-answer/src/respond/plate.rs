@@ -172,13 +172,15 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         let [x, y] = on_product(at);
         [signs[0] * x, signs[1] * y]
     };
-    let place = |at: &[f64; 2]| (in_scene(*at), Position::Both(on_product(*at).map(Json)));
+    let part = |[x, y]: [f64; 2]| Part { across_m: y, ..Part::new(x, None) };
+    let place = |at: &[f64; 2]| (part(in_scene(*at)), Position::Both(on_product(*at).map(Json)));
     let places: Vec<_> = at.iter().map(place).collect();
     let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, *suspension)).transpose()?;
     let tightest = limits.as_ref().and_then(|limits| Limit::tightest(limits));
     let at = tightest.map_or(at_first, |limit| at[limit.place]);
     let at_m = in_scene(at);
-    let largest = |kind, part| asked.largest(kind, at_m, part);
+    let there = part(at_m);
+    let largest = |kind, part| asked.largest(kind, &there, part);
     let answers = LargestValues {
         velocity_change: largest(LimitKind::VelocityChange, None)?,
         acceleration: largest(LimitKind::Acceleration, None)?,

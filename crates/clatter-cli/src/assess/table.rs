@@ -170,8 +170,7 @@ fn worst_drop(
     }
     limit.notes.iter().try_for_each(|note| sentence(out, "  note: ", &note.to_string()))?;
     let Some(worst) = &limit.worst_case else { return Ok(()) };
-    // What a box lands on is no drop of a file.
-    let short = repeat(path, &component.name, limit.limit, accuracy).filter(|_| worst.landing.is_none());
+    let short = repeat(path, &component.name, limit.limit, accuracy);
     writeln!(out, "  {}", short.unwrap_or_else(|| worst.command()))
 }
 

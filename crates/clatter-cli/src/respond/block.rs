@@ -2,15 +2,18 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::respond::block::{self, Answer, Question};
+use clatter_answer::respond::block::{self, Answer, Limits, Question};
+use clatter_assess::{Part, WorstCase};
+use clatter_flight::Contact;
 use clatter_shock::Suspension;
 
-use super::Args;
+use super::{Args, limits};
 use crate::block::{Axis, Setup};
 use crate::drop_args::BesideBlock;
 use crate::inputs::Format;
 use crate::numbers::{figures, given};
-use crate::quantities::neat;
+use crate::one_drop::{OneDrop, PartSetup};
+use crate::quantities::{Show, neat};
 use crate::{Failure, Streams};
 
 impl Args {
@@ -28,6 +31,49 @@ impl Args {
             *at = half * place.relative("--at", Some(half))?;
         }
         Ok(at_m)
+    }
+
+    /// The worst drop of a box of a product file.
+    pub(super) fn worst_of_box(
+        &self,
+        mut file: OneDrop,
+        worst: &WorstCase,
+        streams: &mut Streams<'_>,
+    ) -> Result<(), Failure> {
+        if self.output.is_some() || self.flat || self.equivalent_pulse {
+            return Err(Failure::Usage("-o, --flat and --equivalent-pulse do not go with a box"));
+        }
+        let drop = &worst.drop;
+        let (Some(of_box), Some(time_s)) = (drop.of_box()?, drop.contact_time_s) else {
+            return Err(Failure::Usage("a box is followed with contacts that take time"));
+        };
+        let setup = Setup { drop: of_box, contact: Contact::new(drop.contact_law, drop.restitution, time_s)? };
+        let [x, y, z] = of_box.block().size_m();
+        let part = file.part([0.5 * x, 0.5 * y])?;
+        let Part { position_m, across_m, inside, .. } = worst.part;
+        let at_m = [position_m, across_m, inside.height_m.clamp(-0.5 * z, 0.5 * z)];
+        let axis = block::Axis::from(inside.axis);
+        let mut question = Question::new(setup.drop, setup.contact, at_m, axis);
+        question.suspension = self.suspension(part.as_ref().and_then(|part| part.suspension))?;
+        question.limits = part.as_ref().map(|part| Limits {
+            drop: *drop,
+            part: worst.part,
+            limits: part.allowed.clone(),
+            tolerance: self.tolerance,
+        });
+        let answer = block::answer(&question)?;
+        let of_file = part.as_ref().map(|part| (part, Show { unit: file.time_unit(), name: "s" }));
+        match self.format {
+            Format::Table => table(&answer, &setup, of_file, streams.out).map_err(Failure::Answer)?,
+            Format::Json => streams.json(&answer)?,
+        }
+        for note in file.into_notes() {
+            streams.note("note", note);
+        }
+        for warning in setup.warning().into_iter().chain(setup.left(&answer.flight.stop)) {
+            streams.note("warning", warning);
+        }
+        Ok(())
     }
 
     pub(super) fn block(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
@@ -54,7 +100,7 @@ impl Args {
         }
         let answer = block::answer(&question)?;
         match self.format {
-            Format::Table => table(&answer, &setup, streams.out).map_err(Failure::Answer)?,
+            Format::Table => table(&answer, &setup, None, streams.out).map_err(Failure::Answer)?,
             Format::Json => streams.json(&answer)?,
         }
         for warning in setup.warning().into_iter().chain(setup.left(&answer.flight.stop)) {
@@ -65,11 +111,14 @@ impl Args {
     }
 }
 
-fn table(answer: &Answer, setup: &Setup, out: &mut dyn Write) -> io::Result<()> {
+fn table(answer: &Answer, setup: &Setup, of_file: Option<(&PartSetup, Show)>, out: &mut dyn Write) -> io::Result<()> {
     setup.heading(out)?;
     let [x, y, z] = answer.at_m.map(|x| given(neat(1e3 * x.0)));
     let axis = if answer.axis == "any" { "in magnitude".to_owned() } else { format!("along {}", answer.axis) };
     writeln!(out, "Place at {x}, {y}, {z} mm from the middle, {axis}")?;
+    if let Some(((part, time), limits)) = of_file.zip(answer.limits.as_ref()) {
+        limits::table(part, limits, time, out)?;
+    }
     writeln!(out)?;
     writeln!(out, "Largest at this place                        when, ms")?;
     let row = |out: &mut dyn Write, name: &str, value: String, time: f64| {
@@ -79,7 +128,12 @@ fn table(answer: &Answer, setup: &Setup, out: &mut dyn Write) -> io::Result<()> 
     row(out, "acceleration", gn(answer.acceleration.value_m_s2.0), answer.acceleration.time_s.0)?;
     let Some(part) = &answer.part else { return Ok(()) };
     writeln!(out)?;
-    writeln!(out, "Peak of the part, W = {} rad/s, damping ratio {}", given(part.omega.0), given(part.damping.0))?;
+    writeln!(
+        out,
+        "Peak of the part, W = {} rad/s, damping ratio {}",
+        given(super::six(part.omega.0)),
+        given(super::six(part.damping.0))
+    )?;
     let omega = part.omega.0;
     let acceleration = gn(omega * part.peak_absolute_acceleration_over_omega.0);
     row(out, "acceleration", acceleration, part.time_of_peak.0)?;

@@ -30,6 +30,7 @@ pub(super) fn table(part: &PartSetup, limits: &[Limit], time: Show, out: &mut dy
             match row.position_m {
                 Position::Along(x) => along(x, 0),
                 Position::Both([x, y]) => format!("{}, {}", along(x, 0), along(y, 1)),
+                Position::All([x, y, z]) => format!("{}, {}, {}", along(x, 0), along(y, 1), along(z, 0)),
             }
         };
         let over = if share.0 > 1.0 { ", EXCEEDED" } else { "" };

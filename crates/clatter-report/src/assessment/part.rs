@@ -68,8 +68,6 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
     let file = pages.file;
     // A name that is drawn as boxes is no name that a command finds.
     let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy).filter(|said| said.chars().all(is_sure));
-    // What a box lands on is no drop of a file.
-    let short = short.filter(|_| of.worst_case.as_ref().is_none_or(|worst| worst.landing.is_none()));
     let known = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(of.unit, value));
     json!({
         "name": of.limit.words(),
