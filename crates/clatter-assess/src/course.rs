@@ -96,15 +96,36 @@ impl BlockMotion {
         self.flight.strikes.iter().map(|strike| (strike.corner, [strike.time_s, strike.until_s]))
     }
     /// The angular acceleration about an axis.
-    fn turned_about(&self, about: [f64; 3]) -> Excitation {
+    pub(crate) fn turned_about(&self, about: [f64; 3]) -> Excitation {
         self.lines(|felt| angular_acceleration(felt).iter().zip(about).map(|(a, b)| a * b).sum())
     }
-    /// Its magnitude.
-    pub(crate) fn turned_at_all(&self) -> Excitation {
-        self.lines(|felt| {
-            let [x, y, z] = angular_acceleration(felt);
-            libm::hypot(libm::hypot(x, y), z)
-        })
+    /// The most that the angular velocity about each axis changes by while it keeps on growing or falling, which no shock about it
+    /// exceeds: the most first, with the axis.
+    pub(crate) fn swings(&self) -> Vec<(f64, [f64; 3])> {
+        let turned: Vec<[f64; 3]> = self.felt.iter().map(angular_acceleration).collect();
+        let of = |about: [f64; 3]| {
+            let along = |turned: &[f64; 3]| turned.iter().zip(about).map(|(a, b)| a * b).sum::<f64>();
+            let (mut swing, mut most) = (0.0_f64, 0.0_f64);
+            let mut goes_on = |change: f64| {
+                swing = if swing * change > 0.0 { swing + change } else { change };
+                most = most.max(swing.abs());
+            };
+            for (times, ends) in self.times_s.windows(2).zip(turned.windows(2)).filter(|(times, _)| times[0] < times[1])
+            {
+                let (length, [a, b]) = (times[1] - times[0], [&ends[0], &ends[1]].map(along));
+                if a * b < 0.0 {
+                    // It turns around on the way.
+                    goes_on(0.5 * length * a * a / (a - b));
+                    goes_on(-0.5 * length * b * b / (a - b));
+                } else {
+                    goes_on(0.5 * length * (a + b));
+                }
+            }
+            (most, about)
+        };
+        let mut all: Vec<_> = axes().map(of).collect();
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        all
     }
 }
 

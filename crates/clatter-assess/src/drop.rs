@@ -534,6 +534,10 @@ mod tests {
             let drop = SingleDrop { tilt_rad, ..dropped([0.15, 0.07, 0.02], [0.043, 0.02], 0.0) };
             let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
             let most = followed.largest_turn(0.0).unwrap().change;
+            // About each axis one by one.
+            let each =
+                followed.motion.turned().map(|about| crate::shock::largest(&crate::shock::shocks(&about, 0.0)).change);
+            assert_eq!(each.fold(0.0, f64::max).to_bits(), most.to_bits());
             assert!(most > 1.0 && followed.largest_turn(0.999 * most).is_some(), "{tilt_rad}: {most}");
             assert!(followed.largest_turn(1.001 * most).is_none(), "{tilt_rad}: {most}");
         }

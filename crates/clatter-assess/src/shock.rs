@@ -8,7 +8,7 @@
 
 use clatter::{Excitation, Section};
 
-use crate::course::{Course, DIRECTIONS};
+use crate::course::{BlockMotion, Course, DIRECTIONS};
 use crate::drop::Followed;
 
 /// One shock.
@@ -26,7 +26,7 @@ pub(crate) struct Shock {
 
 /// Below this share of the largest no shock in a direction half a right angle off is the largest between.
 const NEAR_LARGEST: f64 = 0.85;
-/// About one axis a shock may reach further than that of the magnitude: axes are looked at from this share on.
+/// The same of no direction at all, where what is asked for is that much.
 const NEAR_AT_ALL: f64 = 0.7;
 
 /// Share of its peak down to which a shock reaches, whatever the acceleration does in between.
@@ -43,16 +43,13 @@ impl Followed {
         at_instants(motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
     }
 
-    /// The largest of the turning of the product, where it passes `above`: of a box, whose axes are many, they are looked at one by one
-    /// only where the magnitude comes near that.
+    /// The largest of the turning of the product, where it passes `above`.
     pub(crate) fn largest_turn(&self, above: f64) -> Option<Shock> {
         let passes = |shock: &Shock| shock.change > above;
         match &self.motion {
-            Course::Block(motion) if largest(&shocks(&motion.turned_at_all(), 0.0)).change < NEAR_AT_ALL * above => {
-                None
-            }
+            Course::Block(motion) => Some(largest(&turns_of_box(motion, above))).filter(passes),
             Course::Plate(_) => self.largest_turn_of_plate(above).filter(passes),
-            Course::Bar(_) | Course::Block(_) => Some(largest(&self.turns())).filter(passes),
+            Course::Bar(_) => Some(largest(&self.turns())).filter(passes),
         }
     }
 
@@ -75,6 +72,9 @@ impl Followed {
 
     /// The same of the turning of the product; of a plate about the axis of the largest.
     pub(crate) fn turns(&self) -> Vec<Shock> {
+        if let Course::Block(motion) = &self.motion {
+            return turns_of_box(motion, 0.0);
+        }
         let contacts = self.motion.contact().is_some();
         let of = |turned: &Excitation| {
             if contacts { shocks(turned, 0.0) } else { at_instants(turned.sections().map(|k| (k.from, k.delta_v))) }
@@ -82,6 +82,24 @@ impl Followed {
         let more = |a: Vec<Shock>, b: Vec<Shock>| if largest(&b).change > largest(&a).change { b } else { a };
         self.motion.turned().map(|turned| of(&turned)).reduce(more).unwrap_or_default()
     }
+}
+
+/// The shocks of a box about the axis of the largest; none where that is not above `above`. An axis about which the angular velocity swings
+/// by no more than the largest shock so far is passed over.
+fn turns_of_box(motion: &BlockMotion, above: f64) -> Vec<Shock> {
+    let (mut most, mut found) = (above, Vec::new());
+    for (swing, about) in motion.swings() {
+        // Sums of the same terms, but for roundings.
+        if swing * (1.0 + 1e-9) < most {
+            break;
+        }
+        let about = shocks(&motion.turned_about(about), 0.0);
+        let change = largest(&about).change;
+        if change > most {
+            (most, found) = (change, about);
+        }
+    }
+    found
 }
 
 impl Shock {
