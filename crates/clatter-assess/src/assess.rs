@@ -260,6 +260,9 @@ impl ProductFile {
             of.most = worst.later;
             of.notes.push(Note::Rebounds(of.most));
         }
+        if self.product.feet.is_some() && (worst.later > 0.0 || of.most.is_infinite()) {
+            of.notes.push(Note::Edges);
+        }
         let drop = ranges.single(&asked.place);
         if ranges.model < drop.fullest() && !worst.stopped {
             let place = asked.part_there(task.component);

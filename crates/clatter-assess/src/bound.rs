@@ -68,7 +68,8 @@ pub(crate) fn bound(
             Some((1.0 + e) * speed * one)
         }
         (Source::Turn, _) => Some(2.0 * speed / rho),
-        (Source::Response(peak), Some([shortest, _])) if peak.is_acceleration() => {
+        // How hard edges beyond feet press is not known.
+        (Source::Response(peak), Some([shortest, _])) if peak.is_acceleration() && product.feet.is_none() => {
             let hard = component.mount == Mount::Hard && law.leaves_a_dent();
             let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;
             // Both ends at once.
@@ -122,14 +123,15 @@ fn of_plate(
             Some(2.0 * speed * (1.0 + farthest * farthest).sqrt() + drop.gravity_m_s2 * contact_s.hi())
         }
         Source::Turn => Some(2.0 * speed / one.least_gyration_m()),
-        Source::Response(peak) if peak.is_acceleration() && component.mount == Mount::Hard && law.leaves_a_dent() => {
+        Source::Response(peak)
+            if peak.is_acceleration()
+                && component.mount == Mount::Hard
+                && law.leaves_a_dent()
+                && product.feet.is_none() =>
+        {
             let contact = Contact::new(law, product.restitution.hi(), contact_s.lo()).ok()?;
             let of = |q: f64| (1.0 + farthest * q) / (1.0 + q * q).sqrt();
-            // Where edges beyond feet may touch as well, four points with the lever arm that does most.
-            let pressed = match product.feet {
-                Some(_) => 2.0 * (1.0 + farthest * farthest).sqrt(),
-                None => corners.into_iter().fold(0.0, |all, q| libm::hypot(all, of(norm(q)))),
-            };
+            let pressed = corners.into_iter().fold(0.0, |all, q| libm::hypot(all, of(norm(q))));
             Some(speed * contact.frequency_rad_s() * pressed)
         }
         Source::Response(_) => None,

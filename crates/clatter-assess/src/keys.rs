@@ -88,7 +88,8 @@ pub(crate) static PRODUCT: &[Key] = &[
         "feet_height",
         false,
         Quantity(&units::LENGTH, ["0.01 mm", "1 m"]),
-        "By how much the feet stand out: a drop in which an edge beyond them comes down to the ground as well is not answered.",
+        "By how much the feet stand out. A drop in whose clatter an edge beyond them comes down as well is not answered; what edges do \
+         later is bounded by energy, but for accelerations.",
     ),
     key("mass", false, Quantity(&units::MASS, MASSES), "Mass; needed with moment_of_inertia only."),
     key(

@@ -109,6 +109,8 @@ pub enum Note {
     Error(f64),
     /// Rebounds may ask for up to this share, by their energy.
     Rebounds(f64),
+    /// Edges beyond feet may come down as the product lands again.
+    Edges,
     /// A bar does not roll about its length, where most products turn fastest.
     Rolls,
     /// What real tilt adds, by a box with full rotation in drops next to the worst one.
@@ -140,6 +142,10 @@ impl Display for Note {
                 f,
                 "it may be off by {} %: later strikes add, and multiply what those before got wrong",
                 percent(*share)
+            ),
+            Self::Edges => f.write_str(
+                "after its clatter edges beyond the feet may come down: energy bounds what they change velocities by, how hard they press \
+                 is not known",
             ),
             Self::Rebounds(most) => {
                 let most =

@@ -224,7 +224,10 @@ impl DropArgs {
             );
         }
         let length = either(self.length, self.length_m);
-        let length_m = length.map(|length| length.si).or(file.as_ref().map(OneDrop::length_m));
+        let length_m = match (length, &file) {
+            (Some(length), Some(file)) => Some(file.length_of(length.si)?),
+            (length, file) => length.map(|length| length.si).or(file.as_ref().map(OneDrop::length_m)),
+        };
         let tilt_deg =
             self.tilt_deg.or(self.tilt.map(|tilt| neat(tilt.si.to_degrees()))).or(beside.flat.then_some(0.0));
         let contact_time = self.contact_time();

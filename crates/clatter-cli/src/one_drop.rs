@@ -193,6 +193,15 @@ impl OneDrop {
     pub(crate) fn length_m(&self) -> f64 {
         self.file.product.body.length_m()
     }
+    /// Between its ends or feet, of a product of the file that is so long from edge to edge.
+    pub(crate) fn length_of(&self, edges_m: f64) -> Result<f64, Failure> {
+        let beyond_m = self.file.product.feet.map_or(0.0, |feet| 2.0 * feet.inset_m[0]);
+        if edges_m > beyond_m {
+            return Ok(edges_m - beyond_m);
+        }
+        let [edges, beyond] = [edges_m, beyond_m].map(|m| given(neat(1e3 * m)));
+        Err(Failure::Wrong(format!("--length: the feet of the product leave out {beyond} mm of its {edges} mm")))
+    }
     /// Position of the center of mass, and radius of gyration over the half-length.
     pub(crate) fn inertia(&mut self) -> (f64, f64) {
         let gyration_m = self.worst.as_ref().and_then(WorstCase::gyration_m).unwrap_or_else(|| {
@@ -213,6 +222,13 @@ impl OneDrop {
         }
         let spread = self.file.product.contact_time_s?;
         Some(Self::take(&mut self.notes, "contact time", &spread, Taken::Least, "s"))
+    }
+    /// The same with a word, where edges beyond its feet are not looked at.
+    pub(crate) fn on_feet_alone(mut self) -> Self {
+        if self.file.product.feet.is_some() {
+            self.note("its ends here are its feet; edges beyond them are not looked at, as 'clatter respond' does");
+        }
+        self
     }
     /// Feet that it lands on.
     pub(crate) fn feet(&self) -> Option<Feet> {

@@ -86,7 +86,7 @@ Examples:
   clatter respond --shocks-file=shocks.csv --omega=1131
 
 With a product file: clatter respond --product=phone.toml --component=camera --worst answers its worst
-drop again, --worst=rattle-space that of one limit, --tilt=2deg --first=b in place of --worst one of its drops.
+drop again, --worst=rattle-space that of one limit, --tilt=2deg --first=b in place of --worst one of the drops of a bar or a plate.
 
 'clatter --help' tells what q, e and the units are."
 )]

@@ -2,12 +2,20 @@
 
 use std::f64::consts::PI;
 
+use clatter_flight::Stop;
+
 use super::Followed;
 use crate::course::Course;
 use crate::{Error, Feet, Spread};
 
-/// Steps of a press in which the edges are looked at: of a half-sine each misses the lowest by 1/200 of its depth.
+/// Steps of a press or a flight in which the edges are looked at: of a half-sine each misses the lowest by 1/200 of its depth.
 const STEPS: u32 = 16;
+
+/// From when to when, and whether no foot presses.
+struct Stretch {
+    span_s: [f64; 2],
+    flies: bool,
+}
 
 impl Feet {
     /// How far below its foot the lowest edge lies of a product with these slopes along the length and along the width.
@@ -44,29 +52,55 @@ impl Feet {
 }
 
 impl Followed {
-    /// Whether the edges stay off the ground in the clatter. What they do as the product lands again is bounded by its energy, wherever
-    /// it is struck. Between presses all of it falls freely, so that an edge is lowest as one begins or ends.
+    /// When the product last rose before an edge comes down to the ground after the clatter; none where none does. From then on its energy
+    /// bounds what the edges do, wherever it is struck.
     ///
     /// # Errors
-    /// [`Error::Edge`].
-    pub(super) fn edges_stay_up(&self) -> Result<(), Error> {
-        let Some(feet) = &self.drop.feet else { return Ok(()) };
+    /// [`Error::Edge`] where one comes down in the clatter, or where some foot has pressed ever since.
+    pub(super) fn rises_before_edge_s(&self) -> Result<Option<f64>, Error> {
+        let Some(feet) = &self.drop.feet else { return Ok(None) };
         let clatter_s = self.drop.clatter_s();
-        let presses = self.motion.presses().into_iter().map(|(_, press)| press);
-        let strikes = self.motion.struck_s().into_iter().map(|time_s| [time_s; 2]);
-        let (mut lowest_m, mut at_s) = (0.0, 0.0);
-        for [from_s, until_s] in presses.chain(strikes).filter(|[from_s, _]| *from_s <= clatter_s) {
-            // What lies as the motion ends presses for ever.
-            let length_s = until_s.min(clatter_s) - from_s;
-            let steps = if length_s > 0.0 { STEPS } else { 0 };
-            for time_s in (0..=steps).map(|k| from_s + length_s * f64::from(k) / f64::from(STEPS)) {
+        let (mut lowest_m, mut at_s, mut rose_s) = (0.0, 0.0, None);
+        for Stretch { span_s: [from_s, until_s], flies } in self.stretches() {
+            if flies && from_s > 0.0 {
+                rose_s = Some(from_s);
+            }
+            for time_s in (0..=STEPS).map(|k| from_s + (until_s - from_s) * f64::from(k) / f64::from(STEPS)) {
                 let edge_m = self.lowest_edge_m(feet, time_s);
-                if edge_m < lowest_m {
+                if time_s > clatter_s && edge_m < 0.0 && lowest_m == 0.0 {
+                    return rose_s.map(Some).ok_or(Error::Edge { time_s, depth_m: -edge_m });
+                }
+                if time_s <= clatter_s && edge_m < lowest_m {
                     (lowest_m, at_s) = (edge_m, time_s);
                 }
             }
         }
-        if lowest_m < 0.0 { Err(Error::Edge { time_s: at_s, depth_m: -lowest_m }) } else { Ok(()) }
+        if lowest_m < 0.0 { Err(Error::Edge { time_s: at_s, depth_m: -lowest_m }) } else { Ok(None) }
+    }
+    /// The motion in stretches in which some foot presses or the product flies, in order.
+    fn stretches(&self) -> Vec<Stretch> {
+        // Clear of the ground for ever as it is without gravity, its edges may still come down; where that takes longer than the fall of
+        // a length they are slow.
+        let clear_s = self.drop.body.length_m() / self.drop.speed_m_s;
+        let end_s = match self.motion.stop() {
+            Stop::BouncedClear { time_s } => time_s + clear_s,
+            stop => stop.time_s(),
+        };
+        let mut spans: Vec<[f64; 2]> = self.motion.presses().into_iter().map(|(_, press)| press).collect();
+        spans.extend(self.motion.struck_s().into_iter().map(|time_s| [time_s; 2]));
+        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let (mut all, mut now_s) = (Vec::with_capacity(2 * spans.len() + 1), 0.0);
+        for [from_s, until_s] in spans.into_iter().chain([[end_s; 2]]) {
+            let until_s = until_s.min(end_s);
+            if from_s > now_s {
+                all.push(Stretch { span_s: [now_s, from_s], flies: true });
+            }
+            if until_s > from_s.max(now_s) {
+                all.push(Stretch { span_s: [from_s.max(now_s), until_s], flies: false });
+            }
+            now_s = until_s.max(from_s).max(now_s);
+        }
+        all
     }
     fn lowest_edge_m(&self, feet: &Feet, time_s: f64) -> f64 {
         let along_m = self.drop.body.length_m();

@@ -69,11 +69,20 @@ impl Followed {
         Self::until(drop, model, tolerance, Until::Over)
     }
 
-    /// The same, left at a moment.
+    /// The same, left at a moment; before an edge beyond feet comes down, where one does after the clatter.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As [`new`](Self::new); [`Error::Edge`] where an edge comes down in the clatter.
     pub(crate) fn until(drop: &SingleDrop, model: Model, tolerance: f64, until: Until) -> Result<Self, Error> {
+        let followed = Self::at_most(drop, model, tolerance, until, f64::INFINITY)?;
+        match followed.rises_before_edge_s()? {
+            Some(rose_s) => Self::at_most(drop, model, tolerance, until, rose_s),
+            None => Ok(followed),
+        }
+    }
+
+    /// The same on feet alone, left at `most_s` where it is not over by then.
+    fn at_most(drop: &SingleDrop, model: Model, tolerance: f64, until: Until, most_s: f64) -> Result<Self, Error> {
         let precision = PRECISION * tolerance;
         // Without restitution the strikes of one instant add up, and end by themselves.
         let share = if drop.restitution == 0.0 { 0.0 } else { tolerance * drop.restitution.max(LEAST_SHARE) };
@@ -82,6 +91,7 @@ impl Followed {
         let given_back = 0.5 * (1.0 + drop.restitution);
         let is_over = |time_s: f64, later: f64, largest: f64, lands: bool| {
             later <= share * largest
+                || time_s >= most_s * (1.0 - 1e-9)
                 || match until {
                     Until::Lands => lands && time_s > clatter_s,
                     Until::Rebounded => lands && time_s > clatter_s && later <= LATE * largest,
@@ -118,8 +128,7 @@ impl Followed {
         };
         let largest_m_s = motion.largest_m_s();
         let early = motion.later_m_s() > share * largest_m_s && !matches!(motion.stop(), Stop::AtRest { .. });
-        let followed = Self { drop: *drop, motion, precision, early, largest_m_s };
-        followed.edges_stay_up().map(|()| followed)
+        Ok(Self { drop: *drop, motion, precision, early, largest_m_s })
     }
 
     pub(crate) fn is_early(&self) -> bool {

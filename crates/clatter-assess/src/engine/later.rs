@@ -121,8 +121,15 @@ impl PlaceHistory<'_> {
             turn_rad_s: center / drop.least_gyration_m() * turned,
             // Nothing where nothing is left, also where a strike has no largest force.
             acceleration_m_s2: if center > 0.0 {
-                // Four corners of a box at most, each with no more than if it had all lever arms of the place; so of edges beyond feet.
-                let pressed = if is_box || drop.feet.is_some() { 2.0 * mass(here) } else { pressed.max(mass(here)) };
+                // Four corners of a box at most, each with no more than if it had all lever arms of the place. How hard edges beyond feet
+                // press is not known.
+                let pressed = if drop.feet.is_some() {
+                    f64::INFINITY
+                } else if is_box {
+                    2.0 * mass(here)
+                } else {
+                    pressed.max(mass(here))
+                };
                 center * pressed * self.peak_per_change()
             } else {
                 0.0
@@ -143,8 +150,10 @@ impl PlaceHistory<'_> {
     /// could exceed it by.
     pub(super) fn off_by(&self, value: f64, of_box: impl Fn(&Later) -> f64) -> f64 {
         let Followed { largest_m_s, motion, .. } = self.followed;
-        // No later strike changes the velocity of a point of a bar or of a plate by more; of a box, that of its center of mass.
-        let later = if self.is_box() { of_box(&self.later()) } else { motion.later_m_s() };
+        // No later strike changes the velocity of a point of a bar or of a plate by more, between its ends or corners; of a box, that of its
+        // center of mass.
+        let later =
+            if self.is_box() || self.followed.drop.feet.is_some() { of_box(&self.later()) } else { motion.later_m_s() };
         self.followed.kept_arms() * largest_m_s + (later - value).max(0.0)
     }
     fn is_box(&self) -> bool {

@@ -142,7 +142,10 @@ impl DropArgs {
         let compliant = model == Model::Compliant;
         let width = self.plate.width().map(|width| width.si).or(file.as_ref().and_then(OneDrop::width).map(|w| w.m()));
         let length = either(self.length, self.length_m);
-        let length_m = length.map(|length| length.si).or(file.as_ref().map(OneDrop::length_m));
+        let length_m = match (length, &file) {
+            (Some(length), Some(file)) => Some(file.length_of(length.si)?),
+            (length, file) => length.map(|length| length.si).or(file.as_ref().map(OneDrop::length_m)),
+        };
         let of_file = |file: &mut Option<OneDrop>| file.as_mut().filter(|_| compliant)?.contact_time_s();
         let contact_time = self.contact_time().map(|time| time.si).or_else(|| of_file(&mut file));
         let e = e.or_else(|| file.as_mut().map(OneDrop::restitution));

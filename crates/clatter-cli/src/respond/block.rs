@@ -77,6 +77,9 @@ impl Args {
     }
 
     pub(super) fn block(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        if self.feet_m.is_some() {
+            return Err(Failure::Usage("--feet-m are those of a bar or a plate: a box lands on any of its sides"));
+        }
         if self.output.is_some() || self.flat || self.equivalent_pulse {
             return Err(Failure::Usage("-o, --flat and --equivalent-pulse do not go with a box"));
         }

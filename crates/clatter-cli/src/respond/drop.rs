@@ -31,6 +31,9 @@ pub(super) struct Drop<'a> {
 impl Args {
     pub(super) fn drop_by(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
         let (mass, feet) = (&self.inertia.mass, self.feet(file.as_ref()));
+        if feet.is_some_and(|feet| feet.inset_m[1] != 0.0) {
+            return Err(Failure::Usage("--feet-m=X,Y,HEIGHT of a bar has Y = 0: it goes on along its length alone"));
+        }
         let beside = ExtraArgs {
             flat: self.flat,
             model: self.model,
