@@ -246,4 +246,23 @@ mod tests {
         assert!(parts[0].ends_with("and is 80 mm long. Its natural frequency is 220 Hz, with a quality factor of 12."));
         assert_eq!(parts[2], "It sits 20 mm from the middle, towards end a. It is mounted rigidly.");
     }
+
+    /// Four masses at the corners of 60 mm × 20 mm, three times as heavy on one diagonal: Σ m x y/Σ m = ½ · 30 mm · 10 mm. From 0.5 m and 1 m
+    /// it comes down at √(2 g h).
+    #[test]
+    fn a_box_tells_its_masses_and_its_speeds() {
+        let text = r#"
+product = { name = "box", length = "80 mm", width = "40 mm", thickness = "20 mm", restitution = 0.4, contact_time = "0.4 ms", masses = [
+    { mass = "30 g", position = ["30 mm", "10 mm"] }, { mass = "30 g", position = ["-30 mm", "-10 mm"] },
+    { mass = "10 g", position = ["30 mm", "-10 mm"] }, { mass = "10 g", position = ["-30 mm", "10 mm"] },
+] }
+drop = [{ height = "1 m", face = "bottom" }, { height = "0.5 m", face = "top" }]
+component = [{ name = "part", position = ["0 mm", "0 mm"], mount = "hard", velocity_change_limit = "9 m/s" }]
+"#;
+        let file = ProductFile::read(text, "box.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let of = inertia(&file, &file.product.width.unwrap());
+        assert!(of.contains("0.08 kg, radii of gyration 30 mm along the length, 10 mm along the width"), "{of}");
+        assert!(of.ends_with("product of inertia over the mass 150 mm²"), "{of}");
+        assert_eq!(drop(&file), "each from its own height, at 3.13 to 4.43 m/s");
+    }
 }
