@@ -316,3 +316,23 @@ fn the_examples_of_the_help_run() {
         assert!(fs::read_to_string(folder.path().join(written)).unwrap().starts_with("<svg"), "{written}");
     }
 }
+
+/// Of pulses of one height the first is the largest; more than a thousand shocks are counted, though not listed.
+#[test]
+fn equal_peaks_and_many_shocks_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let value = |i: u32| match i % 20 {
+        5 => 100.0,
+        6 => -50.0,
+        _ => 0.0,
+    };
+    let text = (0..24_000_u32).fold("time [s],acceleration [m/s2]\n".to_owned(), |text, i| {
+        format!("{text}{:.3},{}\n", f64::from(i) * 1e-3, value(i))
+    });
+    let path = file(folder.path(), "many.csv", &text);
+    let got = answer(["record", path.to_str().unwrap(), "--find", "--threshold=10", "--quiet=2ms"]);
+    let channel = &got["channels"][0];
+    assert!(close(&channel["largest_time_s"], 0.005, 1e-9) && close(&channel["smallest_time_s"], 0.006, 1e-9), "{got}");
+    let (count, listed) = (&channel["shocks"]["count"], channel["shocks"]["list"].as_array().unwrap().len());
+    assert_eq!((count, listed), (&json!(1200), 1000));
+}
