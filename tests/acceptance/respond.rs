@@ -763,6 +763,10 @@ fn a_drop_onto_end_b_is_the_product_turned_around() {
         for name in ["velocity_change_m_s", "acceleration_m_s2", "angular_velocity_change_rad_s"] {
             assert!((of(&b, name) / of(&a, name) - 1.0).abs() < 1e-12, "{name}: {b}, not {a}");
         }
+        // Those of end a and end b.
+        let [of_b, of_a] = [&b, &a].map(|got| [0, 1].map(|end| got["inertia_ratios"][end].as_f64().unwrap()));
+        let off = [of_b[0] - of_a[1], of_b[1] - of_a[0]].map(f64::abs);
+        assert!(off[0].max(off[1]) < 1e-12 && (of_b[0] - of_b[1]).abs() > 1e-3, "{of_b:?}, {of_a:?}");
         for (b, a) in b["limits"].as_array().unwrap().iter().zip(a["limits"].as_array().unwrap()) {
             assert!(
                 (of(b, "value") / of(a, "value") - 1.0).abs() < 1e-12 && b["impact"] == a["impact"],
