@@ -434,3 +434,21 @@ fn the_answer_is_one_object_for_one_file() {
     assert_eq!(json["components"][0]["limits"][0]["limit"], "acceleration");
     assert!((json["components"][0]["position_m"].as_f64().unwrap() - 0.01).abs() < 1e-15, "SI");
 }
+
+/// One part fails, one is within what the search may miss of its limit, and one is safe; the time of each worst drop is in ms.
+#[test]
+fn the_table_counts_parts_by_their_verdict() {
+    let (_dir, path) = changed(|text| text);
+    let camera = answer(["assess", &path])["components"][1]["limits"][0]["demand"].as_f64().unwrap();
+    let near = format!("\"{:?} m/s2\"", 1.005 * camera);
+    let (_dir, path) = changed(|text| display_limit(&text, "1200 gn").replace("\"1000 gn\"", &near));
+    let json: Value = serde_json::from_str(&clatter(["assess", &path, "--format=json"]).stdout).unwrap();
+    let verdicts = [0, 1, 2].map(|k| json["components"][k]["verdict"].as_str().unwrap());
+    assert_eq!(verdicts, ["unsafe", "undecided", "safe"]);
+    let table = clatter(["assess", &path]).stdout;
+    assert!(table.starts_with("Handheld is UNSAFE: 1 of 3 components, 1 undecided\n"), "{table}");
+    let time_s = json["components"][0]["limits"][0]["worst_case"]["time_s"].as_f64().unwrap();
+    let words: Vec<&str> = table.split("display, acceleration: ").nth(1).unwrap().split_whitespace().collect();
+    let at = words.windows(3).find(|w| w[0] == "at" && w[2].trim_end_matches('.') == "ms").unwrap()[1];
+    assert!((at.parse::<f64>().unwrap() / (1e3 * time_s) - 1.0).abs() < 1e-3, "{at} ms, {time_s} s");
+}
