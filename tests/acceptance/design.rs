@@ -275,3 +275,37 @@ fn a_change_of_a_box_holds_in_its_drops() {
     assert_eq!(after["components"][0]["limits"][0]["margin"], room["margin_after"], "{room}");
     assert!(clatter(["design", path]).stdout.starts_with("Box: a box, e = 0.2"));
 }
+
+/// How far an edge gives for a contact time τ, by the half-sine of the hysteretic law: 2 v τ/(π (1 + e)), most for the fastest drop and the
+/// least restitution.
+#[test]
+fn a_longer_contact_is_told_as_an_edge_that_gives() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = r#"
+[product]
+name = "bar"
+length = "150 mm"
+radius_of_gyration = "43 mm"
+restitution = [0.1, 0.5]
+contact_time = "0.3 ms"
+contact_law = "hysteretic"
+[drop]
+height = ["0.2 m", "0.8 m"]
+tilt = "3 deg"
+[[component]]
+name = "part"
+position = "30 mm"
+mount = "hard"
+acceleration_limit = "1500 gn"
+"#;
+    let table = clatter(["design", &file(&dir, "bar.toml", text)]).stdout;
+    let line =
+        table.lines().find(|line| line.contains(", an edge that gives by ")).unwrap_or_else(|| panic!("{table}"));
+    let (before, after) = line.split_once(" ms, an edge that gives by ").unwrap();
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    let time_s = 1e-3 * number(before.rsplit(' ').next().unwrap());
+    let gives_m = 1e-3 * number(after.split(' ').next().unwrap());
+    let want = 2.0 * (2.0 * 9.806_65 * 0.8_f64).sqrt() * time_s / (std::f64::consts::PI * 1.1);
+    // Told to two digits.
+    assert!((gives_m / want - 1.0).abs() < 0.05, "{line}: {want}");
+}
