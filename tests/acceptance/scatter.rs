@@ -270,3 +270,27 @@ fn a_box_is_a_sequence_of_drops() {
     // Any number of threads says the same; more than the one of a test runs of the process.
     assert_eq!(outcome.stdout, clatter(["scatter", path, "--samples=20", "--format=json"]).stdout);
 }
+
+/// Where all parts survive a drop, the one that it uses most of is named.
+#[test]
+fn the_part_that_a_drop_asks_most_of_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let box_of = |parts: [(&str, u32); 2]| {
+        let text = "[product]\nname = \"Box\"\nlength = \"150 mm\"\nwidth = \"70 mm\"\nthickness = \"14 mm\"\n\
+                    radius_of_gyration = [\"43 mm\", \"20 mm\"]\nrestitution = 0.3\ncontact_time = \"0.4 ms\"\n\
+                    contact_law = \"hysteretic\"\n[drop]\nface = \"bottom\"\nheight = \"1 m\"\n";
+        parts.into_iter().fold(text.to_owned(), |text, (name, limit)| {
+            format!(
+                "{text}[[component]]\nname = \"{name}\"\nposition = [\"0 mm\", \"0 mm\"]\nmount = \"hard\"\n\
+                 velocity_change_limit = \"{limit} m/s\"\n"
+            )
+        })
+    };
+    for parts in [[("weak", 50), ("strong", 500)], [("strong", 500), ("weak", 50)]] {
+        let path = dir.path().join("box.toml");
+        std::fs::write(&path, box_of(parts)).unwrap();
+        let table = clatter(["scatter", path.to_str().unwrap(), "--samples=10"]).stdout;
+        let row = table.lines().find(|line| line.starts_with("face bottom")).unwrap_or_else(|| panic!("{table}"));
+        assert!(row.contains(" weak ") && !row.contains("strong"), "{table}");
+    }
+}
