@@ -210,3 +210,16 @@ fn parts_are_held_against_each_other() {
     assert_eq!(told(&[("x", with("clatter.rows", "333:")), ("a", a)]), "x is no part of a study: its rows are none");
     assert_eq!(told(&[("x", with("clatter.rows", "333:665"))]), "x is damaged: shard 2/3 has other rows than 333..665");
 }
+
+/// What the grid sets is among the columns of the drops, though it is one value in each product; what is one value in all is not.
+#[test]
+fn what_differs_from_product_to_product_has_a_column() {
+    let names = |plan: &str| study(plan).fields().into_iter().map(|field| field.name).collect::<Vec<_>>();
+    let has = |names: &[String], name: &str| names.iter().any(|known| known == name);
+    let (of_grid, alone) = (
+        names("samples = 10\n[grid]\nproduct.restitution = [0.2, 0.3]"),
+        names("samples = 10\n[grid]\nproduct.restitution = [0.2]"),
+    );
+    assert!(has(&of_grid, "restitution") && !has(&alone, "restitution"), "{of_grid:?}, {alone:?}");
+    assert!(has(&of_grid, "tilt_rad") && !has(&of_grid, "contact_time_s"), "{of_grid:?}");
+}
