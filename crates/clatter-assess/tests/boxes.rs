@@ -8,7 +8,7 @@ use crate::plates::file;
 use crate::random::Random;
 use clatter_assess::{
     Across, Attitude, Axis, Fall, Inside, Limit, LimitKind, Model, Mount, Note, Part, Posture, ProductFile, SingleDrop,
-    Verdict, Width, answer,
+    Verdict, Width, WorstCase, answer,
 };
 use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
@@ -587,5 +587,37 @@ fn rebounds_of_a_box_leave_limits_undecided() {
         let limit = display(&text.replace("30000 gn", &format!("{allowed} gn")));
         let verdict = if returns { Verdict::Undecided } else { Verdict::Safe };
         assert_eq!(limit.verdict, verdict, "e = {e}: {limit:?}");
+    }
+}
+
+/// Beyond its long edges a product has no place for a part.
+#[test]
+fn a_part_lies_within_the_width() {
+    let drop = one([0.15, 0.07, 0.014], [0.043, 0.02], [0.0, 0.0], [0.0, 0.0, 1.0]);
+    for (across_m, is_there) in [(0.035, true), (-0.035, true), (0.036, false), (-0.05, false)] {
+        let part = Part { across_m, ..Part::new(0.0, None) };
+        let found = answer(&drop, &part, &Limit::new(LimitKind::VelocityChange, 1.0), Model::Compliant, 0.01);
+        assert_eq!(found.is_ok(), is_there, "{across_m}: {found:?}");
+    }
+}
+
+/// Where it rises to is told from 0 to 360 degrees, whichever way round it was followed.
+#[test]
+fn directions_are_told_as_compasses_have_them() {
+    let drop = one([0.15, 0.07, 0.014], [0.043, 0.02], [0.0, 0.0], [0.0, 0.0, 1.0]);
+    for (turn, told) in [(-0.25, 270.0), (0.25, 90.0), (1.125, 45.0), (0.0, 0.0)] {
+        let across = drop.across.map(|across| Across { direction_rad: TAU * turn, ..across });
+        let worst = WorstCase {
+            drop: SingleDrop { across, ..drop },
+            part: Part::new(0.0, None),
+            landing: None,
+            gyration_varies: false,
+            impact: 1,
+            time_s: 0.0,
+            model: Model::Compliant,
+            tolerance: 0.01,
+        };
+        let degrees = worst.direction_deg().expect("it has a width");
+        assert!((degrees - told).abs() < 1e-9, "{turn} of a turn: {degrees}, not {told}");
     }
 }
