@@ -1,12 +1,14 @@
 //! Every kind of limit goes all the way: read, checked, assessed, drawn from, shown and repeated.
 
 use clatter::End;
+use clatter_assess::ladder::{Groups, Ladder};
 use clatter_assess::scatter::{Sampler, Settings};
 use clatter_assess::{
     Accuracy, Damping, Law, Limit, LimitKind, Model, Part, ProductFile, SingleDrop, Spread, Unit, Verdict, answer,
     repeat,
 };
 use clatter_flight::{Body, ContactLaw};
+use clatter_shock::{DampingRatio, Suspension};
 
 /// A product of which one part has a limit of each kind, weak or strong.
 fn product(kind: LimitKind, factor: f64) -> String {
@@ -146,6 +148,10 @@ fn a_damage_boundary_is_used_up_by_the_lesser_share() {
         let least = by_change.min(by_acceleration);
         assert!((found.utilization() / least - 1.0).abs() < 1e-9, "{found:?}: {by_change}, {by_acceleration}");
         assert_eq!(found.unit, unit);
+        // It is off by as much as the limit whose unit it is told in.
+        let of_kind = if unit == Unit::MeterPerSecond { each[0] } else { each[1] };
+        let alone = of(&Limit::new(of_kind.0, of_kind.1));
+        assert!(alone.off_by > 0.0 && (found.off_by / alone.off_by - 1.0).abs() < 1e-9, "{found:?}, not {alone:?}");
     }
 }
 
@@ -157,4 +163,28 @@ fn quality_factors_are_damping_ratios_from_the_least() {
     for (found, want) in quality.ratios().into_iter().chain(given).zip([0.05, 0.1, 0.05, 0.1]) {
         assert!((found - want).abs() < 1e-15, "{found}, not {want}");
     }
+}
+
+/// What a part forgets between two strikes, ζ ω Δt, is its damping ratio times ω τ over τ/Δt.
+#[test]
+fn the_groups_of_a_drop_belong_together() {
+    let drop = SingleDrop {
+        body: Body::new(0.15, 0.045).expect("a body"),
+        across: None,
+        first: End::A,
+        tilt_rad: 0.05,
+        flat: false,
+        speed_m_s: 3.0,
+        restitution: 0.3,
+        gravity_m_s2: 9.81,
+        contact_time_s: Some(2e-4),
+        contact_law: ContactLaw::Hysteretic,
+    };
+    let ratio = DampingRatio::new(0.07).expect("a ratio");
+    let part = Part::new(0.0, Some(Suspension::from_hz(120.0, ratio).expect("a part")));
+    let limit = Limit::new(LimitKind::RattleSpace, 1e-3);
+    let Groups { overlap, pulse, damping, .. } = Ladder::measure(&drop, &part, &limit, 0.05).expect("a ladder").groups;
+    let (overlap, pulse, damping) = (overlap.expect("a time"), pulse.expect("a part"), damping.expect("a part"));
+    assert!((pulse - 120.0 * std::f64::consts::TAU * 2e-4).abs() < 1e-12, "{pulse}");
+    assert!((damping - 0.07 * pulse / overlap).abs() < 1e-12, "{damping}");
 }
