@@ -463,6 +463,18 @@ fn the_least_damping_of_a_range_rings_on() {
     assert!(range > 0.96 * least, "{range} beside {least}");
 }
 
+/// A damper passes on what velocity its part is struck with, 2ζ ω of it: the most damping of a range asks for the most acceleration.
+#[test]
+fn the_most_damping_of_a_range_is_hardest() {
+    let demand = |damping: &str| {
+        only(&with(OVERDAMPED, "damping_ratio = 1.21", &format!("damping_ratio = {damping}")))
+            .demand
+            .expect("an answer")
+    };
+    let [most, range] = ["1.21", "[0.3, 1.21]"].map(demand);
+    assert!((range / most - 1.0).abs() < 2e-3, "{range} beside {most}");
+}
+
 /// What the model with the most physics asks for beyond the one that was named is among what drops may ask.
 #[test]
 fn what_a_named_model_lacks_is_told_as_doubt() {
