@@ -313,6 +313,13 @@ fn a_tolerance_leaves_open_whether_a_box_clatters() {
         assert!(landing.tightest.as_ref().is_some_and(|limit| limit.margin.is_some()));
     }
     assert!(of("bottom").may_clatter() && of("top back").may_clatter() && !of("front end-a").may_clatter());
+    // Of a range of contact times the shortest is over first.
+    let range = self::file(
+        &on("face", "bottom").replace("contact_time = \"0.4 ms\"", "contact_time = [\"0.2 ms\", \"0.4 ms\"]"),
+    );
+    let all = range.ladders(&range.assess().unwrap(), 0.05).unwrap().landings;
+    let as_one = all[0].as_one_to_deg.unwrap().to_radians().sin() * 0.15_f64.hypot(0.07) / v;
+    assert!((as_one - 2e-4).abs() < 1e-12, "{all:?}");
 
     // The worst drop of each part is on a face across which it moves: the plate that this face is says nearly as much where the box is
     // low over it.
