@@ -441,3 +441,20 @@ fn an_inertia_ratio_gives_the_radius_of_gyration_that_has_it() {
         assert!(product.with_inertia_ratio(-1.0).is_err() && product.with_inertia_ratio(f64::NAN).is_err());
     }
 }
+
+/// A range of contact times is multiplied as a whole: down to where its least is at the lower bound, up to where its most is at the upper.
+#[test]
+fn a_range_of_contact_times_stays_within_its_bounds() {
+    let text = r#"
+product = { name = "bar", length = "150 mm", radius_of_gyration = "43 mm", restitution = 0.3, contact_time = ["0.3 ms", "0.5 ms"], contact_law = "hysteretic" }
+drop = { speed = "4 m/s", tilt = "3 deg" }
+component = [{ name = "part", position = "30 mm", mount = "hard", velocity_change_limit = "0.1 m/s" }]
+"#;
+    let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
+    let remedies = file.remedies(&file.assess().unwrap(), &Bounds::default(), 0.1).unwrap().remove(0);
+    let bumper = remedies.levers.iter().find(|remedy| remedy.lever == Lever::ContactTime).expect("contacts");
+    let Outcome::Nowhere { bounds } = bumper.outcome else { panic!("{bumper:?}") };
+    for (bound, want) in bounds.into_iter().zip([0.2e-3, 2e-3]) {
+        assert!((bound / want - 1.0).abs() < 1e-9, "{bounds:?}");
+    }
+}

@@ -114,3 +114,25 @@ impl LandingTally {
         LandingScatter { landing, survival, components: self.parts.iter().map(of).collect() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Error;
+
+    /// A sequence that holds where it was answered is not answered if one drop is not; one that has failed has failed.
+    #[test]
+    fn a_drop_without_an_answer_leaves_a_sequence_without_one() {
+        let asked = |used: f64| Ok(SampleDemand { utilization: used, within: [used; 2], ..SampleDemand::default() });
+        let none = || Err(Error::Unfinished);
+        for (drops, used) in [
+            (vec![asked(0.5), asked(0.8)], Some(0.8)),
+            (vec![asked(0.5), none()], None),
+            (vec![none(), asked(0.5)], None),
+            (vec![none(), asked(1.2)], Some(1.2)),
+        ] {
+            let found = sequence(drops.iter()).ok().map(|most| most.utilization);
+            assert_eq!(found, used, "{drops:?}");
+        }
+    }
+}
