@@ -258,6 +258,14 @@ pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
 mod tests {
     use super::*;
 
+    /// A pulse begins at 0 where no start is given, and once for each that is.
+    #[test]
+    fn a_pulse_begins_where_it_is_told() {
+        let starts = |text| pulse(text).map(|of| of.pulses.iter().map(|pulse| pulse.start).collect::<Vec<_>>());
+        assert_eq!(starts("half-sine,100,1ms"), Ok(vec![0.0]));
+        assert_eq!(starts("half-sine,100,1ms,2ms,0.5s"), Ok(vec![2e-3, 0.5]));
+    }
+
     #[test]
     fn tolerances_have_a_side_or_two() {
         let of = |text| tolerance(text).map(|Tolerance { below_db, above_db }| (below_db, above_db));
