@@ -239,6 +239,13 @@ fn a_budget_that_is_used_up_ends_the_command_with_nothing_left_behind() {
     let (code, stderr) = says(clatter().args(map).current_dir(dir.path()));
     assert_eq!(code, Some(2));
     assert!(stderr.contains("allowed are 67108864 points"), "{stderr}");
+    // Sixteen bytes a point: two million points are within 64 MB, five million are not.
+    for (points, code) in [(1400, 0), (2300, 2)] {
+        let axes = [format!("--q=0:1:{points}"), format!("--e=0:1:{points}")];
+        let map = ["map", "peak-end", &axes[0], &axes[1], "--memory=64MB", "-o", "m.npy"];
+        let (got, stderr) = says(clatter().args(map).current_dir(dir.path()));
+        assert_eq!(got, Some(code), "{points}: {stderr}");
+    }
 }
 
 /// Many stiff parts on an elastic product: some seconds of search.
