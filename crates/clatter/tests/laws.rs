@@ -2,7 +2,7 @@
 #![expect(clippy::float_cmp, reason = "exact answers are compared exactly")]
 
 use clatter::accuracy::{APPROACH, FINAL, PEAK, TIME};
-use clatter::{Bar, Count, End, Error, Impact, Mass, PeakImpact, Start, reference};
+use clatter::{Axis, Bar, Count, End, Error, Impact, Map, Mass, PeakImpact, Quantity, Start, reference};
 use proptest::prelude::*;
 
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
@@ -334,4 +334,15 @@ fn a_rounding_off_center_is_no_offset() {
         Bar::from_masses(0.14, &[point], 0.3).is_ok_and(|bar| bar.is_symmetric() && bar.q() > 1.0 - 1e-15),
         "at the center"
     );
+}
+
+/// At e = 0 the second strike is the largest, 1 + q; a map of more rows than one thread takes at once has each in its place.
+#[test]
+fn rows_of_a_long_map_are_in_their_places() {
+    let q = Axis::q(0.0, 1.0, 10_001).unwrap();
+    let map = Map::compute(Quantity::PeakEnd, q, Axis::e(0.0, 0.5, 2).unwrap()).unwrap();
+    for (i, row) in (0_u32..).zip(map.values.chunks(2)) {
+        let want = 1.0 + 1e-4 * f64::from(i);
+        assert!((row[0] - want).abs() < 1e-12, "row {i}: {}, not {want}", row[0]);
+    }
 }

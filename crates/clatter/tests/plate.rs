@@ -206,6 +206,8 @@ proptest! {
             let (here, there) = (own.at(place), mirrored.at(image));
             prop_assert!((here - there).abs() <= 1e-12 * here, "{here} and {there}");
         }
+        let [own, mirrored] = [plate, plate.mirrored_x()].map(|plate| plate.worst(2).unwrap().later());
+        prop_assert!((own - mirrored).abs() <= 1e-12 * own, "still to come: {own} and {mirrored}");
     }
 
     /// The word of a direction is that of its interval, and no direction is left out.
@@ -366,6 +368,20 @@ fn words_round_the_corners_are_endless_below_their_restitution() {
         let count = Plate::uniform(e).unwrap().summary(&start, 1000).count;
         assert!(matches!(count, PlateCount::Finite(_)), "e = {e}: {count:?}");
     }
+}
+
+/// Corners a and b alternate as if they did so for ever, but before they come together c and d are down too.
+#[test]
+fn a_pair_is_not_endless_where_another_corner_comes_down_before_its_end() {
+    let plate = Plate::off_center([0.34, 0.9], [-0.33, -0.18], 0.09).unwrap();
+    let start = PlateStart::new([-1.0, -0.5, -0.71], [0.24, 0.03]).unwrap();
+    let impacts: Vec<_> = plate.train(&start).take(60).collect();
+    let word: String = impacts.iter().map(|impact| impact.corner.letter()).take(12).collect();
+    assert_eq!(word, "ababababcdcd");
+    assert_ne!(plate.summary(&start, 8).count, PlateCount::Endless);
+    let (summary, last) = (plate.summary(&start, 60), impacts[59]);
+    assert!((summary.duration - last.time).abs() < 1e-9, "{summary:?}, not {last:?}");
+    assert!(plate.shocks(&start, 60).struck().iter().all(|shock| *shock > 0.5), "{:?}", plate.shocks(&start, 60));
 }
 
 /// Two corners of an edge that alternate without end, and the drops of other plates that the oracle gave up: where a
