@@ -97,3 +97,26 @@ fn without_gravity_the_endless_train_ends_where_the_closed_form_says() {
         }
     }
 }
+
+/// Bounces of an end that come too fast after one another to be listed are told by a bound: the first of them comes down as fast as the
+/// last one of the list threw the end up.
+#[test]
+fn bounces_that_are_not_listed_are_within_the_bound() {
+    let mut seen = 0;
+    for (model, e) in [Model::Ballistic, Model::FiniteTilt].into_iter().flat_map(|model| [0.1, 0.3].map(|e| (model, e)))
+    {
+        for gyration_m in [0.03, 0.05, 0.09] {
+            let body = Body::new(0.14, gyration_m).expect("a body");
+            let flight = Scene::new(body, e, 4.43, 3.0, 9.81).expect("a drop").fly(model).expect("a motion");
+            let Stop::AtRest { shock_bound_m_s, .. } = flight.stop else { panic!("{:?}", flight.stop) };
+            for pivot in &flight.pivots {
+                let last = flight.strikes.iter().rfind(|s| s.point == pivot.point && s.time_s <= pivot.from_s);
+                let thrown_m_s = last.expect("a strike").velocity_m_s[pivot.point];
+                let first_m_s = (1.0 + e) * thrown_m_s;
+                assert!(first_m_s <= shock_bound_m_s, "{model:?}, e = {e}: {first_m_s} beyond {shock_bound_m_s}");
+                seen += u32::from(thrown_m_s > 0.0);
+            }
+        }
+    }
+    assert!(seen > 10, "{seen} ends that bounce on");
+}
