@@ -343,6 +343,17 @@ mod tests {
     use super::*;
     use clatter_flight::{Body, Model, Scene};
 
+    /// Of points that lie closer than can be seen, the first, the last and both extremes are drawn, in order.
+    #[test]
+    fn a_curve_keeps_its_highs_and_lows() {
+        let points: Vec<(f64, f64)> = (0..100).map(|i| (0.01 * f64::from(i), f64::from(i * 37 % 100))).collect();
+        // 37 i is 0 and 99 of a hundred at i = 0 and 27, and 63 at the last.
+        assert_eq!(thinned(&points, 1.0), [points[0], points[27], points[99]]);
+        let turned: Vec<(f64, f64)> = points.iter().map(|(t, y)| (*t, 50.0 - (y - 20.0).abs())).collect();
+        // Least of all where y is 99, most where it is 20.
+        assert_eq!(thinned(&turned, 1.0), [turned[0], turned[27], turned[60], turned[99]]);
+    }
+
     #[test]
     fn the_hardest_strike_is_magnified_with_those_before_it() {
         let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.3, 4.43, 5.0, 9.81).unwrap();

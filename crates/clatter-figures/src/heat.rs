@@ -256,6 +256,50 @@ mod tests {
         assert!(wide > needs, "{wide} for {needs}");
     }
 
+    /// The first of the pictures in a drawing: its width, and its pixels from the top left on.
+    fn picture(drawn: &str) -> (usize, Vec<u8>) {
+        let text = drawn.split("data:image/png;base64,").nth(1).unwrap().split('"').next().unwrap();
+        let bytes = base64::engine::general_purpose::STANDARD.decode(text).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        (reader.info().width as usize, pixels)
+    }
+
+    /// Both run upward and to the right from 0 to 1: the elastic bar with all its mass in the middle, whose shocks grow for ever, is the
+    /// cell at the top right, and no other is without end.
+    #[test]
+    fn a_map_stands_upright_beside_its_axes() {
+        let map_of = Map::compute(Quantity::PeakEnd, Of::q(0.0, 1.0, 2).unwrap(), Of::e(0.0, 1.0, 3).unwrap()).unwrap();
+        let (wide, pixels) = picture(&map(&map_of).unwrap());
+        let high = pixels.len() / 3 / wide;
+        let at = |x: usize, y: usize| pixels[3 * (y * wide + x)..][..3].to_vec();
+        for (x, y) in [(0, 0), (wide / 2, 0), (0, high - 1), (wide / 2, high - 1), (wide - 1, high - 1)] {
+            assert!(at(x, y) != rgb(SAND), "{x}, {y}");
+        }
+        assert_eq!(at(wide - 1, 0), rgb(SAND));
+    }
+
+    /// Three values from 0 to 1 are cells half a unit wide, the first and the last as wide as that between them.
+    #[test]
+    fn each_value_is_in_the_middle_of_its_cell() {
+        let drawn = axis(Of::q(0.0, 1.0, 3).unwrap(), "");
+        for (value, share) in [(0.0, 1.0 / 6.0), (0.5, 0.5), (1.0, 5.0 / 6.0)] {
+            assert!((drawn.unit(value) - share).abs() < 1e-12, "{value}: {}", drawn.unit(value));
+        }
+    }
+
+    /// Trains may be endless, and shocks infinite.
+    #[test]
+    fn what_is_without_end_is_called_so() {
+        let drawn = |quantity| {
+            map(&Map::compute(quantity, Of::q(0.0, 1.0, 3).unwrap(), Of::e(0.0, 1.0, 3).unwrap()).unwrap()).unwrap()
+        };
+        let (count, peak) = (drawn(Quantity::Impacts), drawn(Quantity::PeakEnd));
+        assert!(count.contains(">endless<") && !count.contains(">infinite<"), "{count}");
+        assert!(peak.contains(">infinite<") && !peak.contains(">endless<"), "{peak}");
+    }
+
     #[test]
     fn every_map_can_be_drawn() {
         for (q, e) in [(Of::q(0.2, 0.2, 1), Of::e(0.0, 1.0, 3)), (Of::q(-0.9, 1.0, 2), Of::e(1.0, 1.0, 1))] {

@@ -472,3 +472,25 @@ pub fn rule(rule: &Rule, component: [f64; 2]) -> Result<String, FigureError> {
     axes.border(&mut paper);
     paper.finish("Three-way rule: peak of a component over its natural frequency")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clatter_shock::{DampingRatio, Frequencies, VelocityShock, VelocityShocks};
+
+    /// Without damping the pseudo-velocity is that of the shock at any frequency: 2 m/s is half of 4 m/s, by 6 dB, and 1 m/s by 12.
+    #[test]
+    fn of_several_spectra_the_least_margin_is_told() {
+        let of = |delta_v| {
+            let shock = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v }]).unwrap();
+            let frequencies = Frequencies::per_octave(10.0, 1000.0, 3.0).unwrap();
+            shock.spectrum(&frequencies, DampingRatio::new(0.0).unwrap(), Quantity::PseudoVelocity)
+        };
+        let (weak, hard, limit) = (of(1.0), of(2.0), LimitCurve::constant(4.0).unwrap());
+        let against = Against { limit: Some(&limit), required: None };
+        for all in [[(&weak, "weak"), (&hard, "hard")], [(&hard, "hard"), (&weak, "weak")]] {
+            let drawn = spectra(&all, against).unwrap();
+            assert!(drawn.contains("least margin +6.0 dB"), "{drawn}");
+        }
+    }
+}
