@@ -270,6 +270,40 @@ mod tests {
         }
     }
 
+    /// The share of the tightest limit is demand over allowed; over the tilt the worse of both ends counts; and up to the tilt at which the
+    /// gap of 330 mm closes within a millisecond both ends of the laptop land as one.
+    #[test]
+    fn a_page_says_what_was_found_of_each_part() {
+        let file = ProductFile::read(include_str!("../../../reports/examples/laptop.toml"), "laptop.toml").unwrap();
+        let assessment = file.assess().unwrap();
+        let portraits = file.portraits(&assessment);
+        let pages = Pages {
+            file: &file,
+            assessment: &assessment,
+            portraits: &portraits,
+            measured: &[],
+            path: "laptop.toml",
+            date: None,
+        };
+        let data = data(&files(&pages).unwrap());
+        let fast = file.drop.speeds_m_s()[1];
+        let as_one = (1e-3 * fast / file.product.body.length_m()).asin().to_degrees();
+        let parts = file.components.iter().zip(&assessment.components).zip(&portraits);
+        for (part, told) in parts.zip(data["parts"].as_array().unwrap()) {
+            let (tightest, summary) = (part.0.1.tightest(), told["summary"].as_str().unwrap());
+            let percent = summary.split("\u{a0}% of it").next().unwrap().rsplit(' ').next().unwrap();
+            let share = 100.0 * tightest.demand.unwrap() / tightest.allowed;
+            assert!((percent.parse::<f64>().unwrap() - share).abs() <= 0.5, "{share}: {summary}");
+            let most = |points: &mut dyn Iterator<Item = f64>| points.fold(0.0, f64::max);
+            let drawn = most(&mut super::share(&part, "").points.into_iter().map(|point| point.1));
+            let asked = most(&mut part.1.over_tilt.iter().flat_map(|(_, curve)| curve).map(|point| point.share));
+            assert!((drawn - asked).abs() < 1e-12, "{drawn}, not {asked}");
+            let tilt = told["tilt"].as_str().unwrap().split(" Up to ").nth(1).unwrap().split('°').next().unwrap();
+            // A step of the tilts is missing at most.
+            assert!((as_one - 0.15..=as_one + 0.005).contains(&tilt.parse().unwrap()), "{tilt}, not {as_one}");
+        }
+    }
+
     /// Where the worst drop asks for nearly all that is allowed, the search does not tell, and the page says so.
     #[test]
     fn an_undecided_part_is_told_as_such() {
