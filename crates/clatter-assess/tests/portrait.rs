@@ -145,3 +145,22 @@ fn changes_that_are_told_do_what_is_said_of_them() {
     }
     assert!(count >= 6 && limits >= 2, "{count} changes, {limits} limits");
 }
+
+/// Where two limits are exceeded, to raise one of them is no change that does.
+#[test]
+fn one_limit_of_two_is_no_change() {
+    let text = r#"
+product = { name = "bar", length = "150 mm", radius_of_gyration = "43 mm", restitution = 0.3, contact_time = "0.4 ms", contact_law = "hysteretic" }
+drop = { speed = "4 m/s", tilt = ["1 deg", "5 deg"] }
+component = [{ name = "part", position = "30 mm", mount = "hard", LIMITS }]
+"#;
+    let raised = |limits: &str| {
+        let file = ProductFile::read(&text.replace("LIMITS", limits), "bar.toml").unwrap_or_else(|e| panic!("{e}"));
+        let portrait = file.portraits(&file.assess().unwrap()).remove(0);
+        let changes = portrait.changes.expect("it fails");
+        changes.enough.iter().filter(|change| matches!(change.lever, Lever::Limit(_))).count()
+    };
+    let (change, acceleration) = ("velocity_change_limit = \"3 m/s\"", "acceleration_limit = \"400 gn\"");
+    assert_eq!(raised(change), 1);
+    assert_eq!(raised(&format!("{change}, {acceleration}")), 0);
+}
