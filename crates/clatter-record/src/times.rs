@@ -307,6 +307,17 @@ mod tests {
         }
     }
 
+    /// Cut to six significant digits: six decimals below 1 s and five from there on, more than half a step of 60 kHz.
+    #[test]
+    fn times_of_so_many_digits_are_coarser_from_one_second_on() {
+        let cut = |time: f64| {
+            let unit = if time < 1.0 { 1e-6 } else { 1e-5 };
+            significant((time / unit + 1e-6).floor() * unit, 6)
+        };
+        let texts: Vec<String> = (0..1200).map(|i| cut(0.99 + f64::from(i) / 6e4)).collect();
+        assert_eq!(step_of(&texts).map(f64::to_bits), Some(6e4_f64.recip().to_bits()), "{:?}", step_of(&texts));
+    }
+
     /// Milliseconds of 800 and of 833 Hz, cut off and rounded; single samples that are missing are no rounding.
     #[test]
     fn coarse_times_whose_rate_explains_every_digit() {
