@@ -179,6 +179,7 @@ fn the_groups_of_a_drop_belong_together() {
         gravity_m_s2: 9.81,
         contact_time_s: Some(2e-4),
         contact_law: ContactLaw::Hysteretic,
+        feet: None,
     };
     let ratio = DampingRatio::new(0.07).expect("a ratio");
     let part = Part::new(0.0, Some(Suspension::from_hz(120.0, ratio).expect("a part")));
