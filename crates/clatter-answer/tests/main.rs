@@ -118,6 +118,20 @@ fn records_that_answer_nothing_are_refused() {
     let mut question = fit::Question::new(&range, Vec::new());
     question.gyration_known = true;
     says(fit::answer(&question).expect_err("not known"), "0.05 to 0.06 m");
+    // A plate lands on corners; flat it bounces as any body does.
+    let mut plate = file.clone();
+    plate.product.width = Some(clatter_assess::Width {
+        edges_m: [0.035; 2],
+        gyration_m: 0.02,
+        product_of_inertia_m2: 0.0,
+        thickness_m: None,
+        depth: None,
+    });
+    let strikes = fit::Data::Measured(Measured::Strikes { strikes: Vec::new(), deviation_s: None });
+    let question = fit::Question::new(&plate, vec![one(strikes)]);
+    says(fit::answer(&question).expect_err("a plate"), "takes a product without `width`");
+    let question = fit::Question::new(&plate, vec![one(fit::Data::Bounces(vec![0.0, 0.4, 0.6, 0.7]))]);
+    assert!(fit::answer(&question).is_ok());
 }
 
 /// Seen from the end that strikes second, a drop is the same: places and ends change their names alone.
