@@ -266,11 +266,16 @@ impl ProductFile {
         let drop = ranges.single(&asked.place);
         if ranges.model < drop.fullest() && !worst.stopped {
             let place = asked.part_there(task.component);
-            let full = answer(&drop, &place, &task.limit, drop.fullest(), ranges.tolerance)?;
-            let off = full.utilization() - utilization;
-            of.most += off.max(0.0);
             let (asked, fullest) = (ranges.model, drop.fullest());
-            of.notes.push(Note::Model { asked, fullest, off: off / utilization });
+            match answer(&drop, &place, &task.limit, fullest, ranges.tolerance) {
+                Ok(full) => {
+                    let off = full.utilization() - utilization;
+                    of.most += off.max(0.0);
+                    of.notes.push(Note::Model { asked, fullest, off: off / utilization });
+                }
+                Err(Error::Stopped) => return Err(Error::Stopped),
+                Err(error) => of.doubts.push(Doubt::Fullest(fullest, error)),
+            }
         }
         if let (Some(width), false, None) = (&self.product.width, worst.stopped, ranges.posture) {
             let thickness_m = width.thickness_m.unwrap_or(THIN * self.product.body.length_m());

@@ -25,6 +25,8 @@ pub enum Doubt {
     Stopped,
     /// What real tilt adds to a plate is not known: the box beside it is not followed, for this.
     NoTilt(Error),
+    /// The model with the most physics does not answer the worst drop found, for this.
+    Fullest(Model, Error),
     /// Nothing tells how far other drops may exceed the worst one found.
     NoBound,
     /// Other drops of the ranges may exceed the limit.
@@ -64,6 +66,7 @@ impl Display for Doubt {
             }
             Self::Stopped => write!(f, "{} its end", Error::Stopped),
             Self::NoTilt(error) => write!(f, "what real tilt adds is not known: {error}"),
+            Self::Fullest(model, error) => write!(f, "{} does not answer the worst drop found: {error}", model.name()),
             Self::NoBound => f.write_str("how far other drops may exceed the worst one found is not known"),
             Self::Others { found, most } => write!(
                 f,

@@ -1,7 +1,7 @@
 //! Products that land on feet inside their edges.
 
 use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Assessment, Model, ProductFile, Verdict};
+use clatter_assess::{Accuracy, Assessment, Model, ProductFile, Verdict};
 
 /// A laptop of 300 mm × 210 mm on four feet 30 mm and 20 mm inside its edges; without its width a bar on two.
 const LAPTOP: &str = r#"
@@ -213,4 +213,19 @@ component = [
     let sampler = Sampler::new(&read(text), settings).unwrap();
     let scatter = sampler.run(false, &|| true, |_| Ok::<_, ()>(())).unwrap();
     assert!(scatter.survival.lo < 0.01, "{:?}", scatter.survival);
+}
+
+/// A drop whose edge touches is not answered with contacts that take time; asked of instant impacts it is undecided, and why is told.
+#[test]
+fn a_model_with_less_physics_is_no_way_around() {
+    let text = bar(LAPTOP).replace("\"6 mm\"", "\"1.5 mm\"").replace("[\"1 deg\", \"8 deg\"]", "\"1 deg\"");
+    for model in [Model::Map, Model::FiniteTilt] {
+        let accuracy = Accuracy { model: Some(model), ..Accuracy::default() };
+        let assessment = read(&text).assess_to(&accuracy).expect("an assessment");
+        for part in &assessment.components {
+            let limit = &part.limits[0];
+            let why = limit.why_undecided().expect("undecided");
+            assert!(why.contains("an edge beyond the feet comes down"), "{why}");
+        }
+    }
 }

@@ -117,7 +117,12 @@ impl Followed {
 
 #[cfg(test)]
 mod tests {
+    use clatter::End;
+    use clatter_flight::{Body, ContactLaw};
+
     use super::*;
+    use crate::Width;
+    use crate::drop::{Across, SingleDrop};
 
     /// A plate turned any way: its third axis in the world tells how high its feet and its edges, 6 mm over them, are.
     #[test]
@@ -137,5 +142,72 @@ mod tests {
             let told = feet.of_bar([a, b], 0.24);
             assert!((told - (6e-3 * tilt.cos() - 0.15 * tilt.sin())).abs() < 1e-15, "{tilt}: {told}");
         }
+    }
+
+    /// As far as a drop is answered its edges stay off the ground, of bars and plates, with instant impacts and with contacts; where they
+    /// do not it is refused, or left before, with the energy that is left.
+    #[test]
+    fn a_drop_that_is_answered_has_its_edges_off_the_ground() {
+        let (mut whole, mut left, mut refused) = (0, 0, 0);
+        for n in 0..300_u32 {
+            let x = |k: u32| f64::from((n * k + 11) % 97) / 97.0;
+            let edges_m = [0.04 + 0.02 * x(5), 0.05];
+            let width = Width {
+                edges_m,
+                gyration_m: 0.02 + 0.01 * x(7),
+                product_of_inertia_m2: 0.0,
+                thickness_m: None,
+                depth: None,
+            };
+            let (is_plate, contacts) = (n % 3 == 0, n % 3 != 1);
+            let direction_rad = 2.0 * PI * x(13);
+            let across = is_plate.then_some(Across { width, direction_rad, posture: None });
+            let feet = Feet {
+                inset_m: [0.01 + 0.05 * x(17), if is_plate { 0.02 * x(19) } else { 0.0 }],
+                height_m: 3e-3 + 0.01 * x(23),
+            };
+            let drop = SingleDrop {
+                body: Body::off_center(0.05 + 0.03 * x(29), 0.06, 0.03 + 0.02 * x(31)).unwrap(),
+                across,
+                first: across.map_or(End::A, |across| across.first()),
+                tilt_rad: 0.9 * feet.steepest_rad(None) * x(37),
+                flat: false,
+                speed_m_s: 1.0 + 3.0 * x(41),
+                restitution: 0.6 * x(43),
+                gravity_m_s2: 9.81,
+                contact_time_s: contacts.then_some(4e-4),
+                contact_law: ContactLaw::Hysteretic,
+                feet: Some(feet),
+            };
+            let alone = Followed::new(&SingleDrop { feet: None, ..drop }, drop.fullest(), 0.01);
+            match (Followed::new(&drop, drop.fullest(), 0.01), alone) {
+                (Err(Error::Edge { depth_m, .. }), _) => {
+                    assert!(depth_m > 0.0);
+                    refused += 1;
+                }
+                (Ok(followed), Ok(alone)) => {
+                    let lowest = |followed: &Followed| {
+                        // Left before an edge comes down, it is followed until its last press.
+                        let end_s = if followed.before_edge {
+                            followed.motion.parted_s()
+                        } else {
+                            followed.motion.stop().time_s()
+                        };
+                        (0..2000)
+                            .map(|k| followed.lowest_edge_m(&feet, end_s * f64::from(k) / 2000.0))
+                            .fold(0.0, f64::min)
+                    };
+                    // What lies between the steps in which edges are looked at.
+                    assert!(lowest(&followed) > -2e-5, "{n}: {} in {drop:?}", lowest(&followed));
+                    let is_left = followed.before_edge;
+                    assert!(is_left || followed.motion.stop() == alone.motion.stop(), "{n}");
+                    assert!(!is_left || followed.is_early() && followed.quiet_s() <= 0.0, "{n}");
+                    (whole, left) = (whole + u32::from(!is_left), left + u32::from(is_left));
+                }
+                (Err(_), Err(_)) => {}
+                (followed, alone) => panic!("{n}: {followed:?} beside {alone:?}"),
+            }
+        }
+        assert!(whole > 50 && left > 50 && refused > 5, "{whole}, {left}, {refused}");
     }
 }

@@ -17,6 +17,8 @@ pub(crate) struct Followed {
     early: bool,
     /// Largest velocity shock of an end.
     pub(crate) largest_m_s: f64,
+    /// Whether it was left before an edge beyond feet comes down.
+    pub(super) before_edge: bool,
 }
 
 /// A hysteretic contact that is pushed again unloads and reloads along a line that is stiffer by 1/e²: the force of a slow shock
@@ -56,7 +58,7 @@ impl Followed {
         let block = drop.block_drop(across, thickness_m)?.with_time_limit_s(until_s)?;
         let motion = Course::Block(BlockMotion::new(&block, &contact)?);
         let largest_m_s = motion.largest_m_s();
-        Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s })
+        Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s, before_edge: false })
     }
 
     /// Follows one drop until nothing later counts: until the energy that is left allows no velocity shock above `tolerance` of the
@@ -76,7 +78,7 @@ impl Followed {
     pub(crate) fn until(drop: &SingleDrop, model: Model, tolerance: f64, until: Until) -> Result<Self, Error> {
         let followed = Self::at_most(drop, model, tolerance, until, f64::INFINITY)?;
         match followed.rises_before_edge_s()? {
-            Some(rose_s) => Self::at_most(drop, model, tolerance, until, rose_s),
+            Some(rose_s) => Ok(Self { before_edge: true, ..Self::at_most(drop, model, tolerance, until, rose_s)? }),
             None => Ok(followed),
         }
     }
@@ -128,7 +130,7 @@ impl Followed {
         };
         let largest_m_s = motion.largest_m_s();
         let early = motion.later_m_s() > share * largest_m_s && !matches!(motion.stop(), Stop::AtRest { .. });
-        Ok(Self { drop: *drop, motion, precision, early, largest_m_s })
+        Ok(Self { drop: *drop, motion, precision, early, largest_m_s, before_edge: false })
     }
 
     pub(crate) fn is_early(&self) -> bool {
@@ -161,8 +163,11 @@ impl Followed {
         let flies = matches!(self.motion.stop(), Stop::BouncedClear { .. });
         if flies || self.lies() { 0.0 } else { self.motion.gravity_m_s2() }
     }
-    /// How long nothing has pressed as the motion was left.
+    /// How long nothing has pressed as the motion was left; when an edge comes down first is not counted.
     pub(crate) fn quiet_s(&self) -> f64 {
+        if self.before_edge {
+            return 0.0;
+        }
         (self.motion.stop().time_s() - self.motion.parted_s()).max(0.0)
     }
     /// Number, from 1, of the last strike that began by a time; contacts do nothing as they begin.
