@@ -19,6 +19,7 @@ use crate::design::{Bounds, Change, Lever};
 use crate::drop::{Followed, Model, SingleDrop, Until};
 use crate::engine::PlaceHistory;
 use crate::quantity::Source;
+use crate::reason::Doubt;
 use crate::search::{Ranges, rough_to_rad_s};
 use crate::shock::Shock;
 use crate::{
@@ -138,7 +139,10 @@ impl ProductFile {
             if let Some(scales) = scales(component, assessed, &ends) {
                 zone_m = zone::zone(grids, component, assessed, &scales, 0.0);
                 let failing = Failing { component, assessed, scales: &scales, ends: &ends };
-                changes = (assessed.verdict != Verdict::Safe).then(|| shared.changes(&failing));
+                // Where drops are not answered no change is known to be enough.
+                let mut doubts = assessed.limits.iter().flat_map(|limit| &limit.undecided);
+                let is_of_demand = doubts.all(Doubt::is_of_demand);
+                changes = (assessed.verdict != Verdict::Safe && is_of_demand).then(|| shared.changes(&failing));
             }
             Portrait { history, impacts_s, over_tilt, zone_m, changes, plate: None }
         };
