@@ -295,7 +295,12 @@ impl ProductFile {
         if worst.stopped {
             of.doubts.push(Doubt::Stopped);
         }
-        if utilization <= 1.0 && !of.most.is_finite() {
+        // What is not known of some drops may be any number that energy allows; a damage boundary has two.
+        let is_known = of.doubts.iter().all(|doubt| matches!(doubt, Doubt::Stopped));
+        if !is_known {
+            let by_energy = bound.filter(|_| task.limit.kind.source() != Source::Boundary);
+            of.most = by_energy.map_or(f64::INFINITY, |bound| bound / task.limit.allowed);
+        } else if utilization <= 1.0 && !of.most.is_finite() {
             of.doubts.push(Doubt::NoBound);
         } else if utilization <= 1.0 && of.most > 1.0 {
             of.doubts.push(Doubt::Others { found: utilization, most: of.most });

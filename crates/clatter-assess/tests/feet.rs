@@ -244,3 +244,14 @@ fn no_change_is_enough_for_drops_that_are_not_answered() {
     assert_eq!(tells("\"200 gn\"", "\"20 mm\""), (true, false));
     assert_eq!(tells("\"900 gn\"", "\"2.5 mm\""), (false, true));
 }
+
+/// By how much drops that are not answered may exceed the demand, energy says, and where it does not nothing does.
+#[test]
+fn what_is_not_answered_may_ask_for_all_that_energy_allows() {
+    let assessment = assess(&LAPTOP.replace("\"6 m/s\"", "\"20 m/s\""));
+    let [drive, board] = [0, 1].map(|n| &assessment.components[n].limits[0]);
+    let why = drive.why_undecided().expect("undecided");
+    assert!(why.contains("are not answered") && drive.uncertainty.is_infinite(), "{why}: {}", drive.uncertainty);
+    let most = board.demand.unwrap() * (1.0 + board.uncertainty);
+    assert!((most / board.bound.unwrap() - 1.0).abs() < 1e-9 && board.verdict == Verdict::Safe, "{board:?}");
+}
