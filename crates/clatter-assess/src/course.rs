@@ -54,7 +54,9 @@ impl BlockMotion {
         let of_left = (1.0 + contact.restitution()) * flight.left_m_s;
         let (center_m_s, stop) = match flight.stop {
             Stop::AtRest { shock_bound_m_s, .. } => (shock_bound_m_s, flight.stop),
-            Stop::TimeLimit { time_s } | Stop::ImpactLimit { time_s } => (of_left, Stop::Enough { time_s }),
+            Stop::TimeLimit { time_s } | Stop::ImpactLimit { time_s } | Stop::Enough { time_s } => {
+                (of_left, Stop::Enough { time_s })
+            }
             stop => (if matches!(stop, Stop::BouncedClear { .. }) { 0.0 } else { f64::INFINITY }, stop),
         };
         Ok(Self { contact: *contact, gravity_m_s2: drop.gravity_m_s2(), flight, stop, center_m_s, times_s, felt })

@@ -81,8 +81,9 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Where rebounds count a plate is followed to so many times the moment at which it has bounced clear, at first and at last.
 const REBOUNDS: [f64; 2] = [3.0, 6.0];
 /// Drops that are followed besides those of the grid where rebounds count.
-const SAMPLE: u32 = 128;
-const SAMPLE_OF_BOX: u32 = 12;
+const SAMPLE: usize = 128;
+/// The same of a box, until its energy allows little more: shared among all drops that it is put through, and of each at least.
+const SAMPLE_OF_BOX: [usize; 2] = [96, 8];
 /// About as many drops are followed in a climb.
 const CLIMB: usize = 72;
 /// Drops that are followed side by side, knowing the worst of those before.
@@ -106,7 +107,9 @@ impl Ranges<'_> {
         let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
         let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
         let climbing = CLIMB * CLIMBS * tasks.len();
-        let count = grid.len() + overlaps.len() + SAMPLE as usize + climbing;
+        let [of_all_drops, of_each] = SAMPLE_OF_BOX;
+        let sample = if self.posture.is_some() { (of_all_drops / self.listed).max(of_each) } else { SAMPLE };
+        let count = grid.len() + overlaps.len() + sample + climbing;
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
         // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
         // any number of threads.
@@ -133,8 +136,7 @@ impl Ranges<'_> {
         // followed for longer as well.
         let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
         if only.contains(&true) {
-            let sample = if of_all { SAMPLE } else { SAMPLE_OF_BOX };
-            let sample: Vec<(u32, Place)> = (1..=sample).map(|k| (k, self.spread_out(k))).collect();
+            let sample: Vec<(u32, Place)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
             ask(&mut all, &sample, Some(&only), true)?;
         }
         if work.go_on(0).is_ok() {
@@ -146,9 +148,10 @@ impl Ranges<'_> {
             .iter_mut()
             .enumerate()
             .flat_map(|(n, found)| {
-                // How a box tumbles changes too much from try to try to be climbed.
-                let such = starts(found).into_iter().filter(|start| of_all || !start.late);
-                such.take(most_starts).map(move |start| (n, start))
+                // A box that tumbles is followed for long: only where that asks most.
+                let numbered = starts(found).into_iter().take(most_starts).enumerate();
+                let such = numbered.filter(|(k, start)| of_all || *k == 0 || !start.late);
+                such.map(move |(_, start)| (n, start))
             })
             .collect();
         let each_climb = climbing / climbs.len().max(1);
@@ -158,7 +161,7 @@ impl Ranges<'_> {
                 return (n, start);
             }
             let reached = if self.posture.is_some() {
-                let tries = if self.faces() < 3 { FACE_TRIES } else { BOX_TRIES };
+                let tries = if self.faces() < 3 && !start.late { FACE_TRIES } else { BOX_TRIES };
                 self.climb_around(task, start, (BOX_REACH, tries), &work)
             } else if start.late {
                 self.climb_around(task, start, (LATE_REACH, LATE_TRIES), &work)
@@ -292,8 +295,10 @@ impl Ranges<'_> {
 
     fn follow(&self, place: &Place, until: Until) -> Result<Followed, Error> {
         let drop = self.single(place);
-        // A plate that loses little goes on and on; what it may do later is bounded by its energy.
+        // A plate that loses little goes on and on; what it may do later is bounded by its energy. A box topples late, onto its broad
+        // faces at last, and lies soon after.
         let until = match until {
+            Until::Rebounded | Until::Over if self.posture.is_some() => until,
             Until::Rebounded if self.product.width.is_some() => Until::Past(REBOUNDS[0] * drop.clear_s()),
             Until::Over if self.product.width.is_some() => Until::Past(REBOUNDS[1] * drop.clear_s()),
             until => until,

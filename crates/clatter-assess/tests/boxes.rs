@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use crate::plates::file;
 use crate::random::Random;
 use clatter_assess::{
-    Across, Attitude, Axis, Fall, Inside, Limit, LimitKind, Model, Mount, Note, Part, Posture, ProductFile, SingleDrop,
-    Verdict, Width, WorstCase, answer,
+    Across, Attitude, Axis, Fall, Inside, LandingLimit, Limit, LimitAssessment, LimitKind, Model, Mount, Note, Part,
+    Posture, ProductFile, SingleDrop, Verdict, Width, WorstCase, answer,
 };
 use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
@@ -58,19 +58,26 @@ pub(crate) fn on(key: &str, faces: &str) -> String {
     )
 }
 
+/// One drop alone is looked at more closely than in a list: there it asks for no more but for what a search may miss, and for no less than
+/// what others may ask leaves.
+fn holds(listed: &LandingLimit, alone: &LimitAssessment, name: &str) {
+    let (told, found) = (listed.demand.expect("an answer"), alone.demand.expect("an answer"));
+    assert!(told <= 1.1 * found && found <= told * (1.0 + alone.uncertainty), "{name}: {told} and {found}");
+}
+
 #[test]
 fn a_standard_is_its_drops_one_by_one() {
     let assessment = file(HANDHELD).assess().expect("an assessment");
     assert_eq!(assessment.landings.len(), 26);
     assert!(assessment.landings.iter().all(|landing| landing.source.is_some_and(|said| said.contains("516.8-IX"))));
-    // By hand, each alone, says the same.
+    // By hand, each alone.
     for (key, faces) in [("face", "bottom"), ("edge", "front end-b"), ("corner", "top back end-a")] {
         let attitude = Attitude::on(faces).expect("an attitude");
         let listed = assessment.landings.iter().find(|landing| landing.landing == attitude).expect("a landing");
         let alone = file(&on(key, faces)).assess().expect("an assessment");
         let limits = alone.components.iter().flat_map(|component| &component.limits);
         for (limit, listed) in limits.zip(&listed.limits) {
-            assert_eq!((limit.demand, limit.verdict), (listed.demand, listed.verdict), "{faces}");
+            holds(listed, limit, faces);
         }
     }
     // The limit of a part is told for the drop that leaves it least room.
@@ -92,9 +99,8 @@ fn a_list_of_drops_is_each_of_them() {
     let names: Vec<String> = landings.iter().map(|landing| landing.landing.to_string()).collect();
     assert_eq!(names, ["face bottom", "face end-b", "corner top back end-a"]);
     let alone = file(&on("face", "end-b")).assess().expect("an assessment");
-    let demands = alone.components.iter().flat_map(|component| &component.limits).map(|limit| limit.demand);
-    let demands: Vec<_> = demands.collect();
-    assert_eq!(demands, landings[1].limits.iter().map(|limit| limit.demand).collect::<Vec<_>>());
+    let limits = alone.components.iter().flat_map(|component| &component.limits);
+    limits.zip(&landings[1].limits).for_each(|(alone, listed)| holds(listed, alone, "face end-b"));
     for (key, count) in [("face", 6), ("edge", 12), ("corner", 8)] {
         assert_eq!(file(&on(key, "all")).landings.len(), count);
     }
@@ -112,7 +118,7 @@ fn drops_of_a_file_have_their_own_heights() {
         "[[drop]]\nheight = \"1.22 m\"\ntilt = \"90 deg\"\ndirection = \"0 deg\"\nattitude_tolerance = \"2 deg\"\n";
     let demands = |text: &str| {
         let assessment = file(text).assess().expect("an assessment");
-        let of = |limits: &[clatter_assess::LandingLimit]| limits.iter().map(|l| l.demand).collect::<Vec<_>>();
+        let of = |limits: &[LandingLimit]| limits.iter().map(|l| l.demand).collect::<Vec<_>>();
         assessment.landings.iter().map(|landing| (landing.landing.to_string(), of(&landing.limits))).collect::<Vec<_>>()
     };
     let all = demands(&of(&format!("{corner}{slow}{tilted}")));
@@ -325,6 +331,33 @@ fn no_single_drop_of_a_box_is_worse() {
         (limits, passed) = (limits + of_one, passed + passed_of_one);
     }
     assert!(passed * 4 <= limits, "{passed} of {limits} passed by more than 2 %");
+}
+
+/// A box that loses much lands on its end, stands, and topples: the slap of its broad face is what a part near the other end is asked for.
+#[test]
+fn a_box_that_stands_topples() {
+    let text = on("face", "end-b")
+        .replace("restitution = 0.4", "restitution = 0.12")
+        .replace("position = [\"10 mm\", \"5 mm\"]", "position = [\"-60 mm\", \"5 mm\"]");
+    let file = file(&text);
+    let display = file.assess().expect("an assessment").components.remove(0);
+    let limit = &display.limits[0];
+    let (demand, worst) = (limit.demand.expect("an answer"), limit.worst_case.expect("a drop"));
+    // Falling takes it some √(L/g), 0.1 s.
+    assert!(worst.time_s > 0.1, "{worst:?}");
+    let mut r = Random(7);
+    let width = file.product.width.expect("a width");
+    let posture = Posture { upward: [-1.0, 0.0, 0.0], thickness_m: width.thickness_m.expect("a thickness") };
+    let part = Part { inside: file.components[0].inside, ..worst.part };
+    let turned: Vec<[f64; 2]> = (0..64).map(|_| [r.unit(), r.unit()]).collect();
+    let asked = |[turn, tilt]: &[f64; 2]| {
+        let across = Some(Across { width, direction_rad: TAU * turn, posture: Some(posture) });
+        let drop = SingleDrop { across, tilt_rad: file.landings[0].tolerance_rad * tilt.sqrt(), ..worst.drop };
+        answer(&drop, &part, &Limit::of(&file.components[0])[0], Model::Compliant, 0.02).expect("an answer").value
+    };
+    let most = turned.par_iter().map(asked).reduce(|| 0.0, f64::max);
+    // Sensitive to every input: sixty drops of it spread by as much.
+    assert!((0.6..1.1).contains(&(most / demand)), "{most} of {demand}");
 }
 
 /// The same of boxes that are tilted by hand, also where their tolerance holds a face or an edge.

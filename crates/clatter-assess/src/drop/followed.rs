@@ -111,6 +111,7 @@ impl Followed {
             };
             let block = drop.block_drop(across, posture.thickness_m)?.with_time_limit_s(until_s)?;
             let block = block.with_impact_limit(PRESSES_OF_BOX);
+            let block = if until == Until::Rebounded { block.with_enough(LATE) } else { block };
             (Course::Block(BlockMotion::new(&block, &contact)?), 0.0)
         } else if let Some(across) = &drop.across {
             let Physics::Contacts(contact) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };

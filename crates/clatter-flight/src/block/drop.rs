@@ -17,6 +17,7 @@ pub struct BlockDrop {
     pub(super) gravity: f64,
     pub(super) time_limit: f64,
     pub(super) impact_limit: usize,
+    pub(super) enough: f64,
 }
 
 impl BlockDrop {
@@ -80,6 +81,7 @@ impl BlockDrop {
             gravity: gravity_m_s2 + 0.0,
             time_limit: f64::INFINITY,
             impact_limit: 100_000,
+            enough: 0.0,
         })
     }
 
@@ -125,6 +127,13 @@ impl BlockDrop {
     #[must_use]
     pub fn with_impact_limit(mut self, impacts: usize) -> Self {
         self.impact_limit = impacts.max(1);
+        self
+    }
+
+    /// Left where, by the energy left, later presses change the velocity of no corner by more than this share of the largest approach.
+    #[must_use]
+    pub fn with_enough(mut self, share: f64) -> Self {
+        self.enough = share;
         self
     }
 

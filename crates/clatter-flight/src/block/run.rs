@@ -316,11 +316,11 @@ impl<'a> Run<'a> {
         }
         let bound = (1.0 + self.restitution) * (2.0 * self.left() * self.most_coupling).sqrt();
         let weight = WEIGHT * gravity * self.contact.time_s();
-        (bound <= (REST * self.fastest).max(weight)).then_some(Stop::AtRest {
-            time_s: self.now,
-            time_bound_s: f64::INFINITY,
-            shock_bound_m_s: bound,
-        })
+        if bound <= (REST * self.fastest).max(weight) {
+            let (time_s, time_bound_s) = (self.now, f64::INFINITY);
+            return Some(Stop::AtRest { time_s, time_bound_s, shock_bound_m_s: bound });
+        }
+        (bound <= self.drop.enough * self.fastest).then_some(Stop::Enough { time_s: self.now })
     }
 
     /// The energy over the mass that later presses can take.

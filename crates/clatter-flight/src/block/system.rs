@@ -131,6 +131,10 @@ impl System {
     /// Whether a corner has come to its next event.
     pub(super) fn has_happened(&self, i: usize, y: &Vector) -> bool {
         let Corner { hold, ground, stiffness, .. } = self.holds[i];
+        // Most corners are up, most of the time.
+        if hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], self.corners[i]) >= 0.0 {
+            return false;
+        }
         let motion @ (height, velocity) = Self::place(y, self.corners[i]);
         let depth = ground - height;
         match hold {
