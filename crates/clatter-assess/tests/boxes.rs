@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use crate::plates::file;
 use crate::random::Random;
 use clatter_assess::{
-    Across, Attitude, Axis, Fall, Inside, LandingLimit, Limit, LimitAssessment, LimitKind, Model, Mount, Note, Part,
-    Posture, ProductFile, SingleDrop, Verdict, Width, WorstCase, answer,
+    Across, Attitude, Axis, Fall, Inside, Limit, LimitKind, Model, Mount, Note, Part, Posture, ProductFile, SingleDrop,
+    Verdict, Width, WorstCase, answer,
 };
 use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
@@ -58,26 +58,19 @@ pub(crate) fn on(key: &str, faces: &str) -> String {
     )
 }
 
-/// One drop alone is looked at more closely than in a list: there it asks for no more but for what a search may miss, and for no less than
-/// what others may ask leaves.
-fn holds(listed: &LandingLimit, alone: &LimitAssessment, name: &str) {
-    let (told, found) = (listed.demand.expect("an answer"), alone.demand.expect("an answer"));
-    assert!(told <= 1.1 * found && found <= told * (1.0 + alone.uncertainty), "{name}: {told} and {found}");
-}
-
 #[test]
 fn a_standard_is_its_drops_one_by_one() {
     let assessment = file(HANDHELD).assess().expect("an assessment");
     assert_eq!(assessment.landings.len(), 26);
     assert!(assessment.landings.iter().all(|landing| landing.source.is_some_and(|said| said.contains("516.8-IX"))));
-    // By hand, each alone.
+    // By hand, each alone, says the same.
     for (key, faces) in [("face", "bottom"), ("edge", "front end-b"), ("corner", "top back end-a")] {
         let attitude = Attitude::on(faces).expect("an attitude");
         let listed = assessment.landings.iter().find(|landing| landing.landing == attitude).expect("a landing");
         let alone = file(&on(key, faces)).assess().expect("an assessment");
         let limits = alone.components.iter().flat_map(|component| &component.limits);
         for (limit, listed) in limits.zip(&listed.limits) {
-            holds(listed, limit, faces);
+            assert_eq!((limit.demand, limit.verdict), (listed.demand, listed.verdict), "{faces}");
         }
     }
     // The limit of a part is told for the drop that leaves it least room.
@@ -99,8 +92,9 @@ fn a_list_of_drops_is_each_of_them() {
     let names: Vec<String> = landings.iter().map(|landing| landing.landing.to_string()).collect();
     assert_eq!(names, ["face bottom", "face end-b", "corner top back end-a"]);
     let alone = file(&on("face", "end-b")).assess().expect("an assessment");
-    let limits = alone.components.iter().flat_map(|component| &component.limits);
-    limits.zip(&landings[1].limits).for_each(|(alone, listed)| holds(listed, alone, "face end-b"));
+    let demands = alone.components.iter().flat_map(|component| &component.limits).map(|limit| limit.demand);
+    let demands: Vec<_> = demands.collect();
+    assert_eq!(demands, landings[1].limits.iter().map(|limit| limit.demand).collect::<Vec<_>>());
     for (key, count) in [("face", 6), ("edge", 12), ("corner", 8)] {
         assert_eq!(file(&on(key, "all")).landings.len(), count);
     }
@@ -118,7 +112,7 @@ fn drops_of_a_file_have_their_own_heights() {
         "[[drop]]\nheight = \"1.22 m\"\ntilt = \"90 deg\"\ndirection = \"0 deg\"\nattitude_tolerance = \"2 deg\"\n";
     let demands = |text: &str| {
         let assessment = file(text).assess().expect("an assessment");
-        let of = |limits: &[LandingLimit]| limits.iter().map(|l| l.demand).collect::<Vec<_>>();
+        let of = |limits: &[clatter_assess::LandingLimit]| limits.iter().map(|l| l.demand).collect::<Vec<_>>();
         assessment.landings.iter().map(|landing| (landing.landing.to_string(), of(&landing.limits))).collect::<Vec<_>>()
     };
     let all = demands(&of(&format!("{corner}{slow}{tilted}")));
@@ -202,6 +196,9 @@ fn masses_have_heights_in_a_box() {
         let limits = assessment.components.iter().map(|component| &component.limits[0]);
         limits.map(|limit| limit.demand.expect("an answer")).collect::<Vec<_>>()
     };
+    // A place below the middle, or a tenth of a millimeter from it, is none that is likely a slip.
+    let near = text.replace("height = \"3 mm\"", "height = \"0.1 mm\"");
+    assert!(ProductFile::read_warned(&near, "box.toml").expect("a product").1.warnings().is_empty());
     // One drop each: searches of a range of attitudes would differ by what they miss.
     for (key, down, mirrored) in [("face", "bottom", "top"), ("edge", "bottom end-a", "top end-a")] {
         let drop = on(key, down).replace("2 deg", "0 deg").replace("5 deg", "0 deg").replace(given, masses);

@@ -19,7 +19,10 @@ impl Reader {
     fn quantity_in(&mut self, value: &Spanned<DeValue<'_>>, key: &Key) -> Option<At<f64>> {
         let Kind::Quantity(dimension, bounds) = key.kind.of_side() else { return None };
         let quantity = self.number(value, key.name, dimension, *bounds)?;
-        self.usual(key.name, &quantity, value);
+        // A single height is a place in a box, and not what the product falls.
+        if key.name != "height" {
+            self.usual(key.name, &quantity, value);
+        }
         Some(At { value: quantity.si, span: value.span() })
     }
 
