@@ -229,8 +229,9 @@ impl ProductFile {
         let fullest = if self.product.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt };
         let model = accuracy.model.unwrap_or(fullest);
         let law = self.product.law();
+        let listed = self.landings.len().max(1);
         let Accuracy { tolerance, merge_s, .. } = *accuracy;
-        Ranges { product: &self.product, drop, model, posture, law, tolerance, merge_s }
+        Ranges { product: &self.product, drop, model, posture, listed, law, tolerance, merge_s }
     }
 
     /// What the worst drop by one contact law says of a limit.

@@ -82,8 +82,8 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 const REBOUNDS: [f64; 2] = [3.0, 6.0];
 /// Drops that are followed besides those of the grid where rebounds count.
 const SAMPLE: usize = 128;
-/// The same of a box, until its energy allows little more, by how many faces it lands on: one that lands on a face stands, and topples.
-const SAMPLE_OF_BOX: [usize; 4] = [24, 24, 8, 8];
+/// The same of a box, until its energy allows little more: shared among all drops that it is put through, and of each at least.
+const SAMPLE_OF_BOX: [usize; 2] = [96, 8];
 /// About as many drops are followed in a climb.
 const CLIMB: usize = 72;
 /// Drops that are followed side by side, knowing the worst of those before.
@@ -109,7 +109,8 @@ impl Ranges<'_> {
         let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
         let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
         let climbing = CLIMB * CLIMBS * tasks.len();
-        let sample = if of_all { SAMPLE } else { SAMPLE_OF_BOX[self.faces()] };
+        let [of_all_drops, of_each] = SAMPLE_OF_BOX;
+        let sample = if of_all { SAMPLE } else { (of_all_drops / self.listed).max(of_each) };
         let count = grid.len() + overlaps.len() + sample + climbing;
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
         // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use crate::plates::file;
 use crate::random::Random;
 use clatter_assess::{
-    Across, Attitude, Axis, Fall, Inside, Limit, LimitKind, Model, Mount, Note, Part, Posture, ProductFile, SingleDrop,
-    Verdict, Width, WorstCase, answer,
+    Across, Attitude, Axis, Fall, Inside, Limit, LimitAssessment, LimitKind, Model, Mount, Note, Part, Posture,
+    ProductFile, SingleDrop, Verdict, Width, WorstCase, answer,
 };
 use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
@@ -58,19 +58,26 @@ pub(crate) fn on(key: &str, faces: &str) -> String {
     )
 }
 
+/// One drop alone is looked at more closely than in a list: there it asks for no more but for what a search may miss, and for no less than
+/// what others may ask leaves.
+fn holds(listed: Option<f64>, alone: &LimitAssessment, name: &str) {
+    let (told, found) = (listed.expect("an answer"), alone.demand.expect("an answer"));
+    assert!(told <= 1.1 * found && found <= told * (1.0 + alone.uncertainty), "{name}: {told} and {found}");
+}
+
 #[test]
 fn a_standard_is_its_drops_one_by_one() {
     let assessment = file(HANDHELD).assess().expect("an assessment");
     assert_eq!(assessment.landings.len(), 26);
     assert!(assessment.landings.iter().all(|landing| landing.source.is_some_and(|said| said.contains("516.8-IX"))));
-    // By hand, each alone, says the same.
+    // By hand, each alone.
     for (key, faces) in [("face", "bottom"), ("edge", "front end-b"), ("corner", "top back end-a")] {
         let attitude = Attitude::on(faces).expect("an attitude");
         let listed = assessment.landings.iter().find(|landing| landing.landing == attitude).expect("a landing");
         let alone = file(&on(key, faces)).assess().expect("an assessment");
         let limits = alone.components.iter().flat_map(|component| &component.limits);
         for (limit, listed) in limits.zip(&listed.limits) {
-            assert_eq!((limit.demand, limit.verdict), (listed.demand, listed.verdict), "{faces}");
+            holds(listed.demand, limit, faces);
         }
     }
     // The limit of a part is told for the drop that leaves it least room.
@@ -92,9 +99,8 @@ fn a_list_of_drops_is_each_of_them() {
     let names: Vec<String> = landings.iter().map(|landing| landing.landing.to_string()).collect();
     assert_eq!(names, ["face bottom", "face end-b", "corner top back end-a"]);
     let alone = file(&on("face", "end-b")).assess().expect("an assessment");
-    let demands = alone.components.iter().flat_map(|component| &component.limits).map(|limit| limit.demand);
-    let demands: Vec<_> = demands.collect();
-    assert_eq!(demands, landings[1].limits.iter().map(|limit| limit.demand).collect::<Vec<_>>());
+    let limits = alone.components.iter().flat_map(|component| &component.limits);
+    limits.zip(&landings[1].limits).for_each(|(alone, listed)| holds(listed.demand, alone, "face end-b"));
     for (key, count) in [("face", 6), ("edge", 12), ("corner", 8)] {
         assert_eq!(file(&on(key, "all")).landings.len(), count);
     }
@@ -116,11 +122,15 @@ fn drops_of_a_file_have_their_own_heights() {
         assessment.landings.iter().map(|landing| (landing.landing.to_string(), of(&landing.limits))).collect::<Vec<_>>()
     };
     let all = demands(&of(&format!("{corner}{slow}{tilted}")));
-    let alone: Vec<_> = [corner, slow, tilted].into_iter().flat_map(|drop| demands(&of(drop))).collect();
-    assert_eq!(all, alone);
+    for (drop, listed) in [corner, slow, tilted].into_iter().zip(&all) {
+        let alone = file(&of(drop)).assess().expect("an assessment");
+        assert_eq!(alone.landings[0].landing.to_string(), listed.0);
+        let limits = alone.components.iter().flat_map(|component| &component.limits);
+        limits.zip(&listed.1).for_each(|(alone, listed)| holds(*listed, alone, drop));
+    }
     assert_eq!(all[2].0, "tilt 90 deg to 0 deg");
-    let standing = demands(&on("face", "end-a").replace("0.4\n", "0.25\n"));
-    assert_eq!((&all[2].1, standing.len()), (&standing[0].1, 1));
+    let [standing, tilted] = [on("face", "end-a").replace("0.4\n", "0.25\n"), of(tilted)].map(|text| demands(&text));
+    assert_eq!((&tilted[0].1, standing.len()), (&standing[0].1, 1));
     // The same from another height is another drop.
     let twice = file(&of(&format!("{corner}{}", corner.replace("2 m", "1 m"))));
     let governs = twice.assess().expect("an assessment").components[0].limits[0].demand;

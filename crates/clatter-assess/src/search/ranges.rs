@@ -39,6 +39,8 @@ pub(crate) struct Ranges<'a> {
     pub(crate) model: Model,
     /// Of a box, how it lands but for its tolerance.
     pub(crate) posture: Option<Posture>,
+    /// How many drops the product is put through.
+    pub(crate) listed: usize,
     pub(crate) law: ContactLaw,
     pub(crate) tolerance: f64,
     /// Instant impacts closer than this are one.
