@@ -294,8 +294,8 @@ impl Ranges<'_> {
         let drop = self.single(place);
         // A plate that loses little goes on and on; what it may do later is bounded by its energy.
         let until = match until {
-            Until::Rebounded if self.product.width.is_some() => Until::Past(REBOUNDS[0] * drop.clear_s()),
-            Until::Over if self.product.width.is_some() => Until::Past(REBOUNDS[1] * drop.clear_s()),
+            Until::Rebounded if self.product.width.is_some() => Until::Past(REBOUNDS[0] * drop.bounced_s()),
+            Until::Over if self.product.width.is_some() => Until::Past(REBOUNDS[1] * drop.bounced_s()),
             until => until,
         };
         Followed::until(&drop, self.model, self.tolerance.max(0.02), until)

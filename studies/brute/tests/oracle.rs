@@ -22,6 +22,7 @@ fn drop_of(case: &Value) -> Drop {
         center: number(case, "center_of_mass") * length / 2.0,
         e: number(case, "e"),
         contact: Some((Law::Hysteretic, number(case, "contact_time_s"))),
+        own: Default::default(),
         speed: number(case, "speed_m_s"),
         tilt: number(case, "tilt_deg").to_radians(),
         b_first: false,

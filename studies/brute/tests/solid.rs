@@ -17,6 +17,7 @@ fn solid(upward: [f64; 3], e: f64, law: Law) -> Solid {
         askew: 0.0,
         e,
         contact: (law, 4e-4),
+        own: Default::default(),
         speed: 4.0,
         upward,
         gravity: 9.806_65,
