@@ -89,7 +89,7 @@ pub enum Error {
     #[error("a plate is followed by the model compliant, not by {}", .0.name())]
     PlateModel(crate::Model),
     /// A model that does not follow contacts that differ.
-    #[error("contacts of their own are followed by the model compliant, not by {}: leave --model out, or `contacts`", .0.name())]
+    #[error("contacts of their own are followed by the model compliant, not by {}", .0.name())]
     OwnContacts(crate::Model),
     /// What takes products alone whose contacts are alike.
     #[error("{0} takes a product whose contacts are alike, without `contacts` of their own")]

@@ -3,7 +3,7 @@
 use clatter::End;
 use clatter_assess::design::{Bounds, Plane};
 use clatter_assess::{
-    Accuracy, Assessment, DataFault, Error, Limit, LimitKind, Model, OwnContact, OwnContacts, Part, ProductFile,
+    Accuracy, Assessment, DataFault, Error, Limit, LimitKind, Model, OwnContact, OwnContacts, Part, Plan, ProductFile,
     SingleDrop, Verdict, answer,
 };
 use clatter_flight::{Body, ContactLaw};
@@ -93,7 +93,7 @@ fn either_end_first_is_the_worse_of_both() {
 fn drop(first: End) -> SingleDrop {
     let own = OwnContact { restitution: Some(0.1), contact_time_s: Some(1.5e-3) };
     SingleDrop {
-        body: Body::new(0.3, 0.1).unwrap(),
+        body: Body::new(0.3, 0.15).unwrap(),
         across: None,
         first,
         tilt_rad: 0.05,
@@ -108,7 +108,7 @@ fn drop(first: End) -> SingleDrop {
     }
 }
 
-/// Off the center of percussion of the far end, the end that lands gets (1 + e) v at π/2 (1 + e) v/τ by its own contact.
+/// Of a bar with ρ = L, whose far end does nothing to it, the end that lands gets (1 + e) v at π/2 (1 + e) v/τ by its own contact.
 #[test]
 fn the_end_that_lands_gets_what_its_own_contact_gives() {
     for (first, e, time_s, place) in [(End::A, 0.4, 4e-4, -0.15), (End::B, 0.1, 1.5e-3, 0.15)] {
@@ -117,10 +117,10 @@ fn the_end_that_lands_gets_what_its_own_contact_gives() {
             answer(&drop(first), &Part::new(place, None), &limit, Model::Compliant, 1e-3).unwrap()
         };
         let [change, peak] = [LimitKind::VelocityChange, LimitKind::Acceleration].map(of);
-        // Nothing later does more there: the far end strikes it back with q of the shock at most.
+        // Tilted by 0.05 the ends couple by 3e-3, of which the far end lands on its harder contact.
         assert!((change.value / (2.0 * (1.0 + e)) - 1.0).abs() < 1e-3 && change.impact == 1, "{first:?}: {change:?}");
         let most = std::f64::consts::FRAC_PI_2 * (1.0 + e) * 2.0 / time_s;
-        assert!((peak.value / most - 1.0).abs() < 1e-3, "{first:?}: {peak:?}, not {most}");
+        assert!((peak.value / most - 1.0).abs() < 2e-3, "{first:?}: {peak:?}, not {most}");
     }
     let limit = Limit::new(LimitKind::VelocityChange, 1.0);
     let said = answer(&drop(End::A), &Part::new(0.1, None), &limit, Model::FiniteTilt, 1e-3).unwrap_err();
@@ -151,15 +151,25 @@ fn what_takes_contacts_that_are_alike_says_so() {
     let file = read(BAR);
     let accuracy = Accuracy { model: Some(Model::Map), ..Accuracy::default() };
     assert_eq!(file.assess_to(&accuracy).unwrap_err(), Error::OwnContacts(Model::Map));
-    assert!(matches!(Plane::of(&file, &Bounds::default()), Err(Error::AlikeContacts(_))));
-    let mut of_box = read(PLATE);
-    of_box.product.own_contacts.0[2].restitution = Some(1.5);
-    let Err(Error::Data { fault: DataFault::Value { field: "restitution", .. }, .. }) = of_box.check() else {
-        panic!("{:?}", of_box.check())
+    let plane = Plane::of(&file, &Bounds::default()).unwrap_err().to_string();
+    assert!(plane.contains("takes a product whose contacts are alike"), "{plane}");
+    let mut lively = read(PLATE);
+    lively.product.own_contacts.0[2].restitution = Some(1.5);
+    let Err(Error::Data { fault: DataFault::Value { field: "restitution", .. }, .. }) = lively.check() else {
+        panic!("{:?}", lively.check())
     };
     let mut dashpot = file;
     dashpot.product.contact_law = None;
     assert_eq!(dashpot.check(), Err(DataFault::OwnContactsLaw.into()));
+}
+
+/// A study varies a contact by its place.
+#[test]
+fn a_grid_varies_a_contact() {
+    let plan = "product = \"p.toml\"\nsearch = true\n[grid]\nproduct.contacts.b.restitution = [0.05, 0.2]";
+    let family = Plan::read(plan, "plan.toml").unwrap().family(BAR, "p.toml").unwrap();
+    let own = |k: u64| family.member(k).unwrap().product.own_contacts.0[1].restitution;
+    assert_eq!((own(0), own(1)), (Some(0.05), Some(0.2)));
 }
 
 /// One message each, with what is allowed.

@@ -16,7 +16,7 @@ fn lone(law: Law, e: f64) -> Drop {
         center: 0.0,
         e,
         contact: Some((law, 4e-4)),
-        own: Default::default(),
+        own: [Own::default(); 2],
         speed: 3.0,
         tilt: 0.5,
         b_first: false,
@@ -73,7 +73,7 @@ fn energy_never_grows() {
                 let (e, time) = (Some(random.within(0.03, 0.95)), Some(random.log(1e-4, 2e-3)));
                 [Own { e, time }, Own::default()]
             } else {
-                Default::default()
+                [Own::default(); 2]
             },
         };
         let flight = follow(&drop, Until { time: 0.3, quiet: 1e-3 });
@@ -100,6 +100,7 @@ fn instant_impacts_are_those_of_the_paper() {
         speed: 5.0,
         tilt: 1e-3,
         b_first: false,
+        own: [Own::default(); 2],
         gravity: 1e-3,
     };
     let flight = follow(&drop, Until { time: 0.05, quiet: 0.0 });

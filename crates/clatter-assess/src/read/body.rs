@@ -148,7 +148,7 @@ impl Reader {
         }
         let law = section.table.get("contact_law").map(|law| law.get_ref().as_str());
         if law != Some(Some("hysteretic")) && law.is_none_or(|law| law == Some("dashpot")) {
-            let span = section.table.get("contact_law").map_or_else(|| value.span(), |law| law.span());
+            let span = section.table.get("contact_law").map_or_else(|| value.span(), toml::Spanned::span);
             self.data(span, &DataFault::OwnContactsLaw, "here");
         }
         (self.faults.len() == faults).then_some(own)
