@@ -50,6 +50,7 @@ fn bar(q: f64, e: f64) -> Result<(SingleDrop, Part, Limit), clatter_assess::Erro
         contact_time_s: Some(2e-4),
         contact_law: ContactLaw::Hysteretic,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     };
     let place = Part::new(0.9 * 0.07, Some(part));
     Ok((drop, place, Limit::new(LimitKind::Acceleration, 1.0)))

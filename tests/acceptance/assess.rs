@@ -125,7 +125,7 @@ pub(crate) fn repeated(limit: &Value) -> f64 {
     }
 }
 
-/// Of a bar and a plate on feet, with parts beyond them.
+/// Of a bar and a plate on feet, with parts beyond them, all feet alike or one with a contact of its own.
 #[test]
 fn the_command_below_a_worst_drop_on_feet_says_the_same() {
     let dir = tempfile::tempdir().unwrap();
@@ -145,7 +145,11 @@ component = [
         .replace("\"-140 mm\"", "[\"-140 mm\", \"100 mm\"]")
         .replace("\"145 mm\"", "[\"145 mm\", \"0 mm\"]")
         .replace("\"10 mm\"", "[\"10 mm\", \"200 mm\"]");
-    for text in [bar, &plate] {
+    let soft = |text: &str, at: &str| {
+        let own = format!("contacts = [{{ at = \"{at}\", restitution = 0.05, contact_time = \"2 ms\" }}]");
+        text.replace("\"1 ms\"", &format!("\"1 ms\", contact_law = \"hysteretic\", {own}"))
+    };
+    for text in [bar, &plate, &soft(bar, "b"), &soft(&plate, "c")] {
         fs::write(&path, text).unwrap();
         let outcome = clatter(["assess", &path, "--format=json"]);
         let json: Value = serde_json::from_str(&outcome.stdout).unwrap();
@@ -165,7 +169,7 @@ component = [
         let beyond = clatter([
             "respond",
             &format!("--product={path}"),
-            &format!("--at=151mm{}", if text == bar { "" } else { ",0mm" }),
+            &format!("--at=151mm{}", if text.contains("width") { ",0mm" } else { "" }),
         ]);
         assert!(beyond.stderr.contains("beyond the ends: allowed is up to 150 mm"), "{}", beyond.stderr);
     }

@@ -381,6 +381,7 @@ fn drops_drive_components_as_in_an_assessment() {
         contact_time_s: Some(contact_s),
         contact_law: ContactLaw::Hysteretic,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     };
     let part = Suspension::new(1131.0, DampingRatio::new(0.05).unwrap()).unwrap();
     for model in Model::FOLLOWED {

@@ -142,11 +142,16 @@ impl ProductFile {
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
             return Err(Error::Contact);
         }
+        let own = !self.product.own_contacts.is_none();
+        if let Some(model) = accuracy.model.filter(|model| own && *model != Model::Compliant) {
+            return Err(Error::OwnContacts(model));
+        }
         let listed = self.listed();
         let tasks: Vec<Task<'_>> = these.iter().copied().flat_map(limits_of).collect();
         let all_tasks: Vec<Task<'_>> = self.components.iter().flat_map(limits_of).collect();
         let laws = |ranges: Ranges<'_>| match ranges.model {
-            Model::Compliant => vec![ranges.law, ranges.law.other()],
+            // Those that differ are hysteretic.
+            Model::Compliant if !own => vec![ranges.law, ranges.law.other()],
             _ => vec![ranges.law],
         };
         let searched: Vec<Vec<Ranges<'_>>> = listed

@@ -51,7 +51,7 @@ pub(crate) fn bound(
         ((1.0 + x * arm).abs() / (1.0 + arm * arm).sqrt()).max(1.0)
     };
     let over = |of: &dyn Fn(f64) -> f64| places.iter().map(|&x| of(x)).fold(0.0, f64::max);
-    let contact_s = product.contact_time_s.as_ref().map(|time| [time.lo(), time.hi()]);
+    let contact_s = product.contact_times_s();
     let strikes_are_apart = contact_s.is_none() && drop.tilt_rad.lo() > 0.0;
     match (limit.kind.source(), contact_s) {
         (Source::Shock | Source::Boundary, _) if strikes_are_apart => {
@@ -69,12 +69,15 @@ pub(crate) fn bound(
         }
         (Source::Turn, _) => Some(2.0 * speed / rho),
         // How hard edges beyond feet press is not known.
-        (Source::Response(peak), Some([shortest, _])) if peak.is_acceleration() && product.feet.is_none() => {
+        (Source::Response(peak), Some(_)) if peak.is_acceleration() && product.feet.is_none() => {
             let hard = component.mount == Mount::Hard && law.leaves_a_dent();
-            let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;
-            // Both ends at once.
-            let one = |place: f64| ends.iter().map(|&end| share(place, end)).sum::<f64>();
-            Some(speed * contact.frequency_rad_s() * over(&one))
+            let contacts = product.stiffest(law).filter(|_| hard)?;
+            let most = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.frequency_rad_s()));
+            // Both ends at once, each with its rate over the faster one.
+            let of_end = |(&end, contact): (&f64, &Contact)| (end, contact.frequency_rad_s() / most);
+            let rates: Vec<(f64, f64)> = ends.iter().zip(&contacts).map(of_end).collect();
+            let one = |place: f64| rates.iter().map(|(end, rate)| rate * share(place, *end)).sum::<f64>();
+            Some(speed * most * over(&one))
         }
         (Source::Response(_), _) => None,
     }
@@ -94,7 +97,7 @@ fn of_plate(
     limit: &Limit,
     law: ContactLaw,
 ) -> Option<f64> {
-    let contact_s = product.contact_time_s.as_ref()?;
+    let [shortest_s, longest_s] = product.contact_times_s()?;
     let [_, fastest] = drop.speeds_m_s();
     let one = SingleDrop {
         body: product.body_at(0.0),
@@ -105,9 +108,10 @@ fn of_plate(
         speed_m_s: fastest,
         restitution: product.restitution.hi(),
         gravity_m_s2: drop.gravity_m_s2,
-        contact_time_s: Some(contact_s.lo()),
+        contact_time_s: Some(shortest_s),
         contact_law: law,
         feet: product.feet,
+        own_contacts: product.own_contacts,
     };
     let norm = |[x, y]: [f64; 2]| libm::hypot(x, y);
     let spot = |at_m: [f64; 2]| Spot { at_m, inside: component.inside };
@@ -120,7 +124,7 @@ fn of_plate(
     let speed = (fastest * fastest + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
     match limit.kind.source() {
         Source::Shock | Source::Boundary => {
-            Some(2.0 * speed * (1.0 + farthest * farthest).sqrt() + drop.gravity_m_s2 * contact_s.hi())
+            Some(2.0 * speed * (1.0 + farthest * farthest).sqrt() + drop.gravity_m_s2 * longest_s)
         }
         Source::Turn => Some(2.0 * speed / one.least_gyration_m()),
         Source::Response(peak)
@@ -129,10 +133,14 @@ fn of_plate(
                 && law.leaves_a_dent()
                 && product.feet.is_none() =>
         {
-            let contact = Contact::new(law, product.restitution.hi(), contact_s.lo()).ok()?;
+            let contacts = product.stiffest(law)?;
+            let most = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.frequency_rad_s()));
             let of = |q: f64| (1.0 + farthest * q) / (1.0 + q * q).sqrt();
-            let pressed = corners.into_iter().fold(0.0, |all, q| libm::hypot(all, of(norm(q))));
-            Some(speed * contact.frequency_rad_s() * pressed)
+            // Each corner with its rate over the fastest.
+            let rates = contacts.iter().map(|contact| contact.frequency_rad_s() / most);
+            let each = corners.into_iter().zip(rates);
+            let pressed = each.fold(0.0, |all, (q, rate)| libm::hypot(all, rate * of(norm(q))));
+            Some(speed * most * pressed)
         }
         Source::Response(_) => None,
     }

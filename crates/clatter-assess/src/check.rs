@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use clatter_flight::Body;
+use clatter_flight::{Body, ContactLaw};
 
 use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::quantity::Source;
@@ -58,6 +58,9 @@ impl ProductFile {
         if self.product.width.is_some() && !self.records.is_empty() {
             return Err(DataFault::OfPlate { field: "record" }.into());
         }
+        if !(self.product.own_contacts.is_none() || self.records.is_empty()) {
+            return Err(DataFault::OwnContactsMeasured.into());
+        }
         Ok(self.records.iter().try_for_each(|record| record.check(&self.product))?)
     }
 }
@@ -74,6 +77,9 @@ impl ProductFile {
         }
         if self.product.width.is_none_or(|width| width.thickness_m.is_none()) {
             return Err(DataFault::BoxWithoutThickness);
+        }
+        if !self.product.own_contacts.is_none() {
+            return Err(DataFault::OwnContactsOfBox);
         }
         if self.drop.direction_rad.is_some() {
             return Err(DataFault::OfPlate { field: "direction" });
@@ -98,6 +104,10 @@ impl ProductFile {
         }
         let (tilt_rad, most_rad) = (self.drop.tilt_rad.hi(), feet.steepest_rad(self.drop.direction_rad.as_ref()));
         if tilt_rad > most_rad { Err(DataFault::FeetLow { tilt_rad, most_rad }) } else { Ok(()) }
+    }
+    /// Refuses contacts that differ where they are to be alike.
+    pub(crate) fn check_alike(&self, what: &'static str) -> Result<(), Error> {
+        if self.product.own_contacts.is_none() { Ok(()) } else { Err(Error::AlikeContacts(what)) }
     }
     /// Refuses a plate where bars alone are taken.
     pub(crate) fn check_bar(&self, what: &'static str) -> Result<(), Error> {
@@ -125,7 +135,25 @@ impl Product {
             return Err(DataFault::OtherGyration { gyration_m, middle_m });
         }
         self.feet.as_ref().map_or(Ok(()), |feet| self.check_feet(feet))?;
+        self.check_own_contacts()?;
         self.width.as_ref().map_or(Ok(()), |width| self.check_width(width))
+    }
+
+    fn check_own_contacts(&self) -> Result<(), DataFault> {
+        if self.own_contacts.is_none() {
+            return Ok(());
+        }
+        for (at, own) in self.own_contacts.given() {
+            if self.width.is_none() && !["a", "b"].contains(&at) {
+                return Err(DataFault::CornerOfBar(at));
+            }
+            optional(keys::CONTACT, "restitution", own.restitution)?;
+            optional(keys::CONTACT, "contact_time", own.contact_time_s)?;
+        }
+        if self.contact_time_s.is_none() {
+            return Err(DataFault::OwnContactsWithoutTime);
+        }
+        if self.contact_law == Some(ContactLaw::Hysteretic) { Ok(()) } else { Err(DataFault::OwnContactsLaw) }
     }
 
     fn check_feet(&self, feet: &Feet) -> Result<(), DataFault> {

@@ -27,7 +27,7 @@ macro_rules! of_each {
 /// A motion of a box, followed to a time, as places in it feel it.
 #[derive(Debug, Clone)]
 pub(crate) struct BlockMotion {
-    contact: Contact,
+    contacts: [Contact; 8],
     gravity_m_s2: f64,
     flight: BlockFlight,
     stop: Stop,
@@ -42,16 +42,17 @@ pub(crate) struct BlockMotion {
 const LINES: u32 = 4;
 
 impl BlockMotion {
-    pub(crate) fn new(drop: &BlockDrop, contact: &Contact) -> Result<Self, Error> {
+    pub(crate) fn new(drop: &BlockDrop, contacts: &[Contact; 8]) -> Result<Self, Error> {
         let (mut times_s, mut felt) = (Vec::new(), Vec::new());
-        let flight = drop.contacts(contact, |step| {
+        let flight = drop.own_contacts(contacts, |step| {
             for k in 0..=LINES {
                 let share = f64::from(k) / f64::from(LINES);
                 times_s.push(step.from_s + share * step.length_s);
                 felt.push(step.felt_everywhere(share));
             }
         })?;
-        let of_left = (1.0 + contact.restitution()) * flight.left_m_s;
+        let most_e = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.restitution()));
+        let of_left = (1.0 + most_e) * flight.left_m_s;
         let (center_m_s, stop) = match flight.stop {
             Stop::AtRest { shock_bound_m_s, .. } => (shock_bound_m_s, flight.stop),
             Stop::TimeLimit { time_s } | Stop::ImpactLimit { time_s } | Stop::Enough { time_s } => {
@@ -59,7 +60,7 @@ impl BlockMotion {
             }
             stop => (if matches!(stop, Stop::BouncedClear { .. }) { 0.0 } else { f64::INFINITY }, stop),
         };
-        Ok(Self { contact: *contact, gravity_m_s2: drop.gravity_m_s2(), flight, stop, center_m_s, times_s, felt })
+        Ok(Self { contacts: *contacts, gravity_m_s2: drop.gravity_m_s2(), flight, stop, center_m_s, times_s, felt })
     }
 
     /// A value of every sample as straight lines.
@@ -158,8 +159,14 @@ fn direction(k: u32) -> [f64; 2] {
 }
 
 impl Course {
-    pub(crate) fn contact(&self) -> Option<Contact> {
-        of_each!(self, motion => motion.contact(), block => Some(block.contact))
+    /// Whether contacts take time.
+    pub(crate) fn has_contacts(&self) -> bool {
+        of_each!(self, motion => motion.contact().is_some(), _block => true)
+    }
+    /// Largest acceleration in a lone contact over its change of velocity, of all contacts; none of instant impacts.
+    pub(crate) fn peak_per_change(&self) -> Option<f64> {
+        let most = |of: &[Contact]| of.iter().fold(0.0_f64, |most, contact| most.max(contact.peak_per_change()));
+        of_each!(self, motion => motion.contacts().map(|of| most(&of)), block => Some(most(&block.contacts)))
     }
     pub(crate) fn stop(&self) -> Stop {
         of_each!(self, motion => motion.stop, block => block.stop)
@@ -211,12 +218,12 @@ mod tests {
     use clatter_flight::{Block, ContactLaw};
 
     /// A box that lands flat, with μ = 1 + (60/Ry)² + (40/Rx)² of a corner.
-    fn flat() -> (BlockDrop, Contact, f64) {
+    fn flat() -> (BlockDrop, [Contact; 8], f64) {
         let (across, along, turning) = (0.04_f64, 0.059_f64, 0.07_f64);
         let block = Block::new([0.12, 0.08, 0.02], [0.0; 3], [across, along, turning]).unwrap();
         let own = 1.0 + (0.06 / along).powi(2) + (0.04 / across).powi(2);
         let drop = BlockDrop::tilted(block, 0.0, 0.0, 2.0, 9.81).unwrap();
-        (drop, Contact::new(ContactLaw::Hysteretic, 0.6, 2e-4).unwrap(), own)
+        (drop, [Contact::new(ContactLaw::Hysteretic, 0.6, 2e-4).unwrap(); 8], own)
     }
 
     /// It lands again with e times its speed, which changes the velocity of its center by (1 + e) e v.

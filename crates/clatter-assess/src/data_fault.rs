@@ -140,6 +140,20 @@ pub enum DataFault {
     },
     /// Feet of a box that lands on any side.
     FeetOfBox,
+    /// A contact of its own at a corner of a bar.
+    CornerOfBar(&'static str),
+    /// Two contacts of one place.
+    SameContact(String),
+    /// A contact of its own that says nothing.
+    ContactAsAll,
+    /// Contacts of their own in a product without contact time.
+    OwnContactsWithoutTime,
+    /// Contacts of their own by another law than the hysteretic one, or by none that is named.
+    OwnContactsLaw,
+    /// Records of measured drops of a product with contacts of their own.
+    OwnContactsMeasured,
+    /// Contacts of their own of a box that lands on any side.
+    OwnContactsOfBox,
     /// A drop so steep that an edge touches before the foot.
     FeetLow {
         /// The steepest of the drops.
@@ -221,6 +235,37 @@ impl DataFault {
             Self::FeetLow { tilt_rad, most_rad } => [
                 format!("at a tilt of {} deg an edge touches before the foot", degrees(*tilt_rad)),
                 format!("allowed: up to {} deg, by `feet_inset` and `feet_height`", degrees(*most_rad)),
+            ],
+            Self::CornerOfBar(at) => [
+                format!("a product without `width` has no contact at {at:?}"),
+                "allowed: \"a\" and \"b\", its ends".to_owned(),
+            ],
+            Self::SameContact(at) => {
+                [format!("two contacts are at {at:?}"), "give each place one contact".to_owned()]
+            }
+            Self::ContactAsAll => [
+                "the contact is that of all others".to_owned(),
+                "give its `restitution`, its `contact_time`, or both".to_owned(),
+            ],
+            Self::OwnContactsWithoutTime => [
+                "`contacts` of their own need the `contact_time` of the others: impacts that take no time have no order where they \
+                 differ"
+                    .to_owned(),
+                "add contact_time = \"0.4 ms\" or whatever was measured to [product]".to_owned(),
+            ],
+            Self::OwnContactsLaw => [
+                "`contacts` of their own are hysteretic: dashpots that differ couple the vibrations of the product, which are no sum of \
+                 modes then"
+                    .to_owned(),
+                "add contact_law = \"hysteretic\" to [product]".to_owned(),
+            ],
+            Self::OwnContactsMeasured => [
+                "a fit takes a product whose contacts are alike, without `contacts` of their own".to_owned(),
+                "leave one of `record` and `contacts` out".to_owned(),
+            ],
+            Self::OwnContactsOfBox => [
+                "`contacts` of their own are those of a bar or a plate in one drop; a box lands on any of its sides".to_owned(),
+                "leave `contacts` out, or give one [drop] with a `tilt`".to_owned(),
             ],
             Self::NoLimit => {
                 let keys = LimitKind::ALL.map(LimitKind::key).join(", ");

@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::attitude::turned_off;
 use crate::course::Course;
 use crate::engine::Spot;
-use crate::{Axis, Error, Feet, Width};
+use crate::{Axis, DataFault, Error, Feet, OwnContacts, Width};
 
 pub(crate) use followed::{Followed, PRECISION, Until};
 
@@ -55,6 +55,9 @@ impl Model {
     }
     /// What a flight keeps of a drop; of a closed form that of the map.
     fn physics(self, drop: &SingleDrop) -> Result<Physics, Error> {
+        if self != Self::Compliant && !drop.own_contacts.is_none() {
+            return Err(Error::OwnContacts(self));
+        }
         Ok(match self {
             Self::NetChange | Self::LargestShock | Self::Map => Physics::Map,
             Self::Ballistic => Physics::Ballistic,
@@ -93,6 +96,8 @@ pub struct SingleDrop {
     pub contact_law: ContactLaw,
     /// Feet that it lands on; none where its ends or corners are what lands.
     pub feet: Option<Feet>,
+    /// Ends, corners or feet of the product with a contact of their own.
+    pub own_contacts: OwnContacts,
 }
 
 /// The side of a plate across its length, and how it falls.
@@ -166,6 +171,7 @@ impl SingleDrop {
             contact_time_s: Some(contact.time_s()),
             contact_law: contact.law(),
             feet: None,
+            own_contacts: OwnContacts::NONE,
         })
     }
     /// The model with the most physics that the data allow: contacts where their time is known, else real tilt.
@@ -173,11 +179,48 @@ impl SingleDrop {
     pub fn fullest(&self) -> Model {
         if self.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt }
     }
+    fn is_plate(&self) -> bool {
+        self.across.is_some()
+    }
+    /// The least and the largest restitution of its contacts.
+    pub(crate) fn restitutions(&self) -> [f64; 2] {
+        self.own_contacts.restitutions(self.is_plate(), self.restitution)
+    }
+    /// The shortest and the longest of its contacts, where that of the product is known.
+    pub(crate) fn contact_times_s(&self) -> Option<[f64; 2]> {
+        self.contact_time_s.map(|time_s| self.own_contacts.contact_times_s(self.is_plate(), time_s))
+    }
+    /// With restitutions changed alike.
+    pub(crate) fn with_restitutions(&self, of: impl Fn(f64) -> f64) -> Self {
+        let own_contacts = self.own_contacts.with_restitutions(&of);
+        Self { restitution: of(self.restitution), own_contacts, ..*self }
+    }
+    /// The contacts of its ends or corners, that which touches first in front.
+    ///
+    /// # Errors
+    /// [`Error::Contact`] where no contact time is known, [`Error::Bar`] for contacts that are none.
+    pub(crate) fn contacts<const N: usize>(&self) -> Result<[Contact; N], Error> {
+        let sides = match &self.across {
+            Some(across) => across.signs().map(|sign| sign < 0.0),
+            None => [self.first == End::B, false],
+        };
+        let time_s = self.contact_time_s.ok_or(Error::Contact)?;
+        self.own_contacts.mirrored(self.is_plate(), sides).contacts(self.contact_law, self.restitution, time_s)
+    }
+    /// The same of the corners of a box that stands for a plate, in the order that a box has.
+    pub(crate) fn contacts_of_block(&self) -> Result<[Contact; 8], Error> {
+        let time_s = self.contact_time_s.ok_or(Error::Contact)?;
+        let of: [Contact; 4] = self.own_contacts.contacts(self.contact_law, self.restitution, time_s)?;
+        Ok([0, 1, 3, 2, 0, 1, 3, 2].map(|corner| of[corner]))
+    }
     /// Checks what no model would refuse: the contact time, which instant impacts do not ask for, and the place of a part.
     ///
     /// # Errors
     /// [`Error::Setting`].
     pub(crate) fn check(&self, [position_m, across_m]: [f64; 2]) -> Result<(), Error> {
+        if self.is_box() && !self.own_contacts.is_none() {
+            return Err(DataFault::OwnContactsOfBox.into());
+        }
         if let Some(value) = self.contact_time_s.filter(|time| !(1e-12..=1e3).contains(time)) {
             return Err(Error::Setting { name: "contact time in s", value, allowed: "in [1e-12, 1000]" });
         }
@@ -224,7 +267,7 @@ impl SingleDrop {
     /// How long the clatter takes, about: four times what the raised end needs to come down, and some contacts.
     pub(crate) fn clatter_s(&self) -> f64 {
         let gap_m = self.gap_m();
-        4.0 * (gap_m / self.speed_m_s + self.contact_time_s.unwrap_or(0.0))
+        4.0 * (gap_m / self.speed_m_s + self.contact_times_s().map_or(0.0, |[_, longest]| longest))
     }
     /// Whether the ends land so close after one another that no contact tells them apart: within this time, where that of a contact
     /// is not known.
@@ -244,7 +287,11 @@ impl SingleDrop {
     }
     /// When a body has bounced clear: after its clatter and a quarter of the flight of 2 e v0/g.
     pub(crate) fn clear_s(&self) -> f64 {
-        self.clatter_s() + 0.5 * self.restitution * self.speed_m_s / self.gravity_m_s2
+        self.clatter_s() + 0.5 * self.restitutions()[0] * self.speed_m_s / self.gravity_m_s2
+    }
+    /// The same by its liveliest contact.
+    pub(crate) fn bounced_s(&self) -> f64 {
+        self.clatter_s() + 0.5 * self.restitutions()[1] * self.speed_m_s / self.gravity_m_s2
     }
     /// The drop as flights take it, the end that touches first in front.
     pub(crate) fn scene(&self) -> Result<Scene, Error> {
@@ -410,6 +457,7 @@ mod tests {
             contact_time_s: Some(1e-4),
             contact_law: ContactLaw::Hysteretic,
             feet: None,
+            own_contacts: OwnContacts::NONE,
         }
     }
 

@@ -115,7 +115,7 @@ impl Answer {
 /// The end of the paper's reference bar (q = ½, e = 0.3) feels 2.145 v₀ at most, by instant impacts without gravity:
 /// ```
 /// use clatter::End;
-/// use clatter_assess::{Limit, LimitKind, Model, Part, SingleDrop, answer};
+/// use clatter_assess::{Limit, LimitKind, Model, OwnContacts, Part, SingleDrop, answer};
 /// use clatter_flight::{Body, ContactLaw};
 /// let drop = SingleDrop {
 ///     body: Body::new(0.15, 0.15 / 12_f64.sqrt())?,
@@ -129,6 +129,7 @@ impl Answer {
 ///     contact_time_s: None,
 ///     contact_law: ContactLaw::Hysteretic,
 ///     feet: None,
+///     own_contacts: OwnContacts::NONE,
 /// };
 /// let part = Part::new(0.075, None);
 /// let asked = answer(&drop, &part, &Limit::new(LimitKind::VelocityChange, 9.0), Model::Map, 0.01)?;
@@ -146,6 +147,9 @@ pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, toler
     }
     if drop.across.is_some() && model != Model::Compliant {
         return Err(Error::PlateModel(model));
+    }
+    if model != Model::Compliant && !drop.own_contacts.is_none() {
+        return Err(Error::OwnContacts(model));
     }
     if model < Model::Map {
         return closed_form(drop, part, limit, model);
@@ -188,8 +192,7 @@ impl Answer {
         };
         let mut most = off(drop, FINER * tolerance);
         for off_by in [-KEPT_ARMS, KEPT_ARMS].map(|arms| arms * PRECISION * tolerance) {
-            let e = drop.restitution;
-            let bounces = SingleDrop { restitution: (e + off_by * (1.0 + e)).clamp(0.0, 1.0), ..*drop };
+            let bounces = drop.with_restitutions(|e| (e + off_by * (1.0 + e)).clamp(0.0, 1.0));
             let tilt_rad = (drop.tilt_rad * (1.0 + off_by)).min(UPRIGHT);
             let steeper = SingleDrop { tilt_rad, ..*drop };
             most = most.max(off(&bounces, tolerance)).max(off(&steeper, tolerance));
@@ -426,7 +429,7 @@ impl<'a> PlaceHistory<'a> {
     /// Largest acceleration in a lone contact over its change of velocity; infinite where no contact time is known.
     fn peak_per_change(&self) -> f64 {
         let half_sine = || self.followed.drop.contact_time_s.map_or(f64::INFINITY, |time| FRAC_PI_2 / time);
-        self.followed.motion.contact().map_or_else(half_sine, |contact| contact.peak_per_change())
+        self.followed.motion.peak_per_change().unwrap_or_else(half_sine)
     }
 
     fn contact_s(&self) -> Result<f64, Error> {
@@ -474,6 +477,6 @@ const KEPT_ARMS: f64 = 4.0;
 impl Followed {
     /// Share of the largest shock that lever arms kept through a phase may get wrong.
     fn kept_arms(&self) -> f64 {
-        if self.motion.contact().is_some() { KEPT_ARMS * self.precision } else { 0.0 }
+        if self.motion.has_contacts() { KEPT_ARMS * self.precision } else { 0.0 }
     }
 }

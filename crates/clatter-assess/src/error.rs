@@ -88,6 +88,12 @@ pub enum Error {
     /// A model that does not follow plates.
     #[error("a plate is followed by the model compliant, not by {}", .0.name())]
     PlateModel(crate::Model),
+    /// A model that does not follow contacts that differ.
+    #[error("contacts of their own are followed by the model compliant, not by {}", .0.name())]
+    OwnContacts(crate::Model),
+    /// What takes products alone whose contacts are alike.
+    #[error("{0} takes a product whose contacts are alike, without `contacts` of their own")]
+    AlikeContacts(&'static str),
     /// What takes bars alone.
     #[error("{0} takes a product without `width`")]
     OfBars(&'static str),

@@ -1,5 +1,6 @@
 //! The keys of a product file: one table that the reader, its messages and the schema share.
 
+use crate::own::PLACES as PLACES_OF_CONTACTS;
 use crate::units::{self, Dimension};
 
 /// One key of a table.
@@ -137,6 +138,34 @@ pub(crate) static PRODUCT: &[Key] = &[
         false,
         Choice(&clatter_flight::ContactLaw::NAMES),
         "What the force of an impact does: hysteretic has the peak of a half-sine; dashpot jumps at the touch, as with some rubber.",
+    ),
+    key(
+        "contacts",
+        false,
+        Tables(CONTACT),
+        "Ends or corners, or the feet there, with a contact of their own, such as a soft bumper; needs the contact_time of the others and \
+         contact_law = \"hysteretic\". Not of a box.",
+    ),
+];
+
+pub(crate) static CONTACT: &[Key] = &[
+    key(
+        "at",
+        true,
+        Choice(&PLACES_OF_CONTACTS),
+        "Of a bar end a or b; of a plate corner a (left, front), b (right, front), c (right, back) or d (left, back), end b on the right.",
+    ),
+    key(
+        "restitution",
+        false,
+        Quantity(&units::SHARE, ["0", "1"]),
+        "Its coefficient of restitution; that of the product unless given.",
+    ),
+    key(
+        "contact_time",
+        false,
+        Quantity(&units::TIME, ["1 us", "100 ms"]),
+        "How long a lone contact takes there; as long as in the product unless given.",
     ),
 ];
 

@@ -174,7 +174,7 @@ impl Ladder {
     /// # Examples
     /// ```
     /// use clatter_assess::ladder::Ladder;
-    /// use clatter_assess::{Limit, LimitKind, Part, SingleDrop};
+    /// use clatter_assess::{Limit, LimitKind, OwnContacts, Part, SingleDrop};
     /// let drop = SingleDrop {
     ///     body: clatter_flight::Body::new(0.14, 0.04)?,
     ///     across: None,
@@ -187,6 +187,7 @@ impl Ladder {
     ///     contact_time_s: Some(2e-4),
     ///     contact_law: clatter_flight::ContactLaw::Hysteretic,
     ///     feet: None,
+    ///     own_contacts: OwnContacts::NONE,
     /// };
     /// let part = Part::new(0.06, None);
     /// let ladder = Ladder::measure(&drop, &part, &Limit::new(LimitKind::VelocityChange, 3.0), 0.01)?;
@@ -224,8 +225,9 @@ impl Ladder {
 impl Groups {
     fn of(drop: &SingleDrop, part: &Part) -> Result<Self, Error> {
         let h0 = drop.gap_m();
-        // Contacts of a plate alone are followed.
-        let model = if drop.across.is_some() { Model::Compliant } else { Model::Map };
+        // Of a plate and of contacts that differ those that take time alone are followed.
+        let alone = drop.across.is_some() || !drop.own_contacts.is_none();
+        let model = if alone { Model::Compliant } else { Model::Map };
         let times = Followed::new(drop, model, 0.01)?.motion.struck_s();
         let gap = times.get(1).copied().unwrap_or(f64::INFINITY);
         let last = times.last().copied().unwrap_or(0.0);
@@ -233,8 +235,8 @@ impl Groups {
         Ok(Self {
             gravity: drop.gravity_m_s2 * h0 / drop.speed_m_s.powi(2),
             geometry: drop.tilt_rad.powi(2),
-            overlap: drop.contact_time_s.map(|time| time / gap),
-            pulse: omega.zip(drop.contact_time_s).map(|(omega, time)| omega * time),
+            overlap: drop.contact_times_s().map(|[_, longest]| longest / gap),
+            pulse: omega.zip(drop.contact_times_s()).map(|(omega, [_, longest])| omega * longest),
             train: omega.map(|omega| omega * last),
             damping: part.suspension.map(|part| part.damping().get() * part.omega() * gap),
             across: drop.across.filter(|across| across.posture.is_none()).map(|across| {

@@ -165,7 +165,7 @@ impl ProductFile {
         let period = part.suspension.map_or(0.0, |s| std::f64::consts::TAU / s.omega());
         // to the peak and a little on; what comes long after it is far weaker
         let second = impacts.get(1).copied().unwrap_or(0.0);
-        let clatter = drop.contact_time_s.map_or(second, |contact| 12.0 * contact);
+        let clatter = drop.contact_times_s().map_or(second, |[_, longest]| 12.0 * longest);
         let late = worst.time_s.max(0.25 * clatter);
         let strikes = impacts.iter().copied().filter(|t| *t <= 4.0 * late).fold(late, f64::max);
         let end = (1.25 * strikes).max(worst.time_s + 2.5 * period).max(1e-9);
@@ -177,7 +177,7 @@ impl ProductFile {
             (Source::Turn, _) => spikes(&followed.turns(), 1.0, end),
             (Source::Shock, _) => spikes(felt.shocks(), 1.0, end),
             (Source::Boundary, _) if limit.unit == Unit::MeterPerSecond => spikes(felt.shocks(), 1.0, end),
-            _ if followed.motion.contact().is_none() => {
+            _ if !followed.motion.has_contacts() => {
                 let factor = std::f64::consts::FRAC_PI_2 / drop.contact_time_s.ok_or(Error::Contact)?;
                 spikes(felt.shocks(), factor, end)
             }

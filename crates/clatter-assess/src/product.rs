@@ -3,9 +3,9 @@
 //! Positions run along the bar from its middle, towards end b positive; across a plate from its middle as well.
 
 use clatter::End;
-use clatter_flight::{Body, ContactLaw};
+use clatter_flight::{Body, Contact, ContactLaw};
 
-use crate::{Attitude, Component, Error, Spread};
+use crate::{Attitude, Component, Error, OwnContacts, Spread};
 
 /// A product, its drop and its parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,6 +64,8 @@ pub struct Product {
     pub width: Option<Width>,
     /// What it lands on where that is not its ends or corners: body and width are then as long as its feet are apart.
     pub feet: Option<Feet>,
+    /// Ends, corners or feet with a contact of their own.
+    pub own_contacts: OwnContacts,
     /// Radius of gyration about the center of mass, in m.
     pub gyration_m: Spread,
     /// Mass, where the file gives it: it cancels out of every answer.
@@ -148,6 +150,7 @@ impl Product {
             body,
             width: None,
             feet: None,
+            own_contacts: OwnContacts::NONE,
             gyration_m: Spread::finite(body.gyration_m()),
             mass_kg: None,
             restitution,
@@ -166,6 +169,27 @@ impl Product {
     #[must_use]
     pub fn law(&self) -> ContactLaw {
         self.contact_law.unwrap_or_default()
+    }
+    /// The shortest and the longest contact of all ranges, where that of the product is known.
+    pub(crate) fn contact_times_s(&self) -> Option<[f64; 2]> {
+        let of = |time_s: f64| self.own_contacts.contact_times_s(self.width.is_some(), time_s);
+        self.contact_time_s.as_ref().map(|time| [of(time.lo())[0], of(time.hi())[1]])
+    }
+    /// The longest contact of each kind: of the product first, unless all have their own, and of others whose time is their own.
+    pub(crate) fn longest_contacts_s(&self) -> Vec<f64> {
+        let Some(time) = &self.contact_time_s else { return Vec::new() };
+        let points = if self.width.is_some() { 4 } else { 2 };
+        let all = self.own_contacts.0[..points].iter().map(|own| own.contact_time_s.unwrap_or(time.hi()));
+        let mut all: Vec<f64> = all.collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+    /// The contacts of its ends or corners by a law, each as stiff and as lively as its ranges have it.
+    pub(crate) fn stiffest(&self, law: ContactLaw) -> Option<Vec<Contact>> {
+        let (e, time_s) = (self.restitution.hi(), self.contact_time_s.as_ref()?.lo());
+        let all: [Contact; 4] = self.own_contacts.contacts(law, e, time_s).ok()?;
+        Some(all[..if self.width.is_some() { 4 } else { 2 }].to_vec())
     }
     /// From edge to edge, along the length and along the width; 0 across a bar.
     #[must_use]

@@ -274,6 +274,10 @@ impl Reader {
         if let (true, Some((key, _))) = (self.is_plate, root.table.get_key_value("record")) {
             self.data(key.span(), &DataFault::OfPlate { field: "record" }, "here");
         }
+        let has_own = product.as_ref().is_some_and(|section| section.table.contains_key("contacts"));
+        if let (true, Some((key, _))) = (has_own, root.table.get_key_value("record")) {
+            self.data(key.span(), &DataFault::OwnContactsMeasured, "here");
+        }
         let product = product.and_then(|section| self.product(&section));
         let (drop, landings) = self.drops(root, product.as_ref());
         let mut components = Vec::new();

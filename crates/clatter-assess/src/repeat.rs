@@ -80,7 +80,18 @@ impl WorstCase {
                 command.extend([" --contact-law=", drop.contact_law.name()]);
             }
         }
+        self.of_contacts([drop.first == End::B, false], &mut command);
         command
+    }
+
+    /// Contacts of their own, of a product whose sides run the other way.
+    fn of_contacts(&self, sides: [bool; 2], command: &mut String) {
+        let drop = &self.drop;
+        let own = drop.own_contacts.mirrored(drop.across.is_some(), sides);
+        for (at, restitution, contact_time_s) in own.told(drop.restitution, drop.contact_time_s) {
+            let time_s = contact_time_s.unwrap_or(0.0);
+            command.extend([" --contact=", &format!("{at},{restitution:?},{time_s:?}")]);
+        }
     }
 
     /// Feet that it lands on, and the place, which may be beyond them.
@@ -139,6 +150,7 @@ impl WorstCase {
         if drop.contact_law != ContactLaw::default() {
             command.extend([" --contact-law=", drop.contact_law.name()]);
         }
+        self.of_contacts(across.signs().map(|sign| sign < 0.0), &mut command);
         command
     }
 }

@@ -299,8 +299,8 @@ impl Ranges<'_> {
         // faces at last, and lies soon after.
         let until = match until {
             Until::Rebounded | Until::Over if self.posture.is_some() => until,
-            Until::Rebounded if self.product.width.is_some() => Until::Past(REBOUNDS[0] * drop.clear_s()),
-            Until::Over if self.product.width.is_some() => Until::Past(REBOUNDS[1] * drop.clear_s()),
+            Until::Rebounded if self.product.width.is_some() => Until::Past(REBOUNDS[0] * drop.bounced_s()),
+            Until::Over if self.product.width.is_some() => Until::Past(REBOUNDS[1] * drop.bounced_s()),
             until => until,
         };
         Followed::until(&drop, self.model, self.tolerance.max(0.02), until)

@@ -75,7 +75,7 @@ impl Followed {
         if let Course::Block(motion) = &self.motion {
             return turns_of_box(motion, 0.0);
         }
-        let contacts = self.motion.contact().is_some();
+        let contacts = self.motion.has_contacts();
         let of = |turned: &Excitation| {
             if contacts { shocks(turned, 0.0) } else { at_instants(turned.sections().map(|k| (k.from, k.delta_v))) }
         };

@@ -322,6 +322,8 @@ struct WorstCaseRow {
     speed_m_s: f64,
     restitution: f64,
     contact_time_s: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    contacts: Vec<ContactRow>,
     gyration_m: Option<f64>,
     frequency_hz: Option<f64>,
     damping_ratio: Option<f64>,
@@ -343,6 +345,7 @@ impl Serialize for WorstCase {
             speed_m_s,
             restitution,
             contact_time_s,
+            contacts: ContactRow::of(&self.drop),
             gyration_m: self.gyration_m(),
             frequency_hz: self.frequency_hz(),
             damping_ratio: self.damping_ratio(),
@@ -352,6 +355,21 @@ impl Serialize for WorstCase {
             command: self.command(),
         };
         row.serialize(serializer)
+    }
+}
+
+/// A contact of its own as the drop has it.
+#[derive(Serialize)]
+struct ContactRow {
+    at: &'static str,
+    restitution: f64,
+    contact_time_s: Option<f64>,
+}
+
+impl ContactRow {
+    fn of(drop: &SingleDrop) -> Vec<Self> {
+        let row = |(at, restitution, contact_time_s)| Self { at, restitution, contact_time_s };
+        drop.own_contacts.told(drop.restitution, drop.contact_time_s).map(row).collect()
     }
 }
 

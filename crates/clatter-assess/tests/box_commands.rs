@@ -60,6 +60,7 @@ fn single(
         contact_time_s: Some(contact_s),
         contact_law: file.product.law(),
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     }
 }
 

@@ -266,6 +266,7 @@ fn hunted(file: &ProductFile, posture: Posture, name: &str, singles: u32, r: &mu
                 contact_time_s: file.product.contact_time_s.map(|time| time.at(x[3])),
                 contact_law: file.product.law(),
                 feet: None,
+                own_contacts: clatter_assess::OwnContacts::NONE,
             };
             let places = component.ends_m();
             #[expect(
@@ -494,6 +495,7 @@ fn one([length, width, thickness_m]: [f64; 3], [kx, ky]: [f64; 2], center: [f64;
         contact_time_s: Some(1e-4),
         contact_law: ContactLaw::Hysteretic,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     }
 }
 

@@ -500,6 +500,7 @@ fn single_drops_are_checked() {
         contact_time_s: None,
         contact_law: clatter_assess::ContactLaw::Hysteretic,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     };
     let part = Part::new(0.0, None);
     let limit = Limit::new(LimitKind::VelocityChange, 9.0);

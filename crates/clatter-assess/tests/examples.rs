@@ -79,6 +79,7 @@ fn drops(file: &ProductFile) -> Vec<SingleDrop> {
                     contact_time_s: file.product.contact_time_s.map(|time| time.lo()),
                     contact_law: file.product.law(),
                     feet: None,
+                    own_contacts: clatter_assess::OwnContacts::NONE,
                 });
             }
         }

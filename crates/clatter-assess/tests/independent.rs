@@ -46,6 +46,7 @@ fn any_drop(r: &mut Random, tilt_deg: f64) -> SingleDrop {
         contact_time_s: Some(r.decades(1e-4, 1.5e-3).min(0.09 * 2.0 * half / speed_m_s)),
         contact_law,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     }
 }
 

@@ -33,6 +33,7 @@ fn drop(restitution: f64, tilt_deg: f64, speed_m_s: f64) -> SingleDrop {
         contact_time_s: None,
         contact_law: ContactLaw::Hysteretic,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     }
 }
 

@@ -112,6 +112,7 @@ fn the_largest_shock_is_the_largest_of_the_train() {
             contact_time_s: None,
             contact_law: ContactLaw::Hysteretic,
             feet: None,
+            own_contacts: clatter_assess::OwnContacts::NONE,
         };
         for kind in [LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
             let of =
@@ -137,6 +138,7 @@ fn a_damage_boundary_is_used_up_by_the_lesser_share() {
         contact_time_s: Some(2e-4),
         contact_law: ContactLaw::Hysteretic,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     };
     let of = |limit: &Limit| answer(&drop, &Part::new(0.0, None), limit, Model::Compliant, 0.01).expect("an answer");
     for (change, acceleration, unit) in [(1.0, 1e5, Unit::MeterPerSecondSquared), (10.0, 1e3, Unit::MeterPerSecond)] {
@@ -180,6 +182,7 @@ fn the_groups_of_a_drop_belong_together() {
         contact_time_s: Some(2e-4),
         contact_law: ContactLaw::Hysteretic,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     };
     let ratio = DampingRatio::new(0.07).expect("a ratio");
     let part = Part::new(0.0, Some(Suspension::from_hz(120.0, ratio).expect("a part")));

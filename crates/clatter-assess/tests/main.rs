@@ -15,6 +15,7 @@ mod independent;
 mod late;
 mod limits;
 mod mutations;
+mod own_contacts;
 mod plan;
 mod plate_commands;
 mod plates;

@@ -136,6 +136,7 @@ fn one(file: &ProductFile, tilt_deg: f64, direction_deg: f64) -> (SingleDrop, Pa
         contact_time_s: Some(4e-4),
         contact_law: file.product.law(),
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     };
     (drop, Part { across_m: 0.02, ..Part::new(0.05, None) })
 }

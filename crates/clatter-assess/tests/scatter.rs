@@ -238,6 +238,7 @@ fn answers(file: &ProductFile, columns: &[Column], row: &[f64]) -> Vec<(LimitKin
         contact_time_s: value(Column::ContactTimeS),
         contact_law: ContactLaw::Hysteretic,
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     };
     let component = &file.components[0];
     let ratio = match &component.mount {
@@ -346,6 +347,7 @@ fn a_part_whose_contacts_overlap_fails_as_often_as_single_drops_do() {
             contact_time_s: Some(4e-4),
             contact_law: ContactLaw::Hysteretic,
             feet: None,
+            own_contacts: clatter_assess::OwnContacts::NONE,
         };
         !fails(&drop)
     });

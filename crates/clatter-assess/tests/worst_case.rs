@@ -159,6 +159,7 @@ fn single(
         contact_time_s: file.product.contact_time_s.map(|time| time.at(shares[3])),
         contact_law: file.product.law(),
         feet: None,
+        own_contacts: clatter_assess::OwnContacts::NONE,
     };
     let suspension = match component.mount {
         Mount::Suspended { frequency_hz, damping } => {

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clatter::{Axis, Bar, End, Error, Mass, Plate, PlateStart, Start};
 pub(crate) use clatter_answer::letter;
 use clatter_assess::units::{Quantity, SHARE};
-use clatter_assess::{Accuracy, Model, Slip};
+use clatter_assess::{Accuracy, Model, OwnContact, Slip};
 use clatter_flight::{Body, Contact, ContactLaw, Scene};
 use clatter_shock::DampingRatio;
 
@@ -307,6 +307,19 @@ pub(crate) fn feet(text: &str) -> Result<[f64; 3], String> {
     let feet @ [x, y, height] = list(text, "X,Y,HEIGHT in m")?;
     let within = [x, y].iter().all(|beyond| (0.0..=50.0).contains(beyond)) && (1e-5..=1.0).contains(&height);
     if within { Ok(feet) } else { Err("allowed: X and Y from 0 to 50 m, HEIGHT from 1e-5 to 1 m".to_owned()) }
+}
+
+/// A contact of its own: where, its restitution, and how long a lone one takes.
+pub(crate) fn own_contact(text: &str) -> Result<(usize, OwnContact), String> {
+    let (at, numbers) = text.split_once(',').ok_or("expected AT,E,TIME in s, such as b,0.1,1.5e-3")?;
+    let at = ["a", "b", "c", "d"].into_iter().position(|place| place == at.trim());
+    let at = at.ok_or("expected a or b, of a plate a, b, c or d, then E and TIME")?;
+    let [e, time_s] = list(numbers, "AT,E,TIME in s")?;
+    if (0.0..=1.0).contains(&e) && (1e-12..=1e3).contains(&time_s) {
+        Ok((at, OwnContact { restitution: Some(e), contact_time_s: Some(time_s) }))
+    } else {
+        Err("allowed: E from 0 to 1, TIME from 1e-12 to 1000 s".to_owned())
+    }
 }
 
 pub(crate) fn quaternion(text: &str) -> Result<[f64; 4], String> {

@@ -5,8 +5,8 @@ use std::path::Path;
 use clatter::End;
 use clatter_assess::units::{Quantity, Unit};
 use clatter_assess::{
-    Accuracy, Component, Damping, Fall, Feet, First, Limit, LimitKind, Limits, Mount, ProductFile, Spread, Width,
-    WorstCase,
+    Accuracy, Component, Damping, Fall, Feet, First, Limit, LimitKind, Limits, Mount, OwnContacts, ProductFile, Spread,
+    Width, WorstCase,
 };
 use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
@@ -229,6 +229,20 @@ impl OneDrop {
             self.note("its ends here are its feet; edges beyond them are not looked at, as 'clatter respond' does");
         }
         self
+    }
+    /// Refuses contacts that differ.
+    pub(crate) fn alike(self) -> Result<Self, Failure> {
+        if self.own_contacts().is_none() {
+            return Ok(self);
+        }
+        Err(Failure::Wrong(
+            "'clatter simulate' takes a product whose contacts are alike, without `contacts` of their own; 'clatter respond' takes them"
+                .to_owned(),
+        ))
+    }
+    /// Contacts of their own.
+    pub(crate) fn own_contacts(&self) -> OwnContacts {
+        self.file.product.own_contacts
     }
     /// Feet that it lands on.
     pub(crate) fn feet(&self) -> Option<Feet> {

@@ -13,16 +13,18 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter::Bar;
+use clatter_answer::respond::ContactAt;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Feet, Model, Slip, slip};
+use clatter_assess::{Accuracy, Feet, Model, OwnContact, OwnContacts, Slip, slip};
 use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
 use crate::block::Axis;
 use crate::drop_args::{DropArgs, IN_SI};
 use crate::inputs::{self, DampingArgs, EndName, Format};
+use crate::numbers::given;
 use crate::one_drop::{OneDrop, Worst};
 use crate::output::{Files, Kind, Target};
-use crate::quantities::{self, PerAxis, Piece, Place};
+use crate::quantities::{self, PerAxis, Piece, Place, Show};
 use crate::{Failure, Streams, excitation};
 
 /// Tell what a clatter does to a component on its suspension
@@ -120,6 +122,10 @@ pub(crate) struct Args {
     /// a bar, and how far they stand out; places beyond them are then allowed, and a drop in which an edge touches is not answered
     #[arg(long, value_name = "X,Y,HEIGHT", value_parser = inputs::feet, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
     feet_m: Option<[f64; 3]>,
+    /// A contact of its own at an end of a bar or a corner of a plate, of --model=compliant and --contact-law=hysteretic: a to d, its
+    /// restitution and how long a lone one takes in s; once for each
+    #[arg(long, value_name = "AT,E,TIME", value_parser = inputs::own_contact, requires = "followed", conflicts_with = "product", help_heading = IN_SI, hide_short_help = true)]
+    contact: Vec<(usize, OwnContact)>,
     #[command(flatten)]
     damping: DampingArgs,
     /// Velocities of ends a and b at first contact, upward positive; VA is negative: end a strikes; in v0, or with their
@@ -341,6 +347,23 @@ impl Args {
         let given = self.feet_m.map(|[x, y, height_m]| Feet { inset_m: [x, y], height_m });
         given.or_else(|| file.and_then(OneDrop::feet))
     }
+    /// Contacts of their own, as they are given, or of the file.
+    fn own_contacts(&self, file: Option<&OneDrop>, is_plate: bool) -> Result<OwnContacts, Failure> {
+        let mut own = file.map_or(OwnContacts::NONE, OneDrop::own_contacts);
+        for (k, (at, contact)) in self.contact.iter().enumerate() {
+            if !is_plate && *at > 1 {
+                return Err(Failure::Usage("--contact of a bar is at a or b"));
+            }
+            if self.contact[..k].iter().any(|(other, _)| other == at) {
+                return Err(Failure::Usage("--contact is given once for each end or corner"));
+            }
+            own.0[*at] = *contact;
+        }
+        if !(own.is_none() || self.model.is_none_or(|model| model == Model::Compliant)) {
+            return Err(Failure::Usage("contacts of their own are followed by --model=compliant alone"));
+        }
+        Ok(own)
+    }
     /// The place on a bar.
     fn bar_at(&self) -> Result<Option<Place>, Failure> {
         self.at.map(|at| at.of_bar("--at")).transpose()
@@ -396,6 +419,15 @@ impl Args {
             None => Ok(None),
         }
     }
+}
+
+/// Contacts of their own, after those of the others.
+fn own_contacts(contacts: &[ContactAt], time: Show) -> String {
+    let one = |contact: &ContactAt| {
+        let lasts = contact.contact_time_s.map_or(String::new(), |time_s| format!(" and {}", time.given(time_s.0)));
+        format!("; at {} e = {}{lasts}", contact.at, given(contact.e.0))
+    };
+    contacts.iter().map(one).collect()
 }
 
 /// To six digits.

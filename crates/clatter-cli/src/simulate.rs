@@ -174,7 +174,7 @@ impl Args {
             return self.run_plate(None, streams);
         }
         let file = self.drop.file(None, None, &self.files(), streams)?;
-        let file = file.map(OneDrop::on_feet_alone);
+        let file = file.map(|file| file.on_feet_alone().alike()).transpose()?;
         if file.as_ref().is_some_and(OneDrop::is_plate) {
             return self.run_plate(file, streams);
         }

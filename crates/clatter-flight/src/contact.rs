@@ -62,8 +62,8 @@ pub struct Press {
 #[derive(Debug, Clone)]
 pub(crate) struct Phases<const N: usize, P: Pose<N>> {
     precision: f64,
-    /// How long a lone contact takes.
-    pub(crate) contact_s: f64,
+    /// That of each point.
+    pub(crate) contacts: [Contact; N],
     /// When the motion ends, and whether at rest.
     end_s: f64,
     rests: bool,
@@ -93,6 +93,15 @@ pub struct Sample<const N: usize = 2> {
 }
 
 impl<const N: usize, P: Pose<N>> Phases<N, P> {
+    /// How long the longest lone contact takes.
+    pub(crate) fn longest_s(&self) -> f64 {
+        self.contacts.iter().fold(0.0, |longest, contact| longest.max(contact.time_s()))
+    }
+    /// The shortest of the lone contacts that press in a phase; in flight the longest of all.
+    fn contact_s(&self, phase: &Phase<P, N>) -> f64 {
+        let pressing = (0..N).filter(|&i| phase.presses(i)).map(|i| self.contacts[i].time_s());
+        pressing.reduce(f64::min).unwrap_or_else(|| self.longest_s())
+    }
     pub(crate) fn sample(&self, time_s: f64) -> Sample<N> {
         if self.rests && time_s >= self.end_s {
             return Sample {
@@ -146,17 +155,49 @@ impl<const N: usize> Scene<N> {
         precision: f64,
         enough: impl FnMut(&Ahead<N>) -> bool,
     ) -> Result<Motion<N>, Error> {
-        within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
-        self.check(contact)?;
-        let log = Log::new(self.time_limit_s(), self.impact_limit());
-        Run::new(Planar::start(self), log, contact, precision).run(enough)
-    }
-
-    fn check(&self, contact: &Contact) -> Result<(), Error> {
         let (of_contact, scene) = (contact.restitution(), self.e());
+        within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         if of_contact.to_bits() != scene.to_bits() {
             return Err(Error::Restitution { contact: of_contact, scene });
         }
+        self.own_contacts_until(&[*contact; N], precision, enough)
+    }
+
+    /// The same of a body with a contact of its own at each point: their restitutions count in place of that of the scene.
+    ///
+    /// # Accuracy
+    /// As [`contacts_until`](Self::contacts_until), but that the largest approach may be one of another point: softer contacts are as
+    /// exact as the stiffest.
+    ///
+    /// # Errors
+    /// As [`contacts_until`](Self::contacts_until), by each of the contacts; [`Error::Laws`] unless all are hysteretic, where they differ.
+    ///
+    /// # Examples
+    /// Without gravity end a, which touches first, leaves with its own restitution while end b is up.
+    /// ```
+    /// use clatter_flight::{Body, Contact, ContactLaw, Scene};
+    /// let scene = Scene::new(Body::new(0.14, 0.05)?, 0.5, 2.0, 20.0, 0.0)?;
+    /// let [soft, hard] = [(0.1, 1e-3), (0.5, 2e-4)].map(|(e, time_s)| Contact::new(ContactLaw::Hysteretic, e, time_s));
+    /// let motion = scene.own_contacts_until(&[soft?, hard?], 1e-6, |_| false)?;
+    /// let first = motion.strikes[0];
+    /// assert!((first.velocity_m_s[0] + 0.1 * first.approach_m_s).abs() < 1e-2 * 2.0);
+    /// # Ok::<(), clatter_flight::Error>(())
+    /// ```
+    pub fn own_contacts_until(
+        &self,
+        contacts: &[Contact; N],
+        precision: f64,
+        enough: impl FnMut(&Ahead<N>) -> bool,
+    ) -> Result<Motion<N>, Error> {
+        within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
+        alike(contacts)?;
+        // As the first that is refused says.
+        contacts.iter().try_for_each(|contact| self.check(contact))?;
+        let log = Log::new(self.time_limit_s(), self.impact_limit());
+        Run::new(Planar::start(self), log, contacts, precision).run(enough)
+    }
+
+    fn check(&self, contact: &Contact) -> Result<(), Error> {
         let reach = self.body().reach();
         let (length, gyration) = (self.body().length_m().max(reach), self.body().gyration_m());
         // What is told as the bound is allowed.
@@ -173,6 +214,17 @@ impl<const N: usize> Scene<N> {
             "1e-10 length/speed, so that the ends sink in at all",
         ];
         check_time(contact.time_s(), most, 1e-10 * length / self.speed_m_s(), reasons)
+    }
+}
+
+/// Refuses contacts that differ, unless all are hysteretic: dashpots of which one is slower than another couple the modes of a phase,
+/// which is then no sum of known functions.
+pub(crate) fn alike(contacts: &[Contact]) -> Result<(), Error> {
+    let hysteretic = |contact: &Contact| contact.law().leaves_a_dent();
+    if contacts.iter().all(hysteretic) || contacts.windows(2).all(|two| two[0] == two[1]) {
+        Ok(())
+    } else {
+        Err(Error::Laws)
     }
 }
 

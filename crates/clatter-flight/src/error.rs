@@ -31,6 +31,11 @@ pub enum Error {
         /// That of the drop.
         scene: f64,
     },
+    /// Contacts that differ from point to point by another law than the hysteretic one.
+    #[error(
+        "contacts that differ are hysteretic: dashpots that differ couple the vibrations of a body, which is no sum of modes then"
+    )]
+    Laws,
     /// A motion that does not keep its energy.
     #[error(
         "the motion changes its energy by {:.2} % without reason: it is no answer (contacts so long that they turn the body far, or so short that roundings of heights count)",

@@ -151,7 +151,7 @@ impl Motion {
 
     fn rows_of_contacts(&self, phases: &Phases<2, Planar<2>>) -> impl Iterator<Item = Row> + '_ {
         let at = |time_s: f64| self.at(time_s);
-        let contact_time_s = phases.contact_s;
+        let contact_time_s = phases.longest_s();
         let end = self.stop.time_s()
             + match self.stop {
                 Stop::AtRest { .. } => 2.0 * contact_time_s,
@@ -159,8 +159,8 @@ impl Motion {
                 _ => 0.0,
             };
         let mut knots = vec![0.0, end];
-        for press in &self.presses {
-            let step = contact_time_s / f64::from(PULSE);
+        for (strike, press) in self.strikes.iter().zip(&self.presses) {
+            let step = phases.contacts[strike.point].time_s() / f64::from(PULSE);
             for from in [press.from_s, press.until_s].into_iter().filter(|t| t.is_finite()) {
                 knots.extend((0..=PULSE).map(|k| from + f64::from(k) * step));
             }

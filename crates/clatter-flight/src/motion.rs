@@ -87,10 +87,21 @@ impl Scene {
         let Model::Contacts(contact) = model else {
             return Ok(self.after(model, rigid::strikes(self, model, None, enough)));
         };
-        let motion = self.contacts_until(&contact, precision, enough)?;
-        let bounded = matches!(motion.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
-        let later_m_s = if bounded { motion.later_m_s } else { self.given_back() * motion.later_m_s };
-        Ok(Motion { later_m_s, ..motion })
+        Ok(self.contacts_until(&contact, precision, enough)?.giving_back(self.given_back()))
+    }
+
+    /// The same with a contact of its own at each end.
+    ///
+    /// # Errors
+    /// As [`own_contacts_until`](Self::own_contacts_until).
+    pub fn fly_on_contacts(
+        &self,
+        contacts: &[Contact; 2],
+        precision: f64,
+        enough: impl FnMut(&Ahead) -> bool,
+    ) -> Result<Motion, Error> {
+        let [a, b] = contacts.map(|contact| 0.5 * (1.0 + contact.restitution()));
+        Ok(self.own_contacts_until(contacts, precision, enough)?.giving_back(a.max(b)))
     }
 
     /// The same by instant impacts at any tilt, of a body whose ends rebound differently: `restitution` of ends a and b counts in place
@@ -170,10 +181,15 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
     pub fn model(&self) -> Model {
         self.model
     }
-    /// The contacts, where they take time.
+    /// The contacts, where they take time: that of the first point, where each has its own.
     #[must_use]
     pub fn contact(&self) -> Option<Contact> {
         if let Model::Contacts(contact) = self.model { Some(contact) } else { None }
+    }
+    /// That of each point, where they take time.
+    #[must_use]
+    pub fn contacts(&self) -> Option<[Contact; N]> {
+        if let Course::Contacts(phases) = &self.course { Some(phases.contacts) } else { None }
     }
     /// Largest velocity shock of a contact point.
     #[must_use]
@@ -198,6 +214,12 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
 }
 
 impl Motion {
+    /// Where no strike after the motion gives back more than this share of what it may take.
+    fn giving_back(self, share: f64) -> Self {
+        let bounded = matches!(self.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
+        let later_m_s = if bounded { self.later_m_s } else { share * self.later_m_s };
+        Self { later_m_s, ..self }
+    }
     /// What position `s` in [−1, 1] of a bar (−1 is end a) feels: its acceleration above free fall.
     ///
     /// # Accuracy

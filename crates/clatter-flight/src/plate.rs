@@ -3,7 +3,7 @@
 use clatter::Error as Given;
 
 use crate::Error;
-use crate::contact::{Contact, Level, Run, check_time};
+use crate::contact::{Contact, Level, Run, alike, check_time};
 use crate::flight::Log;
 use crate::motion::{Ahead, PlateMotion};
 use crate::scene::within;
@@ -257,10 +257,24 @@ impl PlateScene {
         precision: f64,
         enough: impl FnMut(&Ahead<4>) -> bool,
     ) -> Result<PlateMotion, Error> {
+        self.own_contacts_until(&[*contact; 4], precision, enough)
+    }
+
+    /// The same with a contact of its own at each corner, a to d.
+    ///
+    /// # Errors
+    /// As [`contacts_until`](Self::contacts_until), by each of the contacts; [`Error::Laws`] unless all are hysteretic, where they differ.
+    pub fn own_contacts_until(
+        &self,
+        contacts: &[Contact; 4],
+        precision: f64,
+        enough: impl FnMut(&Ahead<4>) -> bool,
+    ) -> Result<PlateMotion, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
-        self.check(contact)?;
+        alike(contacts)?;
+        contacts.iter().try_for_each(|contact| self.check(contact))?;
         let log = Log::new(self.time_limit, self.impact_limit);
-        Run::new(Level::start(self), log, contact, precision).run(enough)
+        Run::new(Level::start(self), log, contacts, precision).run(enough)
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {

@@ -58,6 +58,7 @@ mod tests {
                 contact_time_s,
                 contact_law: ContactLaw::Hysteretic,
                 feet: None,
+                own_contacts: clatter_assess::OwnContacts::NONE,
             };
             for kind in [LimitKind::Acceleration, LimitKind::VelocityChange] {
                 let place = Part::new(0.02, Some(part));

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-use crate::flight::Law;
+use crate::flight::{Law, Own};
 use crate::hunt::{Worst, hunt};
 use crate::product::{Kind, Product};
 use crate::random::{KINDS, Random, product};
@@ -52,12 +52,12 @@ pub fn compare(
     drops: usize,
     out: &mut dyn Write,
 ) -> Result<(), String> {
-    if ["plate", "box"].contains(&kind) {
+    if spatial::KINDS.contains(&kind) {
         return spatial::compare(clatter, kind, seeds, drops, out);
     }
     let kinds: Vec<&str> = KINDS.into_iter().filter(|&name| kind == "all" || kind == name).collect();
     if kinds.is_empty() {
-        return Err(format!("--kind={kind}: one of {}, plate, box", KINDS.join(", ")));
+        return Err(format!("--kind={kind}: one of {}, {}", KINDS.join(", "), spatial::KINDS.join(", ")));
     }
     let mut reasons = BTreeMap::new();
     for kind in kinds {
@@ -235,6 +235,11 @@ pub fn repeat(worst: &Worst) -> Vec<String> {
     if let Some((law, time)) = drop.contact {
         let law = if law == Law::Dashpot { "dashpot" } else { "hysteretic" };
         args.extend([format!("--contact-law={law}"), format!("--contact-time-s={time}")]);
+    }
+    // Its end a is the one that touches first.
+    for (end, own) in drop.own.iter().enumerate().filter(|(_, own)| **own != Own::default()) {
+        let (e, time) = (own.e.unwrap_or(drop.e), own.time.or(drop.contact.map(|(_, time)| time)).unwrap_or(0.0));
+        args.push(format!("--contact={},{e},{time}", ["a", "b"][end ^ usize::from(drop.b_first)]));
     }
     if let Some((omega, zeta)) = suspension {
         args.extend([format!("--omega={omega}"), format!("--damping={zeta}")]);

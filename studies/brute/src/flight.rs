@@ -1,7 +1,7 @@
 //! One drop of a bar, integrated in small steps: exact geometry, gravity, forces at the two ends.
 
-pub use crate::ground::Law;
-use crate::ground::{Contact, Ground, LEAST_RESTITUTION, Phase};
+use crate::ground::{Contact, Ground, LEAST_RESTITUTION, Phase, fine};
+pub use crate::ground::{Law, Own};
 
 /// A bar at the moment when its lower end touches the ground, all of it falling at one speed; SI units.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +16,8 @@ pub struct Drop {
     pub e: f64,
     /// Law and time of a lone contact; none for instant impacts.
     pub contact: Option<(Law, f64)>,
+    /// What ends a and b have of their own.
+    pub own: [Own; 2],
     /// Speed.
     pub speed: f64,
     /// Angle to the ground.
@@ -97,7 +99,7 @@ struct Bar {
     /// The ends from the center of mass.
     ends: [f64; 2],
     inertia: f64,
-    ground: Ground,
+    grounds: [Ground; 2],
     contacts: [Contact; 2],
 }
 
@@ -108,7 +110,7 @@ impl Bar {
             drop: *drop,
             ends: [-half - drop.center, half - drop.center],
             inertia: drop.gyration * drop.gyration,
-            ground: Ground::new(drop.contact, drop.e),
+            grounds: Ground::own(drop.contact, drop.e, &drop.own),
             contacts: [Contact::default(); 2],
         }
     }
@@ -133,7 +135,7 @@ impl Bar {
 
     /// Force per mass, on the line of the present phase.
     fn force(&self, end: usize, s: &State) -> f64 {
-        self.contacts[end].force(&self.ground, self.height(end, s), self.velocity(end, s))
+        self.contacts[end].force(&self.grounds[end], self.height(end, s), self.velocity(end, s))
     }
 
     /// Felt acceleration of the center of mass and angular acceleration.
@@ -159,26 +161,30 @@ impl Bar {
 
     /// Positive within a phase, negative when it is over.
     fn room(&self, end: usize, s: &State) -> f64 {
-        self.contacts[end].room(&self.ground, self.height(end, s), self.velocity(end, s))
+        self.contacts[end].room(&self.grounds[end], self.height(end, s), self.velocity(end, s))
     }
 
     /// The phase of an end is over: the next one begins. Tells whether it is a touch.
     fn advance(&mut self, end: usize, s: &State) -> bool {
         let (height, mobility) = (self.height(end, s), self.mobility(end, s));
-        self.contacts[end].advance(&self.ground, height, mobility)
+        self.contacts[end].advance(&self.grounds[end], height, mobility)
     }
 
     fn energy(&self, s: &State) -> f64 {
-        let stored = |end: usize| self.contacts[end].stored(&self.ground, self.height(end, s), self.velocity(end, s));
+        let stored =
+            |end: usize| self.contacts[end].stored(&self.grounds[end], self.height(end, s), self.velocity(end, s));
         let kinetic = 0.5 * (s[2] * s[2] + self.inertia * s[3] * s[3]);
         kinetic + self.drop.gravity * s[0] + stored(0) + stored(1)
     }
 
     /// A step of time that resolves the fastest oscillation of what presses.
     fn fine(&self, s: &State) -> f64 {
-        let each =
-            [0, 1].map(|end| (self.contacts[end], self.height(end, s), self.velocity(end, s), self.mobility(end, s)));
-        self.ground.fine(&each, self.drop.gravity)
+        let of = |end: usize| (self.height(end, s), self.velocity(end, s), self.mobility(end, s));
+        let each = [0, 1].map(|end| {
+            let (height, velocity, mobility) = of(end);
+            (self.contacts[end], self.grounds[end], height, velocity, mobility)
+        });
+        fine(&each, self.drop.gravity)
     }
 
     /// Time until an end comes to the ground, in free flight: steps that cannot reach beyond it.
@@ -217,12 +223,18 @@ impl Bar {
         flight
     }
 
+    /// The longest lone contact.
+    fn longest(&self) -> f64 {
+        let of = |time: f64| self.drop.own.iter().map(|own| own.time.unwrap_or(time)).fold(0.0, f64::max);
+        self.drop.contact.map_or(0.0, |(_, time)| of(time))
+    }
+
     /// How long both ends have to press without an event to be at rest: twice the slower oscillation on the steep lines.
     fn patience(&self, s: &State) -> f64 {
         let mobility = self.mobility(0, s).min(self.mobility(1, s));
-        let slow = self.ground.omega / self.ground.e.max(LEAST_RESTITUTION)
-            * (2.0 * (mobility - 1.0).min(1.0) / mobility).sqrt();
-        (2.0 * std::f64::consts::TAU / slow).max(4.0 * self.drop.contact.map_or(0.0, |(_, time)| time))
+        let steep = self.grounds.map(|ground| ground.omega / ground.e.max(LEAST_RESTITUTION));
+        let slow = steep[0].min(steep[1]) * (2.0 * (mobility - 1.0).min(1.0) / mobility).sqrt();
+        (2.0 * std::f64::consts::TAU / slow).max(4.0 * self.longest())
     }
 }
 

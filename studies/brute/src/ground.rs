@@ -16,7 +16,16 @@ const FINE: f64 = 0.08;
 /// The same while nothing but the weight is carried.
 const COARSE: f64 = 0.5;
 
-/// What every point of a body meets.
+/// Restitution and contact time of one point, where they are its own.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Own {
+    /// Restitution.
+    pub e: Option<f64>,
+    /// Time of a lone contact.
+    pub time: Option<f64>,
+}
+
+/// What a point of a body meets.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ground {
     is_hysteretic: bool,
@@ -66,28 +75,40 @@ impl Ground {
         Self { is_hysteretic, e, omega, damping }
     }
 
-    /// A step of time that resolves the fastest oscillation of what presses: contacts with height, velocity and mobility of each.
-    pub(crate) fn fine(&self, points: &[(Contact, f64, f64, f64)], gravity: f64) -> f64 {
-        let (mut square, mut rate) = (0.0, 0.0);
-        for (c, _, _, mobility) in points {
-            match c.phase {
-                Phase::Free => {}
-                Phase::Load => {
-                    square += c.stiffness * mobility;
-                    rate += c.dashpot * mobility;
-                }
-                Phase::Unload => square += c.stiffness * mobility / (self.e * self.e),
-            }
-        }
-        let little = 10.0 * gravity;
-        let weak = |(c, height, velocity, _): &(Contact, f64, f64, f64)| match c.phase {
-            Phase::Free => true,
-            Phase::Load => c.dashpot > 0.0 && c.stiffness * height.abs() + c.dashpot * velocity.abs() < little,
-            Phase::Unload => c.stiffness * c.deepest < little,
-        };
-        let radians = if points.iter().all(weak) { COARSE } else { FINE };
-        radians / f64::sqrt(square).max(rate).max(self.omega / 4.0)
+    /// Of points that have their own, where this is what the others meet.
+    pub(crate) fn own<const N: usize>(contact: Option<(Law, f64)>, e: f64, own: &[Own; N]) -> [Self; N] {
+        own.map(|own| {
+            let contact = contact.map(|(law, time)| (law, own.time.unwrap_or(time)));
+            Self::new(contact, own.e.unwrap_or(e))
+        })
     }
+}
+
+/// A point on the ground with height, velocity and mobility.
+pub(crate) type Point = (Contact, Ground, f64, f64, f64);
+
+/// A step of time that resolves the fastest oscillation of what presses.
+pub(crate) fn fine(points: &[Point], gravity: f64) -> f64 {
+    let (mut square, mut rate) = (0.0, 0.0);
+    for (c, ground, _, _, mobility) in points {
+        match c.phase {
+            Phase::Free => {}
+            Phase::Load => {
+                square += c.stiffness * mobility;
+                rate += c.dashpot * mobility;
+            }
+            Phase::Unload => square += c.stiffness * mobility / (ground.e * ground.e),
+        }
+    }
+    let little = 10.0 * gravity;
+    let weak = |(c, _, height, velocity, _): &Point| match c.phase {
+        Phase::Free => true,
+        Phase::Load => c.dashpot > 0.0 && c.stiffness * height.abs() + c.dashpot * velocity.abs() < little,
+        Phase::Unload => c.stiffness * c.deepest < little,
+    };
+    let radians = if points.iter().all(weak) { COARSE } else { FINE };
+    let omega = points.iter().map(|(_, ground, ..)| ground.omega).fold(0.0, f64::max);
+    radians / f64::sqrt(square).max(rate).max(omega / 4.0)
 }
 
 impl Contact {

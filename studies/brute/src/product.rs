@@ -1,6 +1,6 @@
 //! A product file: what falls, how, and what its parts stand.
 
-use crate::flight::{Drop, Law};
+use crate::flight::{Drop, Law, Own};
 use toml::{Table, Value};
 
 /// From, to.
@@ -56,6 +56,7 @@ pub struct Product {
     center: f64,
     e: Range,
     contact: Option<(Law, Range)>,
+    own: [Own; 2],
     speed: Range,
     tilt: Range,
     first: Vec<bool>,
@@ -83,6 +84,7 @@ impl Product {
             center: self.center,
             e: between(self.e, sample[0]),
             contact: self.contact.map(|(law, time)| (law, between(time, sample[1]))),
+            own: self.own,
             speed: between(self.speed, sample[2]),
             tilt: between(self.tilt, sample[3]),
             b_first: self.first[end],
@@ -123,6 +125,7 @@ impl Product {
             center,
             e: range(product, "restitution")?,
             contact: optional(product, "contact_time")?.map(|time| (law, time)),
+            own: own(product)?,
             speed,
             tilt: range(drop, "tilt")?,
             first,
@@ -204,6 +207,21 @@ fn inertia(product: &Table) -> Result<(f64, f64), String> {
     }
     let center = sums[1] / sums[0];
     Ok(((sums[2] / sums[0] - center * center).sqrt(), center))
+}
+
+/// Contacts of their own at ends a and b.
+fn own(product: &Table) -> Result<[Own; 2], String> {
+    let mut own = [Own::default(); 2];
+    for contact in product.get("contacts").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_table) {
+        let end = match contact.get("at").and_then(Value::as_str) {
+            Some("a") => 0,
+            Some("b") => 1,
+            at => return Err(format!("{at:?} is no end")),
+        };
+        let of = |key: &str| optional(contact, key).map(|range| range.map(|range| range[0]));
+        own[end] = Own { e: of("restitution")?, time: of("contact_time")? };
+    }
+    Ok(own)
 }
 
 fn one(table: &Table, key: &str) -> Result<f64, String> {

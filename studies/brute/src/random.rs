@@ -44,7 +44,8 @@ impl Random {
 }
 
 /// Kinds of random products.
-pub const KINDS: [&str; 8] = ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped", "feet"];
+pub const KINDS: [&str; 9] =
+    ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped", "feet", "own-contacts"];
 
 /// A value with its unit, or a range about it; three digits, as one writes them.
 fn spread(random: &mut Random, middle: f64, share: f64, chance: f64, unit: &str) -> String {
@@ -69,7 +70,7 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
     let length = digits(r.log(0.06, 0.4) * 1e3);
     let contact = match kind {
         "instant" => false,
-        "contacts" | "low-e" => true,
+        "contacts" | "low-e" | "own-contacts" => true,
         _ => r.chance(0.7),
     };
     let (low, high) = match kind {
@@ -96,8 +97,15 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
     }
     if contact {
         let time = r.log(0.1, 2.0);
-        let law = if r.chance(0.25) { "dashpot" } else { "hysteretic" };
+        let own = kind == "own-contacts";
+        let law = if !own && r.chance(0.25) { "dashpot" } else { "hysteretic" };
         let _ = writeln!(text, "contact_time = {}\ncontact_law = \"{law}\"", spread(r, time, 0.3, 0.3, "ms"));
+        if own {
+            let at = ["a", "b"][usize::from(r.chance(0.5))];
+            let both = r.chance(0.2);
+            let places = if both { &["a", "b"][..] } else { &[at] };
+            let _ = writeln!(text, "contacts = [{}]", own_contacts(r, places, time));
+        }
     }
     let (from, to) = match kind {
         "tiny-tilt" => (0.0, r.log(0.05, 1.0)),
@@ -117,6 +125,19 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
         text.push_str(&part(r, kind, i, length, contact));
     }
     Some(text)
+}
+
+/// Contacts of their own: softer or harder, and livelier or not, than those of a product that last so many ms.
+pub(crate) fn own_contacts(r: &mut Random, places: &[&str], time: f64) -> String {
+    let mut one = |at: &&str| {
+        let (e, time) = (digits(r.within(0.02, 0.7)), digits((time * r.log(0.2, 5.0)).min(3.0)));
+        match r.unit() {
+            u if u < 0.25 => format!("{{ at = \"{at}\", restitution = {e} }}"),
+            u if u < 0.5 => format!("{{ at = \"{at}\", contact_time = \"{time} ms\" }}"),
+            _ => format!("{{ at = \"{at}\", restitution = {e}, contact_time = \"{time} ms\" }}"),
+        }
+    };
+    places.iter().map(&mut one).collect::<Vec<_>>().join(", ")
 }
 
 fn part(r: &mut Random, kind: &str, i: usize, length: f64, contact: bool) -> String {

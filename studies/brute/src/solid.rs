@@ -1,7 +1,7 @@
 //! One drop of a box in space, integrated in small steps in axes of the world: full rotation, gravity, forces at the eight corners.
 
 use crate::flight::{Flight, Step, Until};
-use crate::ground::{Contact, Ground, Law, Phase};
+use crate::ground::{Contact, Ground, Law, Own, Phase, fine};
 
 /// A vector.
 pub type Vector = [f64; 3];
@@ -23,6 +23,8 @@ pub struct Solid {
     pub e: f64,
     /// Law and time of a lone contact.
     pub contact: (Law, f64),
+    /// What the corners (−, −), (+, −), (+, +) and (−, +) of its bottom have of their own.
+    pub own: [Own; 4],
     /// Speed.
     pub speed: f64,
     /// The vertical in axes of the box.
@@ -94,7 +96,7 @@ fn back(r: &Matrix, world: Vector) -> Vector {
 struct Body {
     solid: Solid,
     corners: [Vector; 8],
-    ground: Ground,
+    grounds: [Ground; 8],
     contacts: [Contact; 8],
 }
 
@@ -109,7 +111,11 @@ impl Body {
         Self {
             solid: *solid,
             corners: std::array::from_fn(corner),
-            ground: Ground::new(Some(solid.contact), solid.e),
+            grounds: Ground::own(
+                Some(solid.contact),
+                solid.e,
+                &std::array::from_fn::<Own, 8, _>(|k| solid.own[[0, 1, 3, 2][k & 3]]),
+            ),
             contacts: [Contact::default(); 8],
         }
     }
@@ -168,7 +174,7 @@ impl Body {
             return 0.0;
         }
         let (height, velocity, _) = self.corner(k, s);
-        c.force(&self.ground, height, velocity)
+        c.force(&self.grounds[k], height, velocity)
     }
 
     /// Force of the ground on the mass, and its torque about the center of mass.
@@ -240,7 +246,7 @@ impl Body {
         let (_, w) = self.turning(s);
         let stored = |k: usize| {
             let (height, velocity, _) = self.corner(k, s);
-            self.contacts[k].stored(&self.ground, height, velocity)
+            self.contacts[k].stored(&self.grounds[k], height, velocity)
         };
         let kinetic = 0.5 * (s[1] * s[1] + dot(w, [s[11], s[12], s[13]]));
         kinetic + self.solid.gravity * s[0] + (0..8).map(stored).sum::<f64>()
@@ -295,14 +301,14 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
             let points: Vec<_> = (0..8)
                 .map(|k| {
                     let (height, velocity, mobility) = body.corner(k, &s);
-                    (body.contacts[k], height, velocity, mobility)
+                    (body.contacts[k], body.grounds[k], height, velocity, mobility)
                 })
                 .collect();
             let room = |k: usize, s: &State| {
                 let (height, velocity, _) = body.corner(k, s);
-                body.contacts[k].room(&body.ground, height, velocity)
+                body.contacts[k].room(&body.grounds[k], height, velocity)
             };
-            let mut h = body.ground.fine(&points, solid.gravity).min(until.time - time);
+            let mut h = fine(&points, solid.gravity).min(until.time - time);
             let mut next = body.step(&s, h);
             if (0..8).any(|k| room(k, &next) < 0.0) {
                 let (mut low, mut high) = (0.0, h);
@@ -326,7 +332,7 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
         (s, time) = (next, time + h);
         for k in (0..8).filter(|&k| over[k]) {
             let (height, _, mobility) = body.corner(k, &s);
-            if body.contacts[k].advance(&body.ground, height, mobility) && !order.contains(&k) {
+            if body.contacts[k].advance(&body.grounds[k], height, mobility) && !order.contains(&k) {
                 order.push(k);
             }
         }

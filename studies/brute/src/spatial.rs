@@ -9,6 +9,7 @@ use std::path::Path;
 use crate::compare::{SLACK, answer, assess, with_room};
 use crate::flight::Until;
 use crate::ground::Law;
+use crate::ground::Own;
 use crate::hunt::values;
 use crate::product::Kind;
 use crate::random::Random;
@@ -88,8 +89,9 @@ fn spread(r: &mut Random, sides: [f64; 2]) -> (String, [f64; 2], [f64; 2], f64) 
 impl Product {
     /// A random product and its file, its limits far above any demand.
     fn new(kind: &str, seed: u64) -> Self {
-        let r = &mut Random::new(seed.wrapping_mul(64).wrapping_add(u64::from(kind == "box")));
-        let is_box = kind == "box";
+        let number = KINDS.iter().position(|&known| known == kind).unwrap_or(0);
+        let r = &mut Random::new(seed.wrapping_mul(64).wrapping_add(number as u64));
+        let (is_box, has_own) = (kind == "box", kind == "plate-own-contacts");
         let length = round(r.log(0.08, 0.3));
         let width = round(length * r.within(0.3, 1.0));
         let thickness = round(length * if is_box { r.within(0.06, 0.4) } else { r.within(0.03, 0.1) });
@@ -97,15 +99,21 @@ impl Product {
         let (mass, center, [kx, ky], askew) = spread(r, [length, width]);
         let e = round(r.within(0.05, 0.5));
         let e = [e, if r.chance(0.5) { round(e * r.within(1.05, 1.3)) } else { e }];
-        let law = if r.chance(0.3) { Law::Dashpot } else { Law::Hysteretic };
+        let law = if r.chance(0.3) && !has_own { Law::Dashpot } else { Law::Hysteretic };
         let time = round(r.log(0.2, 2.0)) * 1e-3;
         let height = round(r.within(0.4, 1.5));
         let named = if law == Law::Dashpot { "dashpot" } else { "hysteretic" };
         let mut text = format!(
             "[product]\nname = \"{kind} {seed}\"\nlength = \"{length} m\"\nwidth = \"{width} m\"\nthickness = \"{thickness} m\"\n\
-             {mass}restitution = [{}, {}]\ncontact_time = \"{time} s\"\ncontact_law = \"{named}\"\n[drop]\nheight = \"{height} m\"\n",
+             {mass}restitution = [{}, {}]\ncontact_time = \"{time} s\"\ncontact_law = \"{named}\"\n",
             e[0], e[1]
         );
+        let mut own = [Own::default(); 4];
+        if has_own {
+            let list = own_contacts(r, &mut own, time);
+            let _ = writeln!(text, "contacts = [{list}]");
+        }
+        let _ = writeln!(text, "[drop]\nheight = \"{height} m\"");
         let (mut direction, mut upward) = ([0.0, TAU], [0.0, 0.0, 1.0]);
         let tilt: Range;
         if is_box {
@@ -144,6 +152,7 @@ impl Product {
             askew,
             e: e[0],
             contact: (law, time),
+            own,
             speed: 0.0,
             upward,
             gravity: 9.806_65,
@@ -173,6 +182,29 @@ impl Product {
         }
     }
 }
+
+/// Contacts of their own at some corners of a plate, softer or harder, livelier or not.
+fn own_contacts(r: &mut Random, own: &mut [Own; 4], time: f64) -> String {
+    let first = (r.unit() * 4.0) as usize;
+    let count = if r.chance(0.6) { 1 } else { 1 + (r.unit() * 4.0) as usize };
+    let mut list = Vec::new();
+    for k in (0..count).map(|k| (first + k) % 4) {
+        let (e, time) = (round(r.within(0.02, 0.6)), round((time * r.log(0.25, 4.0)).min(2.5e-3)));
+        let at = ["a", "b", "c", "d"][k];
+        own[k] = match r.unit() {
+            u if u < 0.25 => Own { e: Some(e), time: None },
+            u if u < 0.5 => Own { e: None, time: Some(time) },
+            _ => Own { e: Some(e), time: Some(time) },
+        };
+        let e = own[k].e.map_or(String::new(), |e| format!(", restitution = {e}"));
+        let time = own[k].time.map_or(String::new(), |time| format!(", contact_time = \"{time} s\""));
+        list.push(format!("{{ at = \"{at}\"{e}{time} }}"));
+    }
+    list.join(", ")
+}
+
+/// Kinds of products in space.
+pub const KINDS: [&str; 3] = ["plate", "box", "plate-own-contacts"];
 
 /// An axis across another.
 fn across(up: Vector) -> Vector {
@@ -292,7 +324,7 @@ fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
     args
 }
 
-/// Compares products of a kind, `plate` or `box`.
+/// Compares products of one of these kinds.
 ///
 /// # Errors
 /// Where the command does not run or writes fail.
@@ -332,7 +364,8 @@ pub fn compare(
             );
             if is_above || is_broken || found > 1.02 * claimed.demand {
                 let args = repeat(&product, &product.parts[n], &sample);
-                let same = answer(clatter, &args, kind_of);
+                // No box has contacts of their own.
+                let same = if kind == "plate-own-contacts" { None } else { answer(clatter, &args, kind_of) };
                 let _ = write!(
                     line,
                     "{}; the same drop by clatter {}\n  tilt {:.4} deg, direction {:.3} deg\n  clatter {}",
@@ -363,7 +396,7 @@ pub fn compare(
     .map_err(|error| error.to_string())
 }
 
-/// A random product file of a kind, `plate` or `box`.
+/// A random product file of one of these kinds.
 #[must_use]
 pub fn product(kind: &str, seed: u64) -> String {
     Product::new(kind, seed).text

@@ -1,7 +1,7 @@
 //! Drops that were integrated elsewhere.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use clatter_brute::flight::{Drop, Law, Until, follow};
+use clatter_brute::flight::{Drop, Law, Own, Until, follow};
 use clatter_brute::part::{Motion, felt, largest, respond, shocks};
 use serde_json::Value;
 
@@ -22,6 +22,7 @@ fn drop_of(case: &Value) -> Drop {
         center: number(case, "center_of_mass") * length / 2.0,
         e: number(case, "e"),
         contact: Some((Law::Hysteretic, number(case, "contact_time_s"))),
+        own: [Own::default(); 2],
         speed: number(case, "speed_m_s"),
         tilt: number(case, "tilt_deg").to_radians(),
         b_first: false,

@@ -2,7 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
-use clatter_brute::flight::{Law, Until};
+use clatter_brute::flight::{Law, Own, Until};
 use clatter_brute::solid::{Solid, follow};
 
 /// A box of these sides that lands on its lowest corner.
@@ -17,6 +17,7 @@ fn solid(upward: [f64; 3], e: f64, law: Law) -> Solid {
         askew: 0.0,
         e,
         contact: (law, 4e-4),
+        own: [Own::default(); 4],
         speed: 4.0,
         upward,
         gravity: 9.806_65,

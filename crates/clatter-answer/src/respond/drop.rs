@@ -13,13 +13,13 @@
 //! ```
 
 use clatter::End;
-use clatter_assess::{Feet, LimitKind, Model, Part, SingleDrop};
+use clatter_assess::{Feet, LimitKind, Model, OwnContacts, Part, SingleDrop};
 use clatter_flight::{ContactLaw, Scene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
 use super::limits::{OneDrop, unlimited, value};
-use super::{Equivalent, Factors, LargestValues, Limit, Peaks, Position, swings};
+use super::{ContactAt, Equivalent, Factors, LargestValues, Limit, Peaks, Position, contacts, swings};
 use crate::{Error, Json, letter, on_body_beyond};
 
 /// A drop of a bar and a part of it.
@@ -40,6 +40,8 @@ pub struct Question {
     pub contact_law: ContactLaw,
     /// Feet that it lands on, which are its ends here: places may lie beyond them.
     pub feet: Option<Feet>,
+    /// Ends or corners with a contact of their own, as the scene has them.
+    pub own_contacts: OwnContacts,
     /// Where on the product the part may be, in [−1, 1]: of several the place is answered that asks most of a limit, else the first.
     pub at: Vec<f64>,
     /// The part; none that is mounted rigidly.
@@ -69,6 +71,7 @@ impl Question {
             contact_time_s: None,
             contact_law: ContactLaw::default(),
             feet: None,
+            own_contacts: OwnContacts::NONE,
             at: vec![at],
             suspension: None,
             limits: None,
@@ -92,6 +95,7 @@ impl Question {
             contact_time_s: self.contact_time_s,
             contact_law: self.contact_law,
             feet: self.feet,
+            own_contacts: self.own_contacts,
         }
     }
 }
@@ -128,6 +132,9 @@ pub struct Answer {
     /// Where contacts take time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_law: Option<&'static str>,
+    /// Ends with a contact of their own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<ContactAt>,
     /// OneDrop for.
     pub tolerance: Json,
     /// The place that is answered.
@@ -213,6 +220,11 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         gravity_m_s2: Json(scene.gravity_m_s2()),
         contact_time_s: question.contact_time_s.map(Json),
         contact_law: question.contact_time_s.filter(|_| model == Model::Compliant).map(|_| question.contact_law.name()),
+        contacts: contacts(
+            &question.own_contacts.mirrored(false, [first == End::B, false]),
+            scene.e(),
+            question.contact_time_s,
+        ),
         tolerance: Json(tolerance),
         at: Json(at),
         limits,

@@ -13,13 +13,13 @@
 //! ```
 
 use clatter::Corner;
-use clatter_assess::{Feet, LimitKind, Model, Part, SingleDrop};
+use clatter_assess::{Feet, LimitKind, Model, OwnContacts, Part, SingleDrop};
 use clatter_flight::{Contact, PlateScene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
 use super::limits::{OneDrop, unlimited, value};
-use super::{Equivalent, Factors, LargestValues, Limit, Peaks, Position, swings};
+use super::{ContactAt, Equivalent, Factors, LargestValues, Limit, Peaks, Position, contacts, swings};
 use crate::simulate::plate::told;
 use crate::{Error, Json, on_body_beyond};
 
@@ -33,6 +33,8 @@ pub struct Question {
     pub contact: Contact,
     /// Feet that it lands on, which are its corners here: places may lie beyond them.
     pub feet: Option<Feet>,
+    /// Ends or corners with a contact of their own, as the scene has them.
+    pub own_contacts: OwnContacts,
     /// Whether length and width of the product run the other way than those of the scene, so that another corner of it is a there.
     pub mirrored: [bool; 2],
     /// Where on the product the part may be, in half-lengths and half-widths from the middle: of several the place is answered that asks
@@ -64,6 +66,7 @@ impl Question {
             scene,
             contact,
             feet: None,
+            own_contacts: OwnContacts::NONE,
             mirrored: [false; 2],
             at: vec![at],
             suspension: None,
@@ -119,6 +122,9 @@ pub struct Answer {
     pub contact_time_s: Json,
     /// What the ground does meanwhile.
     pub contact_law: &'static str,
+    /// Corners with a contact of their own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<ContactAt>,
     /// OneDrop for.
     pub tolerance: Json,
     /// The place that is answered.
@@ -159,7 +165,11 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         on_body_beyond(at.iter().map(|place| place[side]), length_m, inset_m)?;
     }
     let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
-    let drop = SingleDrop { feet: question.feet, ..SingleDrop::of_plate(scene, contact)? };
+    let drop = SingleDrop {
+        feet: question.feet,
+        own_contacts: question.own_contacts,
+        ..SingleDrop::of_plate(scene, contact)?
+    };
     let asked = OneDrop { drop, model: Model::Compliant, tolerance: *tolerance };
     let (plate, signs) = (scene.plate(), question.mirrored.map(|is| if is { -1.0 } else { 1.0 }));
     let [length, width] = plate.sides_m();
@@ -210,6 +220,11 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         gravity_m_s2: Json(scene.gravity_m_s2()),
         contact_time_s: Json(contact.time_s()),
         contact_law: contact.law().name(),
+        contacts: contacts(
+            &question.own_contacts.mirrored(true, question.mirrored),
+            contact.restitution(),
+            Some(contact.time_s()),
+        ),
         tolerance: Json(*tolerance),
         at: at.map(Json),
         limits,

@@ -79,6 +79,7 @@ impl Plane {
     pub fn of(file: &ProductFile, bounds: &Bounds) -> Result<Self, Error> {
         file.check()?;
         file.check_bar("the plane of q and e")?;
+        file.check_alike("the plane of q and e")?;
         bounds.check()?;
         let side = if file.product.contact_time_s.is_some() { Self::SIDE_OF_CONTACTS } else { Self::SIDE };
         let [qs, es] = [bounds.q, bounds.e].map(|range| within(range, side));

@@ -178,6 +178,7 @@ mod tests {
                 contact_time_s: contacts.then_some(4e-4),
                 contact_law: ContactLaw::Hysteretic,
                 feet: Some(feet),
+                own_contacts: crate::OwnContacts::NONE,
             };
             let alone = Followed::new(&SingleDrop { feet: None, ..drop }, drop.fullest(), 0.01);
             match (Followed::new(&drop, drop.fullest(), 0.01), alone) {

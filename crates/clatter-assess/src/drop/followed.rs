@@ -52,11 +52,9 @@ impl Followed {
     /// # Errors
     /// [`Error::Contact`], and [`Error::Flight`] and [`Error::Bar`] for a box that is not followed so.
     pub(crate) fn as_block(drop: &SingleDrop, thickness_m: f64, until_s: f64) -> Result<Self, Error> {
-        let (Some(across), Physics::Contacts(contact)) = (&drop.across, Model::Compliant.physics(drop)?) else {
-            return Err(Error::Contact);
-        };
+        let Some(across) = &drop.across else { return Err(Error::Contact) };
         let block = drop.block_drop(across, thickness_m)?.with_time_limit_s(until_s)?;
-        let motion = Course::Block(BlockMotion::new(&block, &contact)?);
+        let motion = Course::Block(BlockMotion::new(&block, &drop.contacts_of_block()?)?);
         let largest_m_s = motion.largest_m_s();
         Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s, before_edge: false })
     }
@@ -87,10 +85,11 @@ impl Followed {
     fn at_most(drop: &SingleDrop, model: Model, tolerance: f64, until: Until, most_s: f64) -> Result<Self, Error> {
         let precision = PRECISION * tolerance;
         // Without restitution the strikes of one instant add up, and end by themselves.
-        let share = if drop.restitution == 0.0 { 0.0 } else { tolerance * drop.restitution.max(LEAST_SHARE) };
+        let [least_e, most_e] = drop.restitutions();
+        let share = if most_e == 0.0 { 0.0 } else { tolerance * least_e.max(LEAST_SHARE) };
         let clatter_s = drop.clatter_s();
         // A strike gives back the restitution's share of what it takes.
-        let given_back = 0.5 * (1.0 + drop.restitution);
+        let given_back = 0.5 * (1.0 + most_e);
         let is_over = |time_s: f64, later: f64, largest: f64, lands: bool| {
             later <= share * largest
                 || time_s >= most_s * (1.0 - 1e-9)
@@ -103,7 +102,7 @@ impl Followed {
         };
         let posture = drop.across.and_then(|across| across.posture);
         let (motion, precision) = if let (Some(across), Some(posture)) = (&drop.across, posture) {
-            let Physics::Contacts(contact) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
+            let Physics::Contacts(_) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
             let until_s = match until {
                 Until::Lands => clatter_s,
                 Until::Past(time_s) => time_s.max(clatter_s),
@@ -112,21 +111,24 @@ impl Followed {
             let block = drop.block_drop(across, posture.thickness_m)?.with_time_limit_s(until_s)?;
             let block = block.with_impact_limit(PRESSES_OF_BOX);
             let block = if until == Until::Rebounded { block.with_enough(LATE) } else { block };
-            (Course::Block(BlockMotion::new(&block, &contact)?), 0.0)
+            (Course::Block(BlockMotion::new(&block, &drop.contacts_of_block()?)?), 0.0)
         } else if let Some(across) = &drop.across {
-            let Physics::Contacts(contact) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
+            let Physics::Contacts(_) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
             let enough =
                 |ahead: &Ahead<4>| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
             let scene = drop.plate_scene(across)?.with_impact_limit(MOST_STRIKES);
-            (Course::Plate(scene.contacts_until(&contact, precision, enough)?), precision)
+            (Course::Plate(scene.own_contacts_until(&drop.contacts()?, precision, enough)?), precision)
         } else {
             let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?;
             let enough =
                 |ahead: &Ahead| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
             if drop.flat {
                 (Course::Bar(scene.fly_flat(share)), 0.0)
-            } else {
+            } else if drop.own_contacts.is_none() {
                 (Course::Bar(scene.fly_until(model.physics(drop)?, precision, enough)?), precision)
+            } else {
+                model.physics(drop)?;
+                (Course::Bar(scene.fly_on_contacts(&drop.contacts()?, precision, enough)?), precision)
             }
         };
         let largest_m_s = motion.largest_m_s();
@@ -173,7 +175,7 @@ impl Followed {
     }
     /// Number, from 1, of the last strike that began by a time; contacts do nothing as they begin.
     pub(crate) fn impact_at(&self, time_s: f64) -> u64 {
-        let instant = self.motion.contact().is_none();
+        let instant = !self.motion.has_contacts();
         let begun = |touch_s: f64| touch_s < time_s || instant && touch_s <= time_s;
         self.motion.struck_s().partition_point(|s| begun(*s)).max(1) as u64
     }

@@ -106,9 +106,10 @@ impl PlaceHistory<'_> {
         let center = self.followed.motion.later_m_s() / fastest;
         let pressed = points.iter().fold(0.0, |all, &p| libm::hypot(all, (1.0 + dot(here, p)) / mass(p)));
         // A strike gives back the restitution's share of what it takes; several that overlap may turn all of the motion around.
-        let turned = 2.0 / (1.0 + drop.restitution);
+        let [_, most_e] = drop.restitutions();
+        let turned = 2.0 / (1.0 + most_e);
         let given_up = self.followed.is_given_up().then(|| GivenUp {
-            in_turn: drop.across.map_or(2.0, |_| 4.0) / (1.0 - drop.restitution),
+            in_turn: drop.across.map_or(2.0, |_| 4.0) / (1.0 - most_e),
             lever: 1.0 + dot(here, here).sqrt() * farthest.sqrt(),
             center_m_s: center * turned,
             gravity_m_s2: drop.gravity_m_s2,
@@ -179,7 +180,7 @@ mod tests {
     use super::*;
     use crate::drop::{Across, Model, Posture, SingleDrop, Until};
     use crate::engine::Spot;
-    use crate::{ContactLaw, Width};
+    use crate::{ContactLaw, OwnContacts, Width};
 
     /// A box of 120 mm × 80 mm × 20 mm with these radii of gyration of its mass along length and width, that lands flat at 2 m/s.
     fn lying([along, gyration_m]: [f64; 2], restitution: f64) -> SingleDrop {
@@ -198,6 +199,7 @@ mod tests {
             contact_time_s: Some(2e-4),
             contact_law: ContactLaw::Hysteretic,
             feet: None,
+            own_contacts: OwnContacts::NONE,
         }
     }
 
@@ -215,6 +217,7 @@ mod tests {
             contact_time_s: Some(2e-4),
             contact_law: ContactLaw::Hysteretic,
             feet: None,
+            own_contacts: OwnContacts::NONE,
         }
     }
 
@@ -320,6 +323,7 @@ mod tests {
                 contact_time_s: Some(2e-4),
                 contact_law: ContactLaw::Hysteretic,
                 feet: None,
+                own_contacts: OwnContacts::NONE,
             };
             let followed = Followed::new(&drop, Model::Compliant, 0.01).unwrap();
             assert!(followed.is_given_up(), "{:?}", followed.motion.stop());

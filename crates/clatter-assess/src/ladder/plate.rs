@@ -4,7 +4,7 @@ use super::{FINER, Groups, Ladder, Measured, Reference, Rung, cheapest, percent,
 use crate::assess::THIN;
 use crate::drop::{Across, Followed, Model, SingleDrop, Until};
 use crate::engine::{Answer, Part, answer, of_followed};
-use crate::{Error, Limit};
+use crate::{Error, Limit, OwnContact, OwnContacts};
 
 /// Until so long a box is followed, over the time of the peak that the plate of small tilt has.
 pub(super) const BEYOND_PEAK: f64 = 1.5;
@@ -15,7 +15,10 @@ impl SingleDrop {
     /// The same drop without what is across: of the bar along the length, which rises to its other end as the edge does.
     pub(super) fn along(&self, across: &Across) -> Self {
         let rises = self.gaps_m(across)[0] / self.body.length_m();
-        Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), ..*self }
+        // Its ends press as the corners of the edge that comes down first.
+        let lands = self.own_contacts.mirrored(true, [false, across.signs()[1] < 0.0]);
+        let own_contacts = OwnContacts([lands.0[0], lands.0[1], OwnContact::NONE, OwnContact::NONE]);
+        Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), own_contacts, ..*self }
     }
 }
 

@@ -61,6 +61,7 @@ impl Drops {
                         contact_time_s,
                         contact_law: ranges.law,
                         feet: ranges.product.feet,
+                        own_contacts: ranges.product.own_contacts,
                     };
                     let drop = SingleDrop { flat: drop.lands_as_one(ranges.merge_s), ..drop };
                     all.push(Kept { drop, tilt, followed: OnceLock::new() });

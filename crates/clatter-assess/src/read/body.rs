@@ -8,9 +8,11 @@ use clatter_flight::{Body, ContactLaw};
 use super::{At, Reader, Section};
 use crate::check::{self, body_of, width_of};
 use crate::data_fault::out_of_range;
+use crate::fault::Fault;
+use crate::own::PLACES;
 use crate::slip;
 use crate::units;
-use crate::{DataFault, Depth, Feet, Product, Spread, Width};
+use crate::{DataFault, Depth, Feet, OwnContact, OwnContacts, Product, Spread, Width};
 
 impl Reader {
     pub(super) fn product(&mut self, section: &Section<'_>) -> Option<Product> {
@@ -27,6 +29,7 @@ impl Reader {
         let restitution = self.spread(section, "restitution");
         let contact_time = self.spread(section, "contact_time");
         let contact_law = self.choice(section, "contact_law");
+        let own_contacts = self.own_contacts(section)?;
         let gyration = self.spread_of_sides(section, "radius_of_gyration");
         let moment = self.quantity_of_sides(section, "moment_of_inertia");
         let center = self.quantity_of_sides(section, "center_of_mass");
@@ -101,6 +104,7 @@ impl Reader {
             body,
             width,
             feet,
+            own_contacts,
             gyration_m: along,
             mass_kg: mass.map(|m| m.value).or(total),
             restitution: restitution?.value,
@@ -111,6 +115,43 @@ impl Reader {
             self.data(span, &fault, "these together");
         }
         Some(product)
+    }
+
+    /// Contacts of its ends or corners; none where they are at fault.
+    fn own_contacts(&mut self, section: &Section<'_>) -> Option<OwnContacts> {
+        let mut own = OwnContacts::NONE;
+        let Some((key, value)) = section.table.get_key_value("contacts") else { return Some(own) };
+        let faults = self.faults.len();
+        let mut known: [Option<Range<usize>>; 4] = std::array::from_fn(|_| None);
+        for contact in self.tables(section, "contacts") {
+            let at = self.choice(&contact, "at");
+            let [restitution, contact_time] =
+                ["restitution", "contact_time"].map(|name| self.quantity(&contact, name).map(|value| value.value));
+            if !["restitution", "contact_time"].into_iter().any(|name| contact.table.contains_key(name)) {
+                self.data(contact.span.clone(), &DataFault::ContactAsAll, "this one");
+            }
+            let Some(At { value: at, span }) = at else { continue };
+            let Some(k) = PLACES.into_iter().position(|place| place == at) else { continue };
+            if !self.is_plate && k > 1 {
+                self.data(span.clone(), &DataFault::CornerOfBar(PLACES[k]), "this place");
+            }
+            if let Some(first) = &known[k] {
+                let [message, help] = DataFault::SameContact(at.to_owned()).told();
+                let (label, also) = ("the second".to_owned(), Some((first.clone(), "the first".to_owned())));
+                self.faults.push(Fault { span: span.clone(), message, label, help, also });
+            }
+            known[k] = Some(span);
+            own.0[k] = OwnContact { restitution, contact_time_s: contact_time };
+        }
+        if !section.table.contains_key("contact_time") && !section.table.contains_key("width") {
+            self.data(key.span(), &DataFault::OwnContactsWithoutTime, "here");
+        }
+        let law = section.table.get("contact_law").map(|law| law.get_ref().as_str());
+        if law != Some(Some("hysteretic")) && law.is_none_or(|law| law == Some("dashpot")) {
+            let span = section.table.get("contact_law").map_or_else(|| value.span(), toml::Spanned::span);
+            self.data(span, &DataFault::OwnContactsLaw, "here");
+        }
+        (self.faults.len() == faults).then_some(own)
     }
 
     /// Its feet, if it has any; none where they are at fault.

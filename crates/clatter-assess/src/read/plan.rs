@@ -320,8 +320,9 @@ impl Reader {
     }
 }
 
+/// What tells a table from others; a contact has its place.
 fn name_in<'a>(table: &'a DeTable<'_>) -> Option<&'a str> {
-    table.get("name").and_then(|name| name.get_ref().as_str())
+    table.get("name").or(table.get("at")).and_then(|name| name.get_ref().as_str())
 }
 
 fn is_quantity(kind: &Kind) -> bool {

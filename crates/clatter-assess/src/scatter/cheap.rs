@@ -97,7 +97,7 @@ mod tests {
             let drop = SingleDrop {
                 body, first: if first_a { End::A } else { End::B }, tilt_rad, flat: false, speed_m_s: 3.0, restitution: e,
                 across: None,
-                gravity_m_s2: 0.0, contact_time_s: contact, contact_law: ContactLaw::Hysteretic, feet: None,
+                gravity_m_s2: 0.0, contact_time_s: contact, contact_law: ContactLaw::Hysteretic, feet: None, own_contacts: crate::OwnContacts::NONE,
             };
             let ends_m = [ends.0, (ends.0 + ends.1).min(0.07)];
             let suspension = (!hard).then(|| Suspension::from_hz(hz, DampingRatio::new(zeta).unwrap()).unwrap());

@@ -48,6 +48,7 @@ const LARGEST_ERROR: f64 = 0.05;
 pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, Error> {
     file.check()?;
     file.check_bar("the plane of q and e")?;
+    file.check_alike("the plane of q and e")?;
     for &(_, e) in points {
         clatter::Restitution::new(e).map_err(crate::Error::from)?;
     }
@@ -176,6 +177,7 @@ impl Corners {
                         contact_time_s,
                         contact_law: product.law(),
                         feet: product.feet,
+                        own_contacts: product.own_contacts,
                     }));
                     let least = drops.len() - 1 - steps as usize;
                     let flat: Option<SingleDrop> = drops.get(least).filter(|drop| drop.lands_as_one(MERGE_S)).copied();

@@ -356,6 +356,7 @@ impl Inputs {
             contact_time_s: product.contact_time_s.map(|time| time.lo()),
             contact_law: product.law(),
             feet: product.feet,
+            own_contacts: product.own_contacts,
         };
         let Finder { varied, assumed_even } = finder;
         let firsts = drop.first_ends();

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::{Candidate, Task, Work, fastest_rad_s, rough_to_rad_s};
 use crate::drop::{Followed, Until};
 use crate::engine::{PlaceHistory, of_followed};
-use crate::{Error, Mount, Spread};
+use crate::{Error, Mount};
 
 /// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
 pub(super) const NEAR: f64 = 0.8;
@@ -37,9 +37,9 @@ const HALVINGS: u32 = 6;
 impl Ranges<'_> {
     /// Whether what is asked changes by edges or steps where contacts meet.
     pub(super) fn has_edges(&self, task: &Task<'_>) -> bool {
-        let stiff = |time: &Spread| fastest_rad_s(task.component) * time.hi() > 1.0;
-        let time = self.product.contact_time_s.as_ref().filter(|_| self.posture.is_none());
-        time.is_some_and(|time| task.component.mount == Mount::Hard || stiff(time))
+        let stiff = |longest_s: f64| fastest_rad_s(task.component) * longest_s > 1.0;
+        let times = self.product.contact_times_s().filter(|_| self.posture.is_none());
+        times.is_some_and(|[_, longest_s]| task.component.mount == Mount::Hard || stiff(longest_s))
     }
 
     /// Climbs from a place in all ranges, one after the other, each step half as long as the last.

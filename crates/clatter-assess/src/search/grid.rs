@@ -59,9 +59,9 @@ impl Ranges<'_> {
             // Beyond some swings a contact, pulses are felt one by one.
             Mount::Suspended { frequency_hz, .. } => Some(frequency_hz.hi()),
             // Its crest is where contacts meet.
-            Mount::Hard => self.product.contact_time_s.map(|time| 0.5 / time.lo()),
+            Mount::Hard => self.product.contact_times_s().map(|[shortest, _]| 0.5 / shortest),
         });
-        let stiff = self.product.contact_time_s.map_or(f64::INFINITY, |time| 1.0 / time.lo());
+        let stiff = self.product.contact_times_s().map_or(f64::INFINITY, |[shortest, _]| 1.0 / shortest);
         let highest = highest.fold(0.0_f64, f64::max).min(stiff);
         let [least, most] = TILTS;
         let of = |gap: f64| (TAU * highest * gap / fast / PHASE).clamp(least, most).ceil();
@@ -193,13 +193,17 @@ impl Ranges<'_> {
     /// Drops whose first two contacts overlap or nearly do.
     pub(super) fn overlaps(&self) -> Vec<(u32, Place)> {
         let is_searched = !self.drop.tilt_rad.is_value() && self.posture.is_none();
-        let Some(contact) = self.product.contact_time_s.filter(|_| is_searched) else {
-            return Vec::new();
-        };
+        let times = self.product.longest_contacts_s();
+        let one_by_one = times.into_iter().filter(|_| is_searched).flat_map(|time_s| self.overlaps_within(time_s));
+        one_by_one.collect()
+    }
+
+    /// The same of contacts that last so long.
+    fn overlaps_within(&self, contact_s: f64) -> Vec<(u32, Place)> {
         let [lo, hi] = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()];
         let [_, fast] = self.drop.speeds_m_s();
         let [often, far] = OVERLAPS;
-        let of_one = fast * contact.hi() / self.reach_m();
+        let of_one = fast * contact_s / self.reach_m();
         let step = of_one / often;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 48")]
         let count = (((far * of_one).min(hi) - lo) / step).clamp(0.0, often * far) as u32;

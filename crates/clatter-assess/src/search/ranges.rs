@@ -72,6 +72,7 @@ impl Ranges<'_> {
             contact_time_s: self.product.contact_time_s.map(|time| time.at(contact)),
             contact_law: self.law,
             feet: self.product.feet,
+            own_contacts: self.product.own_contacts,
         }
     }
 
@@ -173,7 +174,8 @@ impl Ranges<'_> {
     fn symmetries(&self) -> [bool; 2] {
         let Some(width) = &self.product.width else { return [false; 2] };
         let even = |[lo, hi]: [f64; 2]| lo.to_bits() == hi.to_bits() && width.product_of_inertia_m2 == 0.0;
-        [even(self.product.body.arms_m()), even(width.edges_m)]
+        let own = |sides: [bool; 2]| self.product.own_contacts.is_even(true, sides);
+        [even(self.product.body.arms_m()) && own([true, false]), even(width.edges_m) && own([false, true])]
     }
     /// Images of a drop that are drops of the ranges as well, itself first: which sides are exchanged.
     pub(super) fn mirrors(&self) -> &'static [[bool; 2]] {
@@ -203,7 +205,8 @@ impl Ranges<'_> {
     /// Of a symmetric product one end first is the other one turned around.
     pub(crate) fn turns(&self) -> bool {
         let [a, b] = self.product.body.arms_m();
-        a.to_bits() == b.to_bits() && self.drop.first_ends().len() > 1 && self.product.width.is_none()
+        let is_even = a.to_bits() == b.to_bits() && self.product.own_contacts.is_even(false, [true, false]);
+        is_even && self.drop.first_ends().len() > 1 && self.product.width.is_none()
     }
 
     /// The ends that are let touch first.

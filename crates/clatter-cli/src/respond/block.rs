@@ -40,6 +40,9 @@ impl Args {
         worst: &WorstCase,
         streams: &mut Streams<'_>,
     ) -> Result<(), Failure> {
+        if !self.contact.is_empty() {
+            return Err(Failure::Usage("--contact is that of a bar or a plate: a box lands on any of its sides"));
+        }
         if self.output.is_some() || self.flat || self.equivalent_pulse {
             return Err(Failure::Usage("-o, --flat and --equivalent-pulse do not go with a box"));
         }

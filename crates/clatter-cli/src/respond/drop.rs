@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use clatter::End;
 use clatter_answer::respond::drop::{self, Answer, Question};
 use clatter_answer::respond::{Factors, Largest, Peaks};
 use clatter_answer::{Error, Json};
@@ -31,6 +32,7 @@ pub(super) struct Drop<'a> {
 impl Args {
     pub(super) fn drop_by(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
         let (mass, feet) = (&self.inertia.mass, self.feet(file.as_ref()));
+        let own_contacts = self.own_contacts(file.as_ref(), false)?;
         if feet.is_some_and(|feet| feet.inset_m[1] != 0.0) {
             return Err(Failure::Usage("--feet-m=X,Y,HEIGHT of a bar has Y = 0: it goes on along its length alone"));
         }
@@ -66,6 +68,7 @@ impl Args {
         question.contact_time_s = setup.contact_time_s;
         question.contact_law = setup.contact_law;
         question.feet = feet;
+        question.own_contacts = own_contacts.mirrored(false, [setup.first == End::B, false]);
         question.suspension = self.suspension(part.and_then(|part| part.suspension))?;
         question.limits = part.map(|part| part.allowed.clone());
         question.tolerance = self.tolerance;
@@ -116,7 +119,12 @@ impl Drop<'_> {
             (shown.tilt(self.args.shortly(self.setup.tilt_deg)), given(100.0 * self.args.tolerance));
         writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}")?;
         match (contact_time_s, contact_law) {
-            (Some(time), Some(law)) => writeln!(out, "Contacts of {}, {law}", shown.time.given(time.0)),
+            (Some(time), Some(law)) => writeln!(
+                out,
+                "Contacts of {}, {law}{}",
+                shown.time.given(time.0),
+                super::own_contacts(&self.answer.contacts, shown.time)
+            ),
             _ => Ok(()),
         }
     }

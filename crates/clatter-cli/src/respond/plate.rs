@@ -56,6 +56,7 @@ impl Args {
             return Err(Failure::Usage("a part on a plate is answered by --model=compliant alone"));
         }
         let (gyration, flag, feet) = (self.inertia.given(), self.inertia.flag(), self.feet(file.as_ref()));
+        let own_contacts = self.own_contacts(file.as_ref(), true)?;
         let beside = BesidePlate { model: self.model, e: self.e, gyration, gyration_flag: flag, file };
         let setup = self.drop.plate_setup(beside)?;
         // That there is a contact time was checked before.
@@ -78,6 +79,7 @@ impl Args {
         let mut question = Question::new(setup.scene, contact, places[0]);
         question.at = places;
         question.feet = feet;
+        question.own_contacts = own_contacts.mirrored(true, setup.mirrored);
         question.mirrored = setup.mirrored;
         question.suspension = self.suspension(part.and_then(|part| part.suspension))?;
         question.limits = part.map(|part| part.allowed.clone());
@@ -131,7 +133,8 @@ impl Drop<'_> {
             out,
             "To {tolerance} %: corner {first} touches at {speed}; {along} is {hx} higher, {across} {hy}, {opposite} both together"
         )?;
-        writeln!(out, "Contacts of {}, {contact_law}", shown.time.given(contact_time_s.0))
+        let own = super::own_contacts(&self.answer.contacts, shown.time);
+        writeln!(out, "Contacts of {}, {contact_law}{own}", shown.time.given(contact_time_s.0))
     }
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {

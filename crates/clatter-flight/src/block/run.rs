@@ -6,7 +6,7 @@ use super::dormand_prince::{SIZE, Step, Vector};
 use super::system::{Corner, Hold, System, cross, dot, parts};
 use super::{Block, BlockDrop, times};
 use crate::Error;
-use crate::contact::Contact;
+use crate::contact::{Contact, alike};
 use crate::flight::Stop;
 
 /// What a step may be wrong by: depths over the deepest, velocities over the fastest. Peaks of parts are then within some 1e−6.
@@ -161,8 +161,21 @@ impl BlockDrop {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn contacts(&self, contact: &Contact, each: impl FnMut(&BlockStep<'_>)) -> Result<BlockFlight, Error> {
-        self.check(contact)?;
-        Run::new(self, contact).run(each)
+        self.own_contacts(&[*contact; 8], each)
+    }
+
+    /// The same with a contact of its own at each corner, in the order of [`Block::corners_m`].
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts), by each of the contacts; [`Error::Laws`] unless all are hysteretic, where they differ.
+    pub fn own_contacts(
+        &self,
+        contacts: &[Contact; 8],
+        each: impl FnMut(&BlockStep<'_>),
+    ) -> Result<BlockFlight, Error> {
+        alike(contacts)?;
+        contacts.iter().try_for_each(|contact| self.check(contact))?;
+        Run::new(self, contacts).run(each)
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {
@@ -199,8 +212,11 @@ impl Block {
 
 struct Run<'a> {
     drop: &'a BlockDrop,
-    contact: &'a Contact,
+    contacts: &'a [Contact; 8],
+    /// The largest of all.
     restitution: f64,
+    /// The shortest and the longest of all.
+    times_s: [f64; 2],
     system: System,
     y: Vector,
     now: f64,
@@ -218,25 +234,30 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(drop: &'a BlockDrop, contact: &'a Contact) -> Self {
+    fn new(drop: &'a BlockDrop, contacts: &'a [Contact; 8]) -> Self {
         let block = drop.block;
-        let has_dents = contact.law().leaves_a_dent();
-        let restitution = contact.restitution().max(if has_dents { LEAST_OF_BLOCKS } else { 0.0 });
+        let has_dents = contacts[0].law().leaves_a_dent();
+        let restitutions =
+            contacts.map(|contact| contact.restitution().max(if has_dents { LEAST_OF_BLOCKS } else { 0.0 }));
         let (corners, reach) = (block.corners_m(), block.reach());
-        let loss = if has_dents { restitution * restitution } else { 1.0 };
-        let delay = 2.0 * contact.damping_ratio() / contact.frequency_rad_s();
+        let loss = restitutions.map(|e| if has_dents { e * e } else { 1.0 });
+        // Dashpots are alike.
+        let delay = 2.0 * contacts[0].damping_ratio() / contacts[0].frequency_rad_s();
+        let shortest = contacts.iter().fold(f64::INFINITY, |least, contact| least.min(contact.time_s()));
+        let longest = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.time_s()));
         let up = Corner { hold: Hold::Up, ground: 0.0, stiffness: 0.0, strike: 0 };
         let system = System { corners, block, gravity: drop.gravity, delay, loss, holds: [up; 8] };
         let n = drop.upward;
         let lowest = corners.iter().map(|corner| dot(n, *corner)).fold(f64::INFINITY, f64::min);
         let y = [-lowest, -drop.speed, n[0], n[1], n[2], drop.spin[0], drop.spin[1], drop.spin[2]];
-        let (fastest, time) = (drop.fastest(), contact.time_s());
+        let (fastest, time) = (drop.fastest(), shortest);
         let (depth, turn) = (fastest * time, fastest * time / reach);
         let (fast, spin) = (fastest, fastest / reach);
         Self {
             drop,
-            contact,
-            restitution,
+            contacts,
+            restitution: restitutions.into_iter().fold(0.0, f64::max),
+            times_s: [shortest, longest],
             system,
             y,
             now: 0.0,
@@ -297,7 +318,7 @@ impl<'a> Run<'a> {
         if self.sunk <= most {
             return Ok(());
         }
-        let (name, value, unit) = ("contact time", self.contact.time_s(), "s");
+        let (name, value, unit) = ("contact time", self.times_s[1], "s");
         let reason = "so that corners sink in by a quarter of the smallest size at most";
         Err(Error::Bound { name, value, bound: value * most / self.sunk, most: true, unit, reason })
     }
@@ -315,7 +336,7 @@ impl<'a> Run<'a> {
             return is_clear.then_some(Stop::BouncedClear { time_s: self.now });
         }
         let bound = (1.0 + self.restitution) * (2.0 * self.left() * self.most_coupling).sqrt();
-        let weight = WEIGHT * gravity * self.contact.time_s();
+        let weight = WEIGHT * gravity * self.times_s[0];
         if bound <= (REST * self.fastest).max(weight) {
             let (time_s, time_bound_s) = (self.now, f64::INFINITY);
             return Some(Stop::AtRest { time_s, time_bound_s, shock_bound_m_s: bound });
@@ -369,7 +390,7 @@ impl<'a> Run<'a> {
         self.push(&step, h, share);
         self.now += share * h;
         if event.is_some() {
-            self.stride = self.stride.min(0.01 * self.contact.time_s());
+            self.stride = self.stride.min(0.01 * self.times_s[0]);
             for i in 0..8 {
                 if self.system.has_happened(i, &self.y) {
                     self.happens(i);
@@ -414,7 +435,7 @@ impl<'a> Run<'a> {
         let (_, _, n, _) = parts(&self.y);
         let own = self.system.coupling(n, i, i);
         let corner = &mut self.system.holds[i];
-        corner.stiffness = self.contact.frequency_rad_s().powi(2) / own;
+        corner.stiffness = self.contacts[i].frequency_rad_s().powi(2) / own;
         (corner.hold, corner.strike) = (Hold::Loads, self.strikes.len());
         self.fastest = self.fastest.max(-velocity);
         self.strikes.push(BlockStrike {
@@ -437,7 +458,7 @@ impl<'a> Run<'a> {
             Hold::Loads => corner.hold = Hold::Unloads(depth),
             Hold::Unloads(deepest) if depth > deepest => corner.hold = Hold::Loads,
             Hold::Unloads(deepest) => {
-                corner.ground -= deepest * (1.0 - self.system.loss);
+                corner.ground -= deepest * (1.0 - self.system.loss[i]);
                 self.parts(i, Hold::Up);
             }
             Hold::Slack if depth <= 0.0 => corner.hold = Hold::Up,

@@ -40,9 +40,9 @@ pub(super) struct System {
     /// Squares of the radii of gyration.
     pub(super) block: Block,
     pub(super) gravity: f64,
-    /// θ of a dashpot, and e² of a hysteretic contact.
+    /// θ of dashpots, and e² of the hysteretic contact of each corner.
     pub(super) delay: f64,
-    pub(super) loss: f64,
+    pub(super) loss: [f64; 8],
     pub(super) holds: [Corner; 8],
 }
 
@@ -57,16 +57,16 @@ impl System {
         (z + dot(n, place), v + dot(n, cross(spin, place)))
     }
     pub(super) fn force(&self, corner: usize, y: &Vector) -> f64 {
-        let Corner { hold, ground, stiffness, .. } = self.holds[corner];
-        if matches!(hold, Hold::Up | Hold::Slack) {
+        if matches!(self.holds[corner].hold, Hold::Up | Hold::Slack) {
             return 0.0;
         }
-        self.press(hold, stiffness, ground, Self::place(y, self.corners[corner]))
+        self.press(corner, Self::place(y, self.corners[corner]))
     }
-    pub(super) fn press(&self, hold: Hold, stiffness: f64, ground: f64, (height, velocity): (f64, f64)) -> f64 {
+    pub(super) fn press(&self, corner: usize, (height, velocity): (f64, f64)) -> f64 {
+        let (Corner { hold, ground, stiffness, .. }, loss) = (self.holds[corner], self.loss[corner]);
         let depth = ground - height;
         match hold {
-            Hold::Unloads(deepest) => stiffness / self.loss * (depth - deepest * (1.0 - self.loss)),
+            Hold::Unloads(deepest) => stiffness / loss * (depth - deepest * (1.0 - loss)),
             _ => stiffness * (depth - self.delay * velocity),
         }
     }
@@ -108,7 +108,7 @@ impl System {
             Hold::Loads => (ground - Self::place(y, self.corners[i]).0).max(0.0),
             Hold::Unloads(deepest) => deepest,
         };
-        ground - deepest * (1.0 - self.loss)
+        ground - deepest * (1.0 - self.loss[i])
     }
     /// Kinetic and potential energy over the mass.
     pub(super) fn energy(&self, y: &Vector) -> f64 {
@@ -119,18 +119,18 @@ impl System {
     pub(super) fn stored(&self, y: &Vector) -> f64 {
         let one = |i: usize| {
             let Corner { hold, ground, stiffness, .. } = self.holds[i];
-            let depth = ground - Self::place(y, self.corners[i]).0;
+            let (depth, loss) = (ground - Self::place(y, self.corners[i]).0, self.loss[i]);
             match hold {
                 Hold::Up | Hold::Slack => 0.0,
-                Hold::Loads => 0.5 * self.loss * stiffness * depth * depth,
-                Hold::Unloads(deepest) => 0.5 * stiffness / self.loss * (depth - deepest * (1.0 - self.loss)).powi(2),
+                Hold::Loads => 0.5 * loss * stiffness * depth * depth,
+                Hold::Unloads(deepest) => 0.5 * stiffness / loss * (depth - deepest * (1.0 - loss)).powi(2),
             }
         };
         (0..8).map(one).sum()
     }
     /// Whether a corner has come to its next event.
     pub(super) fn has_happened(&self, i: usize, y: &Vector) -> bool {
-        let Corner { hold, ground, stiffness, .. } = self.holds[i];
+        let Corner { hold, ground, .. } = self.holds[i];
         // Most corners are up, most of the time.
         if hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], self.corners[i]) >= 0.0 {
             return false;
@@ -139,10 +139,10 @@ impl System {
         let depth = ground - height;
         match hold {
             Hold::Up => depth > 0.0 && velocity < 0.0 || ground < 0.0 && height > 0.0,
-            Hold::Loads if self.delay > 0.0 => self.press(hold, stiffness, ground, motion) <= 0.0,
+            Hold::Loads if self.delay > 0.0 => self.press(i, motion) <= 0.0,
             Hold::Loads => velocity >= 0.0,
-            Hold::Unloads(deepest) => depth <= deepest * (1.0 - self.loss) || depth > deepest && velocity < 0.0,
-            Hold::Slack => depth <= 0.0 || self.press(hold, stiffness, ground, motion) > 0.0,
+            Hold::Unloads(deepest) => depth <= deepest * (1.0 - self.loss[i]) || depth > deepest && velocity < 0.0,
+            Hold::Slack => depth <= 0.0 || self.press(i, motion) > 0.0,
         }
     }
 }

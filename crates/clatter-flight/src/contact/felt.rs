@@ -65,7 +65,7 @@ impl<const N: usize, P: Pose<N>> Phases<N, P> {
             let then = next.map_or(&self.last, |(_, next)| &next.start);
             let changed = velocity(then) - velocity(&phase.start) + gravity * length_s;
             short += changed - add(phase, [*from_s, length_s], &mut lines, &mut sections);
-            if length_s > SHORT * self.contact_s {
+            if length_s > SHORT * self.contact_s(phase) {
                 sections.lift(first, short / length_s);
                 short = 0.0;
             }

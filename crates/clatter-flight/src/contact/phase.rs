@@ -158,6 +158,10 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         }
         self.felt = self.coupling.map(|of_point| self.felt_by(&of_point));
     }
+    /// Whether a point presses.
+    pub(crate) fn presses(&self, i: usize) -> bool {
+        self.lines[i].is_some() || self.lies[i]
+    }
     pub(crate) fn is_free(&self) -> bool {
         self.count == 0 && !self.lies.contains(&true)
     }

@@ -53,15 +53,16 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
 
     /// The speed that is not followed: by the precision, or because roundings of heights are deeper than it sinks in.
     pub(super) fn slow(&self) -> f64 {
-        (self.precision * self.fastest).max(SUNK * self.margins.height * self.contact.frequency_rad_s())
+        let stiffest = self.contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.frequency_rad_s()));
+        (self.precision * self.fastest).max(SUNK * self.margins.height * stiffest)
     }
 
     /// Lays down a point that alone presses and rings too slowly to be followed, or by less than its weight.
     pub(super) fn lay_down(&mut self) {
         let mut pressing = (0..N).filter(|&i| self.touches[i].is_pressing());
         let (Some(i), None) = (pressing.next(), pressing.next()) else { return };
-        let Hold::On(line) = self.touches[i].hold(self.contact) else { return };
-        let loads = self.touches[i].state == State::Loading && self.contact.law().leaves_a_dent();
+        let Hold::On(line) = self.touches[i].hold(&self.contacts[i]) else { return };
+        let loads = self.touches[i].state == State::Loading && self.leave_dents();
         let fall = self.pose.fall(i);
         if loads || fall <= 0.0 {
             return;
@@ -70,10 +71,10 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let rate = (line.stiffness * self.pose.coupled(i, i)).sqrt();
         let rest = line.zero - fall / (rate * rate);
         // Below its rest, where its spring holds no less than its weight: else it would be given what it lacks.
-        let rings_by_weight = self.contact.law().leaves_a_dent() && height[i] <= rest;
+        let rings_by_weight = self.leave_dents() && height[i] <= rest;
         let by_weight = if rings_by_weight { PARTS * fall / rate } else { 0.0 };
         if libm::hypot(velocity[i], rate * (height[i] - rest)) <= self.slow().max(by_weight) {
-            let (contact, told) = (self.contact, SUNK * self.margins.height);
+            let (contact, told) = (&self.contacts[i], SUNK * self.margins.height);
             let force = fall / self.pose.coupled(i, i);
             let touch = &mut self.touches[i];
             touch.state = State::Lying;
@@ -86,20 +87,17 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
 
     /// Points that lie answer on their own lines to what another one does through the body; upright lines have none.
     pub(super) fn rouse_others(&mut self, striking: usize) {
-        if self.contact.is_plastic() {
-            return;
-        }
         let (height, _) = self.pose.points();
         for i in 0..N {
-            if i == striking || self.touches[i].state != State::Lying {
+            if i == striking || self.touches[i].state != State::Lying || self.contacts[i].is_plastic() {
                 continue;
             }
-            let pushed = |j: usize| match self.touches[j].hold(self.contact) {
+            let pushed = |j: usize| match self.touches[j].hold(&self.contacts[j]) {
                 Hold::On(line) => self.pose.coupled(i, j) * line.stiffness * (line.zero - height[j]).max(0.0),
                 Hold::No | Hold::Lies => 0.0,
             };
             let force = (self.pose.fall(i) - (0..N).map(pushed).sum::<f64>()) / self.pose.coupled(i, i);
-            self.touches[i].rouse(height[i], force.max(0.0), self.contact);
+            self.touches[i].rouse(height[i], force.max(0.0), &self.contacts[i]);
         }
     }
 
@@ -153,15 +151,14 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let those = || (0..N).filter(|&i| on[i]);
         let left = self.pose.kinetic() + those().map(|i| over(line(i), height[i], forces[i])).sum::<f64>();
         let by_weight = those().map(|i| 0.5 * forces[i] * forces[i] / self.stiffness(&arms, i)).sum::<f64>();
-        let dented = |i: &usize| {
-            self.contact.law().leaves_a_dent() && matches!(self.touches[*i].state, State::Elastic | State::Lying)
-        };
+        let dented = |i: &usize| self.leave_dents() && matches!(self.touches[*i].state, State::Elastic | State::Lying);
         let unloaded = || those().filter(dented);
         let loading = |i: usize| 0.5 * forces[i] * forces[i] / self.touches[i].stiffness;
-        let softer = self.contact.unloading().recip();
+        let softer = |i: usize| self.contacts[i].unloading().recip();
         // Too slow to part, and pressed before by all that they bear.
-        let stays = |i: usize| left < loading(i) * softer && forces[i] <= self.touches[i].limit(self.contact);
-        let sinking = if unloaded().all(stays) { 0.0 } else { unloaded().map(|i| loading(i) * (1.0 - softer)).sum() };
+        let stays = |i: usize| left < loading(i) * softer(i) && forces[i] <= self.touches[i].limit(&self.contacts[i]);
+        let sinking =
+            if unloaded().all(stays) { 0.0 } else { unloaded().map(|i| loading(i) * (1.0 - softer(i))).sum() };
         let yielding = left + sinking;
         Some(Weighed { forces, left, yielding, by_weight })
     }
@@ -170,11 +167,11 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
     /// where it is under any weight.
     fn line(&self, arms: &P::Arms, i: usize, height: f64) -> [f64; 2] {
         let touch = &self.touches[i];
-        match (touch.state, self.contact.law().leaves_a_dent()) {
+        match (touch.state, self.leave_dents()) {
             (State::Away, _) => [self.stiffness(arms, i), 0.0],
             (State::Loading, _) | (State::Parted, false) => [touch.stiffness, touch.ground],
             (State::Parted, true) => [self.stiffness(arms, i), touch.zero],
-            (State::Elastic, _) => [touch.stiffness * self.contact.unloading(), touch.zero],
+            (State::Elastic, _) => [touch.stiffness * self.contacts[i].unloading(), touch.zero],
             (State::Lying, _) => [f64::INFINITY, height],
         }
     }
@@ -187,7 +184,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
                 return None;
             }
             let (height, _) = self.pose.points();
-            let forces = std::array::from_fn(|k| match self.touches[k].hold(self.contact) {
+            let forces = std::array::from_fn(|k| match self.touches[k].hold(&self.contacts[k]) {
                 Hold::On(line) => line.stiffness * (line.zero - height[k]).max(0.0),
                 Hold::No | Hold::Lies => 0.0,
             });
@@ -195,7 +192,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
             let those = || (0..N).filter(|&k| lying[k]);
             if let Some(k) = those().find(|&k| forces[k] < 0.0) {
                 self.apply(k, Event::Parts);
-            } else if let Some(k) = those().find(|&k| forces[k] > self.touches[k].limit(self.contact)) {
+            } else if let Some(k) = those().find(|&k| forces[k] > self.touches[k].limit(&self.contacts[k])) {
                 self.apply(k, Event::Reloads);
             } else {
                 return Some(forces);

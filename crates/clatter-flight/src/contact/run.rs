@@ -41,7 +41,8 @@ const EACH_STRIKE: usize = 128;
 const MARGIN: f64 = 1e-14;
 
 pub(crate) struct Run<'a, P: Pose<N>, const N: usize> {
-    pub(super) contact: &'a Contact,
+    /// That of each point; of one law.
+    pub(super) contacts: &'a [Contact; N],
     pub(super) precision: f64,
     pub(super) margins: Margins,
     pub(super) extent: Extent,
@@ -72,10 +73,10 @@ struct Lasting<P: Pose<N>, const N: usize> {
 
 impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     /// From the first touch.
-    pub(crate) fn new(pose: P, log: Log<N>, contact: &'a Contact, precision: f64) -> Self {
+    pub(crate) fn new(pose: P, log: Log<N>, contacts: &'a [Contact; N], precision: f64) -> Self {
         let extent = pose.extent();
         Self {
-            contact,
+            contacts,
             precision,
             margins: Margins { height: MARGIN * extent.size, velocity: 0.0, force: precision },
             extent,
@@ -185,7 +186,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         let Flight { strikes, pivots, stop } = log.flight;
         let course = Course::Contacts(Phases {
             precision,
-            contact_s: self.contact.time_s(),
+            contacts: *self.contacts,
             end_s: stop.time_s(),
             rests: matches!(stop, Stop::AtRest { .. }),
             list: phases,
@@ -193,16 +194,16 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             end,
             resting,
         });
-        let model = Model::Contacts(*self.contact);
+        let model = Model::Contacts(self.contacts[0]);
         crate::Motion { strikes, pivots, presses, stop, later_m_s, energy_error, model, course }
     }
 
     fn next(&mut self) -> Lasting<P, N> {
-        let holds = self.touches.map(|touch| touch.hold(self.contact));
+        let holds = self.holds();
         if holds.iter().any(|hold| !matches!(hold, Hold::No)) {
             self.lay_down();
             self.stop_lying();
-            return self.pressed(self.touches.map(|touch| touch.hold(self.contact)));
+            return self.pressed(self.holds());
         }
         let phase = Phase::free(self.pose);
         let upright = self.pose.upright();
@@ -213,15 +214,21 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
 
     /// A phase with forces, with lever arms and of a length as its precision asks.
     fn pressed(&mut self, holds: [Hold; N]) -> Lasting<P, N> {
-        let delay = self.contact.delay_s();
+        let delay = self.contacts[0].delay_s();
         let arms = self.pose.arms();
         // What a turn changes the lever arms by, over themselves.
         let steep = (0..N)
             .filter(|&i| self.touches[i].is_pressing())
             .fold(0.1_f64, |most, i| most.max(self.pose.steepness(&arms, i)));
-        let budget = self.precision.min(self.contact.springs_back()) * self.fastest;
+        let of_pressing = |of: &dyn Fn(&Contact) -> f64| {
+            let pressing = (0..N).filter(|&i| self.touches[i].is_pressing());
+            pressing.fold(f64::INFINITY, |least, i| least.min(of(&self.contacts[i])))
+        };
+        let budget = self.precision.min(of_pressing(&Contact::springs_back)) * self.fastest;
+        // The shortest of those that press.
+        let contact_s = of_pressing(&Contact::time_s);
         let mut longest = self.stride;
-        let mut halfway = self.pose.flown(0.5 * longest.min(0.5 * self.contact.time_s()));
+        let mut halfway = self.pose.flown(0.5 * longest.min(0.5 * contact_s));
         let ([_, spin], reach) = (self.pose.angles(), self.extent.reach);
         let (mut passes, mut cuts) = (0, 0);
         // Whether the lever arms are those of now, and how long the phase was by the last lever arms.
@@ -230,7 +237,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             let phase = Phase::new(self.pose, &halfway, holds, delay);
             let slowest = (reach / self.pose.gravity()).sqrt().min(spin.abs().recip());
             let swing = if phase.is_still() && slowest < f64::INFINITY { 0.1 * slowest } else { 0.0 };
-            longest = longest.min(swing.max(LONG * self.contact.time_s()));
+            longest = longest.min(swing.max(LONG * contact_s));
             let event = self.first_event(&phase, longest);
             let dt = event.map_or(longest, |(t, _)| t);
             let Mean { pose, turn, pushed, off: gap, end } = self.mean(&phase, dt);
@@ -241,7 +248,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
                 continue;
             }
             // An event that the lever arms of later bring about now: those of now tell, or a load and a rest take turns for ever.
-            if !early && dt < AT_ONCE * self.contact.time_s() && passes < PASSES {
+            if !early && dt < AT_ONCE * contact_s && passes < PASSES {
                 passes += 1;
                 longest = longest.min(0.5 * before);
                 (halfway, early) = (self.pose, true);
@@ -272,7 +279,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     /// the ground would pull, or push at once.
     fn pressed_off(&self, phase: &Phase<P, N>, dt: f64, event: Option<(f64, Option<(usize, Watch)>)>, end: &P) -> f64 {
         let Some((_, Some((i, watch)))) = event else { return 0.0 };
-        if watch.event != Event::Presses || self.contact.law().leaves_a_dent() {
+        if watch.event != Event::Presses || self.leave_dents() {
             return 0.0;
         }
         let rate = (self.touches[i].stiffness * self.pose.coupled(i, i)).sqrt();
@@ -312,7 +319,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         // Points that press first: what they end is short.
         let pressing = |i: &usize| phase.lines[*i].is_some();
         for i in (0..N).filter(pressing).chain((0..N).filter(|i| !pressing(i))) {
-            for watch in self.touches[i].watches(self.contact, &self.margins).into_iter().flatten() {
+            for watch in self.touches[i].watches(&self.contacts[i], &self.margins).into_iter().flatten() {
                 let cap = found.map_or(cap, |(t, _)| t);
                 match self.when(phase, i, &watch, &modes, cap) {
                     Zero::Never => {}
@@ -327,7 +334,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     /// What is watched at a point that lies and is below this as a phase begins is no rounding: what holds it has changed with the last
     /// event, and it bears more or less than it can.
     fn overcome(&self, phase: &Phase<P, N>, i: usize) -> f64 {
-        if phase.lies[i] { -BEARS * self.touches[i].limit(self.contact) } else { f64::NEG_INFINITY }
+        if phase.lies[i] { -BEARS * self.touches[i].limit(&self.contacts[i]) } else { f64::NEG_INFINITY }
     }
 
     /// When what is watched at a point happens, if before `cap`.
@@ -407,7 +414,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
                 let falls = slope <= 0.0 || dt == 0.0 && v < self.overcome(phase, i);
                 other.event == watch.event && v <= value && falls
             };
-            let mut watches = self.touches[i].watches(self.contact, &self.margins).into_iter().flatten();
+            let mut watches = self.touches[i].watches(&self.contacts[i], &self.margins).into_iter().flatten();
             *due = if i == point { Some(watch.event) } else { watches.find(comes_too).map(|w| w.event) };
         }
         (0..N).all(|i| due[i].is_none_or(|event| self.apply(i, event)))
@@ -418,9 +425,9 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         let (h, v) = (height[i], velocity[i]);
         match event {
             Event::Touches => return self.touch(i, h, v),
-            Event::Crests => self.touches[i].crest(h, self.contact),
+            Event::Crests => self.touches[i].crest(h, &self.contacts[i]),
             Event::Parts => {
-                self.touches[i].part(h, v, self.contact);
+                self.touches[i].part(h, v, &self.contacts[i]);
                 let strike = self.touches[i].strike;
                 self.presses[strike].until_s = self.time.now();
                 let strike = &mut self.log.flight.strikes[strike];
@@ -432,7 +439,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             Event::Presses => {
                 let dented = self.touches[i];
                 let goes_on = self.touch(i, h, v);
-                if !self.contact.law().leaves_a_dent() {
+                if !self.leave_dents() {
                     // It presses again from the ground, as stiff as before.
                     let strike = self.touches[i].strike;
                     self.touches[i] = Touch { state: State::Loading, strike, ..dented };
@@ -471,7 +478,17 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
 
     /// Stiffness that a lone contact of a point has at this angle as it loads.
     pub(super) fn stiffness(&self, arms: &P::Arms, i: usize) -> f64 {
-        self.contact.frequency_rad_s().powi(2) / self.pose.coupling(arms, i, i)
+        self.contacts[i].frequency_rad_s().powi(2) / self.pose.coupling(arms, i, i)
+    }
+
+    /// How the ground carries the points.
+    fn holds(&self) -> [Hold; N] {
+        std::array::from_fn(|i| self.touches[i].hold(&self.contacts[i]))
+    }
+
+    /// Whether the law takes energy by dents; it is one for all points.
+    pub(super) fn leave_dents(&self) -> bool {
+        self.contacts[0].law().leaves_a_dent()
     }
 }
 

@@ -75,9 +75,9 @@ pub(crate) struct Plain {
     gyration: f64,
     gravity: f64,
     law: ContactLaw,
-    e: f64,
-    /// Rate of a lone contact, and θ of a dashpot.
-    omega: f64,
+    /// Of each point its restitution and the rate of a lone contact, and θ of dashpots.
+    e: Vec<f64>,
+    omega: Vec<f64>,
     theta: f64,
     touching: Vec<Point>,
     pub(crate) state: State,
@@ -145,8 +145,8 @@ impl Plain {
             gyration,
             gravity,
             law,
-            e,
-            omega,
+            e: vec![e; points.len()],
+            omega: vec![omega; points.len()],
             theta,
             touching: vec![away; points.len()],
             state: [0.0; 4],
@@ -157,6 +157,15 @@ impl Plain {
             fine: 100.0,
             part: None,
         }
+    }
+    /// With hysteretic contacts of restitutions and times of their own.
+    pub(crate) fn with_own(mut self, own: &[(f64, f64)]) -> Self {
+        self.e = own.iter().map(|(e, _)| *e).collect();
+        self.omega = own.iter().map(|(e, time)| 0.5 * std::f64::consts::PI * (1.0 + e) / time).collect();
+        self
+    }
+    fn fastest(&self) -> f64 {
+        self.omega.iter().fold(0.0, |most, omega| most.max(*omega))
     }
     pub(crate) fn start(mut self, speed: f64, tilt: f64, spin: f64) -> Self {
         self.state = [0.0, -speed, tilt, spin];
@@ -180,7 +189,7 @@ impl Plain {
     }
     /// Depth at which the steeper line of a point has no force, and that of its deepest.
     fn plastic(&self, i: usize) -> f64 {
-        self.touching[i].ground + self.touching[i].deepest * (1.0 - self.e * self.e)
+        self.touching[i].ground + self.touching[i].deepest * (1.0 - self.e[i] * self.e[i])
     }
     fn crest(&self, i: usize) -> f64 {
         self.touching[i].ground + self.touching[i].deepest
@@ -192,7 +201,7 @@ impl Plain {
                 let (d, rate, k) = (-self.height(s, i), -self.velocity(s, i), self.touching[i].stiffness);
                 match self.touching[i].mode {
                     Mode::Load => k * (d - self.touching[i].ground + self.theta * rate),
-                    Mode::Unload => k / (self.e * self.e) * (d - self.plastic(i)),
+                    Mode::Unload => k / (self.e[i] * self.e[i]) * (d - self.plastic(i)),
                     Mode::Away | Mode::Gap | Mode::Held => 0.0,
                 }
             })
@@ -256,7 +265,7 @@ impl Plain {
         match p.mode {
             Mode::Away => [(h, Mode::Load), never],
             Mode::Load if dashpot => [(press, Mode::Gap), never],
-            Mode::Load => [(-v, if self.e > 0.0 { Mode::Unload } else { Mode::Held }), never],
+            Mode::Load => [(-v, if self.e[i] > 0.0 { Mode::Unload } else { Mode::Held }), never],
             Mode::Unload => [(-h - self.plastic(i), Mode::Gap), (self.crest(i) + h, Mode::Load)],
             Mode::Held => {
                 let force = self.forces(s)[i];
@@ -274,7 +283,7 @@ impl Plain {
             ContactLaw::Dashpot if dented => Point { mode: Mode::Load, ..self.touching[i] },
             _ => {
                 let ground = if dented { self.plastic(i) } else { 0.0 };
-                Point { mode: Mode::Load, stiffness: self.omega.powi(2) / mu, ground, deepest: 0.0 }
+                Point { mode: Mode::Load, stiffness: self.omega[i].powi(2) / mu, ground, deepest: 0.0 }
             }
         };
         // A dashpot may press again as it rises ever more slowly.
@@ -315,13 +324,14 @@ impl Plain {
             let close = (0..self.points.len())
                 .map(|i| 0.3 * self.height(s, i).abs() / (self.velocity(s, i).abs() + 1e-9))
                 .fold(f64::INFINITY, f64::min);
-            return close.clamp(0.01 / self.omega, turn.min(0.01 * (size / self.gravity.max(1e-9)).sqrt()));
+            return close.clamp(0.01 / self.fastest(), turn.min(0.01 * (size / self.gravity.max(1e-9)).sqrt()));
         }
         let mu = 1.0 + (size / self.gyration).powi(2);
         let stiffest = self
             .touching
             .iter()
-            .fold(0.0_f64, |m, p| m.max(p.stiffness * if p.mode == Mode::Unload { self.e.powi(-2) } else { 1.0 }));
+            .zip(&self.e)
+            .fold(0.0_f64, |m, (p, e)| m.max(p.stiffness * if p.mode == Mode::Unload { e.powi(-2) } else { 1.0 }));
         let rate = (2.0 * stiffest * mu).sqrt();
         (1.0 / (self.fine * rate.max(self.theta * rate * rate))).min(turn)
     }

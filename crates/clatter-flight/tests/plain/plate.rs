@@ -34,8 +34,8 @@ pub(crate) struct PlainPlate {
     gyration: [f64; 2],
     gravity: f64,
     law: ContactLaw,
-    e: f64,
-    omega: f64,
+    e: [f64; 4],
+    omega: [f64; 4],
     theta: f64,
     state: State,
     pub(crate) time: f64,
@@ -114,8 +114,8 @@ impl PlainPlate {
             gyration: drop.gyration,
             gravity: drop.gravity,
             law: drop.law,
-            e: drop.e,
-            omega,
+            e: [drop.e; 4],
+            omega: [omega; 4],
             theta,
             state: [-lowest, slopes[0], slopes[1], -drop.speed, 0.0, 0.0],
             time: 0.0,
@@ -124,6 +124,17 @@ impl PlainPlate {
             fine: 100.0,
         };
         let low: Vec<usize> = (0..4).filter(|&i| plate.height(&plate.state, i) <= 0.0).collect();
+        for i in low {
+            plate.touch(i);
+        }
+        plate
+    }
+    /// With hysteretic contacts of restitutions and times of their own.
+    pub(crate) fn own(drop: &Drop, own: [(f64, f64); 4]) -> Self {
+        let mut plate = Self::new(drop);
+        plate.e = own.map(|(e, _)| e);
+        plate.omega = own.map(|(e, time)| std::f64::consts::FRAC_PI_2 * (1.0 + e) / time);
+        let low: Vec<usize> = plate.touches.drain(..).map(|touch| touch.point).collect();
         for i in low {
             plate.touch(i);
         }
@@ -179,13 +190,13 @@ impl PlainPlate {
         let (corner, depth, sinking) = (&self.corners[i], -self.height(s, i), -self.velocity(s, i));
         match corner.mode {
             Mode::Load => corner.stiffness * (depth - corner.ground + self.theta * sinking),
-            Mode::Unload => corner.stiffness / (self.e * self.e) * (depth - self.rest(i)),
+            Mode::Unload => corner.stiffness / (self.e[i] * self.e[i]) * (depth - self.rest(i)),
             Mode::Away | Mode::Held | Mode::Gap => 0.0,
         }
     }
     /// Depth at which the steeper line has no force.
     fn rest(&self, i: usize) -> f64 {
-        self.corners[i].ground + self.corners[i].deepest * (1.0 - self.e * self.e)
+        self.corners[i].ground + self.corners[i].deepest * (1.0 - self.e[i] * self.e[i])
     }
     fn rates(&self, s: &State) -> State {
         self.rates_by(s, &self.forces(s))
@@ -216,7 +227,9 @@ impl PlainPlate {
         match (corner.mode, self.law) {
             (Mode::Away, _) => [(h, Mode::Load), never],
             (Mode::Load, ContactLaw::Dashpot) => [(press, Mode::Gap), never],
-            (Mode::Load, ContactLaw::Hysteretic) => [(-v, if self.e > 0.0 { Mode::Unload } else { Mode::Held }), never],
+            (Mode::Load, ContactLaw::Hysteretic) => {
+                [(-v, if self.e[i] > 0.0 { Mode::Unload } else { Mode::Held }), never]
+            }
             (Mode::Held, _) => {
                 let force = self.forces(s)[i];
                 [(force, Mode::Gap), (corner.stiffness * corner.deepest - force, Mode::Load)]
@@ -231,7 +244,7 @@ impl PlainPlate {
         let ground = if dented && self.law == ContactLaw::Hysteretic { self.rest(i) } else { 0.0 };
         let [x, y] = self.corners[i].at;
         let lone = 1.0 + (x / self.gyration[0]).powi(2) + (y / self.gyration[1]).powi(2);
-        let stiffness = self.omega.powi(2) / lone;
+        let stiffness = self.omega[i].powi(2) / lone;
         self.corners[i] = Corner { at: [x, y], mode: Mode::Load, stiffness, ground, deepest: 0.0 };
         self.touches.push(Touch { point: i, time: self.time, approach: self.velocity(&self.state, i).min(0.0) });
     }
@@ -246,10 +259,10 @@ impl PlainPlate {
         self.corners[i].mode = mode;
     }
     fn length(&self) -> f64 {
-        let pressing = |corner: &&Corner| matches!(corner.mode, Mode::Load | Mode::Unload | Mode::Held);
+        let pressing = |corner: &Corner| matches!(corner.mode, Mode::Load | Mode::Unload | Mode::Held);
         let mut rate = 0.0_f64;
-        for corner in self.corners.iter().filter(pressing) {
-            let lone = self.omega * if corner.mode == Mode::Unload { 1.0 / self.e } else { 1.0 };
+        for (i, corner) in self.corners.iter().enumerate().filter(|(_, corner)| pressing(corner)) {
+            let lone = self.omega[i] * if corner.mode == Mode::Unload { 1.0 / self.e[i] } else { 1.0 };
             rate = rate.max(2.0 * lone).max(4.0 * self.theta * lone * lone);
         }
         if rate > 0.0 {
@@ -258,7 +271,7 @@ impl PlainPlate {
         let close = (0..4)
             .map(|i| 0.3 * self.height(&self.state, i).abs() / (self.velocity(&self.state, i).abs() + 1e-9))
             .fold(f64::INFINITY, f64::min);
-        close.clamp(0.01 / self.omega, 1e-3)
+        close.clamp(0.01 / self.omega.into_iter().fold(0.0, f64::max), 1e-3)
     }
     fn advance(&mut self, until: f64) {
         let of_part = self.part.map_or(f64::INFINITY, |part| 0.02 / part.omega);

@@ -1,6 +1,8 @@
 //! What an assessment was made from, in words: the product, its drop, how a part is held.
 
-use clatter_assess::{Assessment, Axis, Component, Damping, Drop, Fall, First, Mount, ProductFile, Spread, Width};
+use clatter_assess::{
+    Assessment, Axis, Component, Damping, Drop, Fall, First, Mount, OwnContact, ProductFile, Spread, Width,
+};
 use clatter_figures::{model_words as model, three};
 
 use crate::Pages;
@@ -29,6 +31,9 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
             add("Contact", format!("{who} touches for {}; {}", range(&time, 1e-3, "ms"), product.law().words()));
         }
         None => add("Contact", "no contact time is given: impacts are instants".to_owned()),
+    }
+    if !product.own_contacts.is_none() {
+        add("Own contacts", own_contacts(file));
     }
     add("Drop", drop(file));
     let tilt = degrees(&file.drop.tilt_rad);
@@ -104,6 +109,17 @@ fn feet(file: &ProductFile) -> String {
     let ([x, y], high) = (feet.inset_m.map(millimeters), millimeters(feet.height_m));
     let inside = if file.product.width.is_some() { format!("{x} and {y}") } else { x };
     format!(", on feet {inside} inside the edges and {high} high")
+}
+
+/// Contacts of their own, each with what it has of its own.
+fn own_contacts(file: &ProductFile) -> String {
+    let place = if file.product.width.is_some() { "corner" } else { "end" };
+    let one = |(at, own): (&str, OwnContact)| {
+        let e = own.restitution.map(|e| format!("restitution {}", three(e)));
+        let time = own.contact_time_s.map(|time_s| format!("touches for {} ms", three(1e3 * time_s)));
+        format!("{place} {at}: {}", e.into_iter().chain(time).collect::<Vec<_>>().join(", "))
+    };
+    file.product.own_contacts.given().map(one).collect::<Vec<_>>().join("; ")
 }
 
 /// Sides of a plate.

@@ -31,8 +31,8 @@ fn nothing_after_rest_passes_its_bound() {
         let upward = if speed < 0.1 { [1e-3 * along, 1.0, 0.02 * across] } else { [0.6 * along, 0.6 * across, 0.5] };
         let drop = BlockDrop::upright(block(size), upward, speed, GRAVITY).unwrap();
         let law = if n % 2 == 0 { ContactLaw::Hysteretic } else { ContactLaw::Dashpot };
-        let contact = Contact::new(law, 0.1 + 0.5 * x(23), 1e-4).unwrap();
-        let mut run = Run::new(&drop, &contact);
+        let contacts = [Contact::new(law, 0.1 + 0.5 * x(23), 1e-4).unwrap(); 8];
+        let mut run = Run::new(&drop, &contacts);
         run.first_touches();
         let bound = loop {
             match run.ends() {
@@ -59,8 +59,8 @@ fn nothing_after_rest_passes_its_bound() {
 #[test]
 fn dents_add_up() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap();
-    let mut run = Run::new(&drop, &contact);
+    let contacts = [Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap(); 8];
+    let mut run = Run::new(&drop, &contacts);
     run.first_touches();
     let i = run.strikes[0].corner;
     // Two presses by 10 µm, of which a quarter springs back.
@@ -76,9 +76,9 @@ fn dents_add_up() {
 #[test]
 fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap();
+    let contacts = [Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap(); 8];
     for (off, ends) in [(0.0099, false), (0.0101, true)] {
-        let mut run = Run::new(&drop, &contact);
+        let mut run = Run::new(&drop, &contacts);
         run.misfit = off * run.opened;
         assert_eq!(matches!(run.ends(), Some(Stop::EnergyLimit { .. })), ends, "off by {off}");
     }
@@ -88,10 +88,10 @@ fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
 #[test]
 fn without_gravity_it_is_clear_where_no_corner_reaches_the_ground() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, 0.0).unwrap();
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap();
+    let contacts = [Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap(); 8];
     let reach = 0.5 * (0.15_f64.powi(2) + 0.07_f64.powi(2) + 0.014_f64.powi(2)).sqrt();
     for (height, rises, clear) in [(0.99, 1.0, false), (1.01, 1.0, true), (1.01, -1.0, false)] {
-        let mut run = Run::new(&drop, &contact);
+        let mut run = Run::new(&drop, &contacts);
         (run.y[0], run.y[1]) = (height * reach, rises);
         assert_eq!(matches!(run.ends(), Some(Stop::BouncedClear { .. })), clear, "{height}, {rises}");
     }
@@ -102,7 +102,7 @@ fn without_gravity_it_is_clear_where_no_corner_reaches_the_ground() {
 fn no_corner_of_a_spinning_box_is_faster_than_reckoned_with() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
     let drop = drop.with_spin([5.0, -20.0, 3.0]).unwrap();
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap();
-    let fastest = fastest(&Run::new(&drop, &contact));
+    let contacts = [Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap(); 8];
+    let fastest = fastest(&Run::new(&drop, &contacts));
     assert!(fastest > 2.0 && drop.fastest() >= fastest && drop.fastest() < 1.5 * fastest, "{fastest}");
 }

@@ -6,9 +6,9 @@ use crate::ContactLaw;
 use crate::{Body, Scene};
 
 /// A flight whose end a has just touched, and the phase in which it presses.
-fn pressing<'a>(scene: &Scene<2>, contact: &'a Contact) -> (Run<'a, Planar<2>, 2>, Phase<Planar<2>, 2>, f64) {
+fn pressing<'a>(scene: &Scene<2>, contacts: &'a [Contact; 2]) -> (Run<'a, Planar<2>, 2>, Phase<Planar<2>, 2>, f64) {
     let log = Log::new(f64::INFINITY, 100_000);
-    let mut run = Run::new(Planar::start(scene), log, contact, 1e-4);
+    let mut run = Run::new(Planar::start(scene), log, contacts, 1e-4);
     assert!(run.first_touches(), "end a is on the ground and comes down");
     let Lasting { phase, dt, .. } = run.next();
     (run, phase, dt)
@@ -21,13 +21,13 @@ fn scene() -> Scene<2> {
 /// A phase whose springs are said to be half as stiff again as those that the motion is of gives the body energy that nothing put in.
 #[test]
 fn a_phase_that_makes_energy_is_no_motion() {
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap();
-    let (mut run, phase, dt) = pressing(&scene(), &contact);
+    let contacts = [Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap(); 2];
+    let (mut run, phase, dt) = pressing(&scene(), &contacts);
     // As the spring is pressed.
     let dt = 0.5 * dt;
     run.advance(&phase, dt).unwrap();
     assert!(run.misfit < 1e-6 * run.opened, "a sound phase keeps it: {}", run.misfit / run.opened);
-    let (mut run, mut phase, _) = pressing(&scene(), &contact);
+    let (mut run, mut phase, _) = pressing(&scene(), &contacts);
     for line in phase.lines.iter_mut().flatten() {
         line.stiffness *= 1.5;
     }
@@ -38,9 +38,9 @@ fn a_phase_that_makes_energy_is_no_motion() {
 /// Each of many phases may be off by little: their sum ends the flight.
 #[test]
 fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap();
+    let contacts = [Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap(); 2];
     for (off, ends) in [(0.0099, false), (0.0101, true)] {
-        let (mut run, ..) = pressing(&scene(), &contact);
+        let (mut run, ..) = pressing(&scene(), &contacts);
         run.misfit = off * run.opened;
         assert_eq!(run.step(&mut |_| false).unwrap(), !ends, "off by {off}");
         assert_eq!(matches!(run.log.flight.stop, Stop::EnergyLimit { .. }), ends, "off by {off}");

@@ -1,0 +1,205 @@
+//! Products whose ends or corners have contacts of their own.
+
+use clatter::End;
+use clatter_assess::design::{Bounds, Plane};
+use clatter_assess::{
+    Accuracy, Assessment, DataFault, Error, Limit, LimitKind, Model, OwnContact, OwnContacts, Part, Plan, ProductFile,
+    SingleDrop, Verdict, answer,
+};
+use clatter_flight::{Body, ContactLaw};
+
+/// A drill of 300 mm on its side, a soft bumper at end b; the part is on that side of it.
+const BAR: &str = r#"
+product = { name = "drill", length = "300 mm", radius_of_gyration = "90 mm", center_of_mass = "10 mm", restitution = [0.3, 0.4], contact_time = "0.5 ms", contact_law = "hysteretic", contacts = [{ at = "b", restitution = 0.1, contact_time = "1.5 ms" }] }
+drop = { height = "1 m", tilt = ["1 deg", "9 deg"], first = "either" }
+component = [
+    { name = "drive", position = "60 mm", natural_frequency = "150 Hz", damping_ratio = 0.1, acceleration_limit = "900 gn" },
+    { name = "crystal", position = "100 mm", mount = "hard", acceleration_limit = "9000 gn", velocity_change_limit = "12 m/s" },
+]
+"#;
+
+/// A tablet with one soft corner, which rises away from it.
+const PLATE: &str = r#"
+product = { name = "tablet", length = "240 mm", width = "170 mm", radius_of_gyration = ["69 mm", "49 mm"], restitution = 0.3, contact_time = "0.6 ms", contact_law = "hysteretic", contacts = [{ at = "a", restitution = 0.05, contact_time = "2 ms" }] }
+drop = { height = "1 m", tilt = ["1 deg", "6 deg"], direction = ["20 deg", "50 deg"] }
+component = [{ name = "crystal", position = ["-60 mm", "30 mm"], mount = "hard", acceleration_limit = "9000 gn", velocity_change_limit = "12 m/s" }]
+"#;
+
+fn read(text: &str) -> ProductFile {
+    ProductFile::read(text, "product.toml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn assess(text: &str) -> Assessment {
+    read(text).assess().expect("an assessment")
+}
+
+fn demands(assessment: &Assessment) -> Vec<f64> {
+    let limits = assessment.components.iter().flat_map(|part| &part.limits);
+    limits.map(|limit| limit.demand.expect("an answer")).collect()
+}
+
+fn alike(one: &[f64], other: &[f64], within: f64) -> bool {
+    one.len() == other.len() && one.iter().zip(other).all(|(a, b)| (a / b - 1.0).abs() < within)
+}
+
+/// Contacts that are given one by one as the product has them change nothing, to the last bit.
+#[test]
+fn contacts_that_are_those_of_the_product_change_nothing() {
+    let value = BAR.replace("[0.3, 0.4]", "0.3");
+    let given = "contacts = [{ at = \"b\", restitution = 0.1, contact_time = \"1.5 ms\" }]";
+    let none = value.replace(&format!(", {given}"), "");
+    let same = value
+        .replace(given, "contacts = [{ at = \"a\", restitution = 0.3 }, { at = \"b\", contact_time = \"0.5 ms\" }]");
+    assert!(!none.contains("contacts") && same.contains("at = \"a\""));
+    let [none, same, own] = [&none, &same, &value].map(|text| demands(&assess(text)));
+    assert_eq!(
+        none.iter().map(|x| x.to_bits()).collect::<Vec<_>>(),
+        same.iter().map(|x| x.to_bits()).collect::<Vec<_>>()
+    );
+    assert!(!alike(&none, &own, 0.01), "a bumper counts: {own:?} beside {none:?}");
+}
+
+/// Seen from behind, or from the other corner, it is the same product.
+#[test]
+fn a_mirrored_product_has_the_same_answers() {
+    let turned = BAR
+        .replace("center_of_mass = \"10 mm\"", "center_of_mass = \"-10 mm\"")
+        .replace("at = \"b\"", "at = \"a\"")
+        .replace("position = \"", "position = \"-");
+    assert!(alike(&demands(&assess(BAR)), &demands(&assess(&turned)), 1e-6));
+    let turned = PLATE
+        .replace("[\"20 deg\", \"50 deg\"]", "[\"200 deg\", \"230 deg\"]")
+        .replace("at = \"a\"", "at = \"c\"")
+        .replace("[\"-60 mm\", \"30 mm\"]", "[\"60 mm\", \"-30 mm\"]");
+    let [one, other] = [PLATE, &turned].map(assess);
+    assert!(alike(&demands(&one), &demands(&other), 1e-6), "{:?} {:?}", demands(&one), demands(&other));
+    let elsewhere = demands(&assess(&PLATE.replace("at = \"a\"", "at = \"c\"")));
+    assert!(!alike(&demands(&one), &elsewhere, 0.01), "{elsewhere:?}");
+}
+
+/// Of a body that is even but for its bumper neither end first stands for the other.
+#[test]
+fn either_end_first_is_the_worse_of_both() {
+    let even = BAR.replace("center_of_mass = \"10 mm\", ", "");
+    let of = |first: &str| demands(&assess(&even.replace("\"either\"", first)));
+    let [a, b, both] = ["\"a\"", "\"b\"", "\"either\""].map(of);
+    for ((a, b), both) in a.iter().zip(&b).zip(&both) {
+        // The search climbs from the worst of all.
+        assert!((both / a.max(*b) - 1.0).abs() < 0.02, "{both}, {a} and {b}");
+    }
+    assert!(!alike(&a, &b, 0.01), "{a:?} {b:?}");
+}
+
+fn drop(first: End) -> SingleDrop {
+    let own = OwnContact { restitution: Some(0.1), contact_time_s: Some(1.5e-3) };
+    SingleDrop {
+        body: Body::new(0.3, 0.15).unwrap(),
+        across: None,
+        first,
+        tilt_rad: 0.05,
+        flat: false,
+        speed_m_s: 2.0,
+        restitution: 0.4,
+        gravity_m_s2: 0.0,
+        contact_time_s: Some(4e-4),
+        contact_law: ContactLaw::Hysteretic,
+        feet: None,
+        own_contacts: OwnContacts([OwnContact::NONE, own, OwnContact::NONE, OwnContact::NONE]),
+    }
+}
+
+/// Of a bar with ρ = L, whose far end does nothing to it, the end that lands gets (1 + e) v at π/2 (1 + e) v/τ by its own contact.
+#[test]
+fn the_end_that_lands_gets_what_its_own_contact_gives() {
+    for (first, e, time_s, place) in [(End::A, 0.4, 4e-4, -0.15), (End::B, 0.1, 1.5e-3, 0.15)] {
+        let of = |kind| {
+            let limit = Limit::new(kind, 1.0);
+            answer(&drop(first), &Part::new(place, None), &limit, Model::Compliant, 1e-3).unwrap()
+        };
+        let [change, peak] = [LimitKind::VelocityChange, LimitKind::Acceleration].map(of);
+        // Tilted by 0.05 the ends couple by 3e-3, of which the far end lands on its harder contact.
+        assert!((change.value / (2.0 * (1.0 + e)) - 1.0).abs() < 1e-3 && change.impact == 1, "{first:?}: {change:?}");
+        let most = std::f64::consts::FRAC_PI_2 * (1.0 + e) * 2.0 / time_s;
+        assert!((peak.value / most - 1.0).abs() < 2e-3, "{first:?}: {peak:?}, not {most}");
+    }
+    let limit = Limit::new(LimitKind::VelocityChange, 1.0);
+    let said = answer(&drop(End::A), &Part::new(0.1, None), &limit, Model::FiniteTilt, 1e-3).unwrap_err();
+    assert_eq!(said, Error::OwnContacts(Model::FiniteTilt));
+}
+
+/// No drop exceeds what the energy allows by the stiffest of all contacts, and what is called safe has room for it.
+#[test]
+fn demands_are_within_what_energy_allows() {
+    for text in [BAR, PLATE] {
+        for limit in assess(text).components.iter().flat_map(|part| &part.limits) {
+            let within = limit.bound.is_none_or(|bound| limit.demand.unwrap() <= bound);
+            assert!(within && limit.verdict == Verdict::Safe, "{limit:?}");
+            let own = limit.worst_case.as_ref().unwrap().drop.own_contacts;
+            assert!(!own.is_none() && limit.other_law.is_none(), "followed with its contacts, by their law alone");
+        }
+    }
+    // A bumper that is harder than the product counts in the bound too.
+    let hard =
+        PLATE.replace("restitution = 0.05, contact_time = \"2 ms\"", "restitution = 0.6, contact_time = \"0.1 ms\"");
+    let [soft, hard] = [PLATE, &hard].map(|text| assess(text).components[0].limits[0].bound.unwrap());
+    assert!(hard > 2.0 * soft, "{hard}, {soft}");
+}
+
+/// What knows no contacts of their own says so.
+#[test]
+fn what_takes_contacts_that_are_alike_says_so() {
+    let file = read(BAR);
+    let accuracy = Accuracy { model: Some(Model::Map), ..Accuracy::default() };
+    assert_eq!(file.assess_to(&accuracy).unwrap_err(), Error::OwnContacts(Model::Map));
+    let plane = Plane::of(&file, &Bounds::default()).unwrap_err().to_string();
+    assert!(plane.contains("takes a product whose contacts are alike"), "{plane}");
+    let mut lively = read(PLATE);
+    lively.product.own_contacts.0[2].restitution = Some(1.5);
+    let Err(Error::Data { fault: DataFault::Value { field: "restitution", .. }, .. }) = lively.check() else {
+        panic!("{:?}", lively.check())
+    };
+    let mut dashpot = file;
+    dashpot.product.contact_law = None;
+    assert_eq!(dashpot.check(), Err(DataFault::OwnContactsLaw.into()));
+}
+
+/// A study varies a contact by its place.
+#[test]
+fn a_grid_varies_a_contact() {
+    let plan = "product = \"p.toml\"\nsearch = true\n[grid]\nproduct.contacts.b.restitution = [0.05, 0.2]";
+    let family = Plan::read(plan, "plan.toml").unwrap().family(BAR, "p.toml").unwrap();
+    let own = |k: u64| family.member(k).unwrap().product.own_contacts.0[1].restitution;
+    assert_eq!((own(0), own(1)), (Some(0.05), Some(0.2)));
+}
+
+/// One message each, with what is allowed.
+#[test]
+fn each_fault_of_a_contact_is_told() {
+    let given = "{ at = \"b\", restitution = 0.1, contact_time = \"1.5 ms\" }";
+    let contact = |other: &str| BAR.replace(given, other);
+    let record = BAR.replace("component = [", "record = [{ file = \"x.csv\" }]\ncomponent = [");
+    let of_box = PLATE
+        .replace("width = \"170 mm\"", "width = \"170 mm\", thickness = \"9 mm\"")
+        .replace("tilt = [\"1 deg\", \"6 deg\"], direction = [\"20 deg\", \"50 deg\"]", "face = \"bottom\"");
+    for (text, said) in [
+        (contact("{ at = \"e\", restitution = 0.1 }"), "`at` cannot be \"e\""),
+        (contact("{ restitution = 0.1 }"), "[[contacts]] 1 has no `at`"),
+        (contact("{ at = \"b\", restitutoin = 0.1 }"), "did you mean `restitution`?"),
+        (contact("{ at = \"b\" }"), "give its `restitution`, its `contact_time`, or both"),
+        (contact("{ at = \"b\", restitution = 0.1 }, { at = \"b\", restitution = 0.2 }"), "two contacts are at \"b\""),
+        (contact("{ at = \"b\", restitution = 1.1 }"), "`restitution` = 1.1 is out of its range"),
+        (contact("{ at = \"b\", restitution = [0.1, 0.2] }"), "`restitution` cannot be this array"),
+        (contact("{ at = \"b\", contact_time = \"0 ms\" }"), "`contact_time` = \"0 ms\" is out of its range"),
+        (contact("{ at = \"c\", restitution = 0.1 }"), "a product without `width` has no contact at \"c\""),
+        (BAR.replace(", contact_time = \"0.5 ms\"", ""), "need the `contact_time` of the others"),
+        (BAR.replace("contact_law = \"hysteretic\", ", ""), "add contact_law = \"hysteretic\""),
+        (BAR.replace("contact_law = \"hysteretic\"", "contact_law = \"dashpot\""), "dashpots that differ couple"),
+        (record, "leave one of `record` and `contacts` out"),
+        (of_box, "a box lands on any of its sides"),
+    ] {
+        let faults = ProductFile::read(&text, "product.toml").expect_err("a bad file");
+        // A key that is meant otherwise leaves its contact without what it has.
+        let most = if said.contains("did you mean") { 2 } else { 1 };
+        assert!(faults.to_string().contains(said) && faults.list().len() <= most, "{said}: {faults}");
+    }
+}
