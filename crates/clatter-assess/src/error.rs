@@ -88,6 +88,9 @@ pub enum Error {
     /// A model that does not follow plates.
     #[error("a plate is followed by the model compliant, not by {}", .0.name())]
     PlateModel(crate::Model),
+    /// What takes no spin.
+    #[error("{0} takes a drop without `spin`")]
+    NoSpin(&'static str),
     /// What takes bars alone.
     #[error("{0} takes a product without `width`")]
     OfBars(&'static str),

@@ -72,8 +72,9 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     } else {
         four(1e3 * worst.part.position_m)
     };
+    let spin = worst.spin_rad_s().map_or(String::new(), |spin| format!(", turning at {} rad/s", four(spin)));
     format!(
-        "{lands}, {} m/s, e {}{contact}{gyration}; at {place} mm{part}",
+        "{lands}, {} m/s{spin}, e {}{contact}{gyration}; at {place} mm{part}",
         four(worst.drop.speed_m_s),
         four(worst.drop.restitution),
     )

@@ -52,12 +52,12 @@ pub fn compare(
     drops: usize,
     out: &mut dyn Write,
 ) -> Result<(), String> {
-    if ["plate", "box"].contains(&kind) {
+    if spatial::KINDS.contains(&kind) {
         return spatial::compare(clatter, kind, seeds, drops, out);
     }
     let kinds: Vec<&str> = KINDS.into_iter().filter(|&name| kind == "all" || kind == name).collect();
     if kinds.is_empty() {
-        return Err(format!("--kind={kind}: one of {}, plate, box", KINDS.join(", ")));
+        return Err(format!("--kind={kind}: one of {}, {}", KINDS.join(", "), spatial::KINDS.join(", ")));
     }
     let mut reasons = BTreeMap::new();
     for kind in kinds {
@@ -228,6 +228,7 @@ pub fn repeat(worst: &Worst) -> Vec<String> {
         format!("--e={}", drop.e),
         format!("--speed-m-s={}", drop.speed),
         format!("--tilt-deg={}", if worst.flat { 0.0 } else { drop.tilt.to_degrees() }),
+        format!("--spin-rad-s={}", drop.spin),
         format!("--gravity-m-s2={}", drop.gravity),
         format!("--at={}", ((place + drop.center) / half).clamp(-1.0, 1.0)),
         "--tolerance=0.001".to_owned(),

@@ -3,7 +3,7 @@
 pub use crate::ground::Law;
 use crate::ground::{Contact, Ground, LEAST_RESTITUTION, Phase};
 
-/// A bar at the moment when its lower end touches the ground, all of it falling at one speed; SI units.
+/// A bar at the moment when its lower end touches the ground; SI units.
 #[derive(Debug, Clone, Copy)]
 pub struct Drop {
     /// From end a to end b.
@@ -16,8 +16,10 @@ pub struct Drop {
     pub e: f64,
     /// Law and time of a lone contact; none for instant impacts.
     pub contact: Option<(Law, f64)>,
-    /// Speed.
+    /// Speed of the center of mass.
     pub speed: f64,
+    /// Angular velocity, positive where the tilt grows.
+    pub spin: f64,
     /// Angle to the ground.
     pub tilt: f64,
     /// Whether end b is the lower one.
@@ -115,7 +117,8 @@ impl Bar {
 
     fn start(&self) -> State {
         let angle = if self.drop.b_first { -self.drop.tilt } else { self.drop.tilt };
-        [-self.ends[usize::from(self.drop.b_first)] * angle.sin(), angle, -self.drop.speed, 0.0]
+        let rate = if self.drop.b_first { -self.drop.spin } else { self.drop.spin };
+        [-self.ends[usize::from(self.drop.b_first)] * angle.sin(), angle, -self.drop.speed, rate]
     }
 
     fn height(&self, end: usize, s: &State) -> f64 {

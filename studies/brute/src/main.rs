@@ -11,7 +11,7 @@ use clatter_brute::{compare, hunt, product::Product, random, spatial};
 const USAGE: &str = "clatter-brute hunt PRODUCT.toml [--drops=4000] [--seed=1]
 clatter-brute random KIND SEED
 clatter-brute compare --kind=KIND|all [--seeds=1..20] [--drops=4000] [--clatter=PATH]
-KIND: instant, contacts, low-e, high-e, tiny-tilt, steep, damped, feet, all of these; plate, box; without --clatter, the command is that of CLATTER";
+KIND: instant, contacts, low-e, high-e, tiny-tilt, steep, damped, feet, spin, all of these; plate, box, spin-plate, spin-box; without --clatter, the command is that of CLATTER";
 
 /// Arguments: those in order, and options.
 struct Args(Vec<String>);
@@ -41,7 +41,7 @@ fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
         "random" => {
             let seed = args.at(2)?.parse().map_err(|_| USAGE.to_owned())?;
             let kind = args.at(1)?;
-            let in_space = ["plate", "box"].contains(&kind);
+            let in_space = spatial::KINDS.contains(&kind);
             let text = if in_space { Some(spatial::product(kind, seed)) } else { random::product(kind, seed) };
             write!(out, "{}", text.ok_or(USAGE)?)
         }

@@ -58,6 +58,7 @@ pub struct Product {
     contact: Option<(Law, Range)>,
     speed: Range,
     tilt: Range,
+    spin: Range,
     first: Vec<bool>,
     gravity: f64,
     /// The parts.
@@ -65,8 +66,8 @@ pub struct Product {
 }
 
 /// A drop and a part within all ranges, each from 0 to 1: restitution, contact time, speed, tilt, first end, place,
-/// frequency, damping.
-pub type Sample = [f64; 8];
+/// frequency, damping, spin.
+pub type Sample = [f64; 9];
 
 fn between(range: Range, share: f64) -> f64 {
     range[0] + (range[1] - range[0]) * share
@@ -85,9 +86,16 @@ impl Product {
             contact: self.contact.map(|(law, time)| (law, between(time, sample[1]))),
             speed: between(self.speed, sample[2]),
             tilt: between(self.tilt, sample[3]),
+            spin: between(self.spin, sample[8]),
             b_first: self.first[end],
             gravity: self.gravity,
         }
+    }
+
+    /// Whether it turns as it lands, at some spin of a range.
+    #[must_use]
+    pub fn spins(&self) -> bool {
+        self.spin[1] > self.spin[0]
     }
 
     /// Reads a product file.
@@ -125,6 +133,7 @@ impl Product {
             contact: optional(product, "contact_time")?.map(|time| (law, time)),
             speed,
             tilt: range(drop, "tilt")?,
+            spin: optional(drop, "spin")?.unwrap_or([0.0; 2]),
             first,
             gravity,
             parts: parts.iter().filter_map(Value::as_table).map(|t| part(t, center)).collect::<Result<_, _>>()?,

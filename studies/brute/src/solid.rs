@@ -7,7 +7,7 @@ use crate::ground::{Contact, Ground, Law, Phase};
 pub type Vector = [f64; 3];
 type Matrix = [Vector; 3];
 
-/// A box at the moment when its lowest corner touches the ground, all of it falling at one speed; SI units. Its axes run along
+/// A box at the moment when its lowest corner touches the ground; SI units. Its axes run along
 /// length, width and thickness.
 #[derive(Debug, Clone, Copy)]
 pub struct Solid {
@@ -23,8 +23,10 @@ pub struct Solid {
     pub e: f64,
     /// Law and time of a lone contact.
     pub contact: (Law, f64),
-    /// Speed.
+    /// Speed of the center of mass.
     pub speed: f64,
+    /// Angular velocity, in axes of the box.
+    pub spin: Vector,
     /// The vertical in axes of the box.
     pub upward: Vector,
     /// Gravity.
@@ -126,6 +128,9 @@ impl Body {
         for (i, x) in x.into_iter().chain(y).chain(up).enumerate() {
             s[2 + i] = x;
         }
+        let ([a, b, c], [u, v, w], off) = (self.solid.radii.map(|k| k * k), self.solid.spin, -self.solid.askew);
+        let momentum = out(&[x, y, up], [a * u + off * v, off * u + b * v, c * w]);
+        s[11..].copy_from_slice(&momentum);
         s
     }
 

@@ -24,6 +24,7 @@ fn drop_of(case: &Value) -> Drop {
         contact: Some((Law::Hysteretic, number(case, "contact_time_s"))),
         speed: number(case, "speed_m_s"),
         tilt: number(case, "tilt_deg").to_radians(),
+        spin: 0.0,
         b_first: false,
         gravity: number(case, "gravity_m_s2"),
     }

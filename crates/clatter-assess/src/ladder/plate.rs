@@ -15,7 +15,9 @@ impl SingleDrop {
     /// The same drop without what is across: of the bar along the length, which rises to its other end as the edge does.
     pub(super) fn along(&self, across: &Across) -> Self {
         let rises = self.gaps_m(across)[0] / self.body.length_m();
-        Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), ..*self }
+        // That is how much of its spin lies along the length, at any tilt.
+        let spin_rad_s = self.spin_rad_s * libm::cos(across.direction_rad).abs();
+        Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), spin_rad_s, ..*self }
     }
 }
 
