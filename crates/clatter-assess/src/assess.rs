@@ -215,7 +215,7 @@ impl ProductFile {
                 Posture { upward, thickness_m, about }
             });
             let Landing { fall, spin_rad_s, .. } = *landing;
-            Listed { drop: Drop { tilt_rad, fall, spin_rad_s, ..self.drop }, posture }
+            Listed { drop: Drop { fall, tilt_rad, spin_rad_s, ..self.drop }, posture }
         };
         if self.landings.is_empty() {
             vec![Listed { drop: self.drop, posture: None }]

@@ -118,7 +118,8 @@ impl LandingAssessment {
             source: landing.source,
             tolerance_deg: landing.tolerance_rad.to_degrees(),
             speed_m_s: drop.speeds_m_s(),
-            spin_rad_s: Some([landing.spin_rad_s.lo(), landing.spin_rad_s.hi()]).filter(|spins| *spins != [0.0; 2]),
+            spin_rad_s: Some([landing.spin_rad_s.lo(), landing.spin_rad_s.hi()])
+                .filter(|spins| spins.iter().any(|spin| *spin != 0.0)),
             verdict: Verdict::Safe,
             limits: Vec::new(),
         }

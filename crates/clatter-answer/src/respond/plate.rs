@@ -209,7 +209,9 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         speed_m_s: Json(scene.speed_m_s()),
         tilt_deg: Json(question.tilt_deg),
         direction_deg: question.direction_deg.map(Json),
-        spin_rad_s: Some(scene.spin_rad_s()).filter(|spin| *spin != [0.0; 2]).map(|spin| spin.map(Json)),
+        spin_rad_s: Some(scene.spin_rad_s())
+            .filter(|spin| spin.iter().any(|rate| *rate != 0.0))
+            .map(|spin| spin.map(Json)),
         gaps_m: scene.gaps_m().map(Json),
         gravity_m_s2: Json(scene.gravity_m_s2()),
         contact_time_s: Json(contact.time_s()),

@@ -93,7 +93,8 @@ impl SingleDrop {
         let width = Width { edges_m: edges[y], gyration_m: radii[y], product_of_inertia_m2, thickness_m, depth: None };
         let turns = rising(upward, self.spin_of_box(&across));
         let ([up, aside], [rise, beside]) = ([upward[x], upward[y]], [turns[x], turns[y]]);
-        let level = up == 0.0 && aside == 0.0;
+        // Level and turning, it rises from then on.
+        let level = up == 0.0 && aside == 0.0 && self.spin_rad_s != 0.0;
         if (rise * aside - beside * up).abs() > 1e-9 * libm::hypot(up, aside) * self.spin_rad_s.abs() {
             return None;
         }

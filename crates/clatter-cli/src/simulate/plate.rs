@@ -199,7 +199,7 @@ impl Drop<'_> {
 /// Time, end of the contact where it takes time, approach and shocks of a strike.
 /// How fast a plate turns along its length and its width, where it does.
 pub(crate) fn turning(spin: [f64; 2], show: Show, short: impl Fn(f64) -> f64) -> String {
-    if spin == [0.0; 2] {
+    if spin.iter().all(|rate| *rate == 0.0) {
         return String::new();
     }
     let [x, y] = spin.map(|rate| show.given(short(rate)));
