@@ -292,7 +292,7 @@ fn the_commands_below_a_worst_drop_that_turns_say_the_same() {
     // A fit finds how it turned by itself.
     let strikes = dir.path().join("strikes.csv").display().to_string();
     fs::write(&strikes, "time_s,end\n0,b\n0.002,a\n0.004,b\n0.005,a\n").unwrap();
-    let fitted = clatter(["fit", bar.trim_start_matches("--product="), &strikes]);
+    let fitted = clatter(["fit", &bar, &strikes]);
     assert!(fitted.stderr.contains("takes a drop without `spin`"), "{}", fitted.stderr);
 }
 
