@@ -45,6 +45,7 @@ fn bar(q: f64, e: f64) -> Result<(SingleDrop, Part, Limit), clatter_assess::Erro
         tilt_rad: 5f64.to_radians(),
         flat: false,
         speed_m_s: 4.43,
+        spin_rad_s: 0.0,
         restitution: e,
         gravity_m_s2: STANDARD_GRAVITY_M_S2,
         contact_time_s: Some(2e-4),

@@ -238,6 +238,68 @@ fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {
     assert!(wrong.stderr.contains("a plate is followed by the model compliant, not by map"), "{}", wrong.stderr);
 }
 
+/// Of products that turn as they land, a bar with end b first, a plate and a box: the long command and the short one answer the same drop.
+#[test]
+fn the_commands_below_a_worst_drop_that_turns_say_the_same() {
+    let dir = tempfile::tempdir().unwrap();
+    let hard = "mount = \"hard\", acceleration_limit = \"9e6 gn\"";
+    for (name, product, drop, position) in [
+        (
+            "bar",
+            "radius_of_gyration = \"40 mm\", center_of_mass = \"9 mm\"",
+            "tilt = [\"1 deg\", \"8 deg\"], first = \"b\"",
+            "\"20 mm\"",
+        ),
+        (
+            "plate",
+            "width = \"90 mm\", radius_of_gyration = [\"40 mm\", \"27 mm\"]",
+            "tilt = [\"1 deg\", \"8 deg\"], direction = \"200 deg\"",
+            "[\"20 mm\", \"9 mm\"]",
+        ),
+        (
+            "box",
+            "width = \"90 mm\", thickness = \"30 mm\", radius_of_gyration = [\"40 mm\", \"27 mm\"]",
+            "edge = \"bottom front\"",
+            "[\"20 mm\", \"9 mm\"]",
+        ),
+    ] {
+        let path = dir.path().join(format!("{name}.toml")).display().to_string();
+        let text = format!(
+            "product = {{ name = \"{name}\", length = \"150 mm\", {product}, restitution = [0.2, 0.4], contact_time = \"0.5 ms\", contact_law = \"hysteretic\" }}\n\
+             drop = {{ speed = \"3 m/s\", {drop}, spin = [\"-300 deg/s\", \"9 rad/s\"] }}\n\
+             component = [{{ name = \"part\", position = {position}, {hard} }}]\n"
+        );
+        fs::write(&path, text).unwrap();
+        let json: Value = serde_json::from_str(&clatter(["assess", &path, "--format=json"]).stdout).unwrap();
+        let limit = &json["components"][0]["limits"][0];
+        let (worst, demand) = (&limit["worst_case"], limit["demand"].as_f64().unwrap());
+        let spin = worst["spin_rad_s"].as_f64().unwrap_or_else(|| panic!("{name}: no spin of {worst}"));
+        assert!((-5.236..=9.0).contains(&spin), "{name}: {worst}");
+        let again = answer(words(worst["command"].as_str().unwrap()));
+        let again = again["acceleration_m_s2"].as_f64().or(again["acceleration"]["value_m_s2"].as_f64()).unwrap();
+        // What a box feels is joined by straight lines in one of both.
+        let most = if name == "box" { 3e-4 } else { 1e-6 };
+        assert!((again / demand - 1.0).abs() < most, "{name}: {again}, not {limit}");
+        let table = clatter(["assess", &path]).stdout;
+        assert!(table.contains(", turning at "), "{name}: {table}");
+        let short = clatter(["respond", &format!("--product={path}"), "--component=part", "--worst", "--format=json"]);
+        assert!(short.stderr.contains(", turning at "), "{name}: {}", short.stderr);
+        let short: Value = serde_json::from_str(&short.stdout).unwrap();
+        let value = short["limits"][0]["value"].as_f64().unwrap();
+        assert!((value / demand - 1.0).abs() < 1e-6, "{name}: {short}, not {limit}");
+    }
+    // One drop of the ranges is taken with the middle of them, and told.
+    let bar = format!("--product={}", dir.path().join("bar.toml").display());
+    let one = clatter(["simulate", &bar, "--component=part"]);
+    assert!(one.stderr.contains("spin = "), "{}", one.stderr);
+    assert!(one.stdout.contains(", turning at "), "{}", one.stdout);
+    // A fit finds how it turned by itself.
+    let strikes = dir.path().join("strikes.csv").display().to_string();
+    fs::write(&strikes, "time_s,end\n0,b\n0.002,a\n0.004,b\n0.005,a\n").unwrap();
+    let fitted = clatter(["fit", &bar, &strikes]);
+    assert!(fitted.stderr.contains("takes a drop without `spin`"), "{}", fitted.stderr);
+}
+
 /// Of a box whose masses lie askew, through the drops of a standard; what it feels is joined by straight lines in one of both.
 #[test]
 fn the_command_below_a_worst_drop_of_a_box_says_the_same() {

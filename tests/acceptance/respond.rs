@@ -376,6 +376,7 @@ fn drops_drive_components_as_in_an_assessment() {
         tilt_rad: 4_f64.to_radians(),
         flat: false,
         speed_m_s: 3.0,
+        spin_rad_s: 0.0,
         restitution: 0.3,
         gravity_m_s2: 9.806_65,
         contact_time_s: Some(contact_s),

@@ -201,6 +201,7 @@ function worst(part, limit, { command: line }) {
     [
       worst.landing ?? (worst.flat ? 'flat' : say(worst.first, `${worst.first} first, ${digits(worst.tilt_deg)}°`)),
       `${digits(worst.speed_m_s)} m/s`,
+      say(worst.spin_rad_s, `turning at ${digits(worst.spin_rad_s)} rad/s`),
       `e ${digits(worst.restitution, 3)}`,
       say(worst.contact_time_s, `contacts of ${digits(1e3 * worst.contact_time_s)} ms`),
       say(worst.frequency_hz, `${digits(worst.frequency_hz)} Hz`),

@@ -127,7 +127,8 @@ impl Answer<'_> {
 /// Finds the nearest drop.
 ///
 /// # Errors
-/// A radius of gyration that is to be known and has a range; a plate, but for its flat bounces; contacts of their own; bounces beside other records; those of [`fit::fit`] and [`fit::bounces`].
+/// A radius of gyration that is to be known and has a range; a plate or a spin, but for flat bounces; contacts of their own; bounces beside other
+/// records; those of [`fit::fit`] and [`fit::bounces`].
 pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
     let Question { file, ref records, timing_s, gyration_known } = *question;
     let gyration = &file.product.gyration_m;
@@ -140,6 +141,9 @@ pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
     }
     if !file.product.own_contacts.is_none() {
         return Err(clatter_assess::Error::AlikeContacts("a fit").into());
+    }
+    if file.drop.may_spin() && !bounces {
+        return Err(clatter_assess::Error::NoSpin("a fit of strikes, heights or accelerations").into());
     }
     let known = Known { gyration_known, ..Known::from(file) };
     Ok(Answer { question, fit: nearest(&known, records, timing_s)? })

@@ -136,6 +136,7 @@ impl ProductFile {
     ) -> Result<Result<Found, Breaker>, Error> {
         accuracy.check()?;
         self.check()?;
+        self.check_apart(accuracy.merge_s)?;
         if let Some(model) = accuracy.model.filter(|model| self.product.width.is_some() && *model != Model::Compliant) {
             return Err(Error::PlateModel(model));
         }
@@ -214,9 +215,12 @@ impl ProductFile {
         let faces_m = self.product.faces_m();
         let of = |landing: &Landing| {
             let tilt_rad = Spread::new(0.0, landing.tolerance_rad, Law::Range).unwrap_or(Spread::finite(0.0));
-            let posture =
-                faces_m.map(|(faces, thickness_m)| Posture { upward: landing.attitude.upward(faces), thickness_m });
-            Listed { drop: Drop { tilt_rad, fall: landing.fall, ..self.drop }, posture }
+            let posture = faces_m.map(|(faces, thickness_m)| {
+                let (upward, about) = (landing.attitude.upward(faces), landing.attitude.about());
+                Posture { upward, thickness_m, about }
+            });
+            let Landing { fall, spin_rad_s, .. } = *landing;
+            Listed { drop: Drop { fall, tilt_rad, spin_rad_s, ..self.drop }, posture }
         };
         if self.landings.is_empty() {
             vec![Listed { drop: self.drop, posture: None }]

@@ -71,6 +71,12 @@ impl Attitude {
         let upward = self.upward(faces_m);
         (0..3).filter(|axis| upward[*axis] == 0.0).collect()
     }
+    /// The axis of the box about which the tilt of one that is tilted grows; none of one that lands on faces.
+    pub(crate) fn about(self) -> Option<[f64; 3]> {
+        let Lands::Tilted { direction_rad, .. } = self.0 else { return None };
+        let (across, along) = libm::sincos(direction_rad);
+        Some([across, -along, 0.0])
+    }
     /// The vertical in axes of a box whose faces have these distances from the center of mass, −x, +x, −y and so on: the center of mass
     /// is over the face, or straight over the edge or corner.
     pub(crate) fn upward(self, faces_m: [[f64; 2]; 3]) -> [f64; 3] {
@@ -136,6 +142,13 @@ pub(crate) fn turned_off(upward: [f64; 3], angle_rad: f64, direction_rad: f64) -
     ];
     let ((sin, cos), (s, c)) = (libm::sincos(angle_rad), libm::sincos(direction_rad));
     std::array::from_fn(|i| cos * upward[i] + sin * (c * first[i] + s * second[i]))
+}
+
+/// The axis about which the vertical of a box turns off an attitude towards a direction around it, positive as the angle grows.
+pub(crate) fn turns_off(upward: [f64; 3], direction_rad: f64) -> [f64; 3] {
+    let [x, y, z] = turned_off(upward, FRAC_PI_2, direction_rad);
+    let [a, b, c] = upward;
+    [y * c - z * b, z * a - x * c, x * b - y * a]
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! What no drop of the ranges exceeds, by the energy that the body has as it touches.
 //!
-//! Per mass that is `E = ½ v₀² + g y`, y the height of the center of mass over where it lies. It bounds every speed from then on, whatever
+//! Per mass that is `E = ½ v₀² + ½ ρ² ω₀² + g y`, y the height of the center of mass over where it lies. It bounds every speed from then on, whatever
 //! the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by √(2E (1 + x²/ρ²)), of
 //! the turning by √(2E)/ρ. A suspended part has no such bound: it may add up shocks.
 
 use clatter_flight::{Contact, ContactLaw};
 
+use crate::assess::THIN;
 use crate::drop::{Across, Posture, SingleDrop};
 use crate::engine::Spot;
 use crate::quantity::Source;
@@ -38,7 +39,9 @@ pub(crate) fn bound(
     let rho = product.gyration_m.lo();
     let [_, fastest] = drop.speeds_m_s();
     let height = a.max(b) * libm::sin(drop.tilt_rad.hi());
-    let speed = (fastest * fastest + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
+    // What it turns with grows with the radius of gyration.
+    let turns = drop.fastest_rad_s() * product.gyration_m.hi();
+    let speed = (fastest * fastest + turns * turns + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
     let e = product.restitution.hi();
     // Places and ends from the center of mass.
     let middle = 0.5 * (b - a);
@@ -106,6 +109,7 @@ fn of_plate(
         tilt_rad: drop.tilt_rad.hi(),
         flat: false,
         speed_m_s: fastest,
+        spin_rad_s: 0.0,
         restitution: product.restitution.hi(),
         gravity_m_s2: drop.gravity_m_s2,
         contact_time_s: Some(shortest_s),
@@ -121,7 +125,8 @@ fn of_plate(
     let reach = libm::hypot(a.max(b), front.max(back));
     // A box may come to lie on another face.
     let height = posture.map_or(reach * libm::sin(drop.tilt_rad.hi()), |of| libm::hypot(reach, of.thickness_m));
-    let speed = (fastest * fastest + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
+    let turns = drop.fastest_rad_s() * most_gyration_m(product, posture.is_some());
+    let speed = (fastest * fastest + turns * turns + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
     match limit.kind.source() {
         Source::Shock | Source::Boundary => {
             Some(2.0 * speed * (1.0 + farthest * farthest).sqrt() + drop.gravity_m_s2 * longest_s)
@@ -146,6 +151,16 @@ fn of_plate(
     }
 }
 
+/// The largest radius of gyration about an axis that a plate or a box turns about, as thick as it is taken where real tilt counts.
+fn most_gyration_m(product: &Product, is_box: bool) -> f64 {
+    let Some(width) = &product.width else { return product.gyration_m.hi() };
+    let thickness_m = width.thickness_m.unwrap_or(THIN * product.body.length_m());
+    let (along, across, deep) = (product.gyration_m.hi(), width.gyration_m, width.depth_of(thickness_m).gyration_m);
+    // About no axis more than all of it.
+    let in_plane = if is_box { libm::hypot(along, across) } else { width.most_gyration_m(along) };
+    libm::hypot(in_plane, deep)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -161,7 +176,7 @@ component = [{ name = "part", position = ["0 mm", "0 mm"], mount = "hard", veloc
 "#;
         let file = ProductFile::read(text, "box.toml").unwrap_or_else(|faults| panic!("{faults}"));
         let (faces_m, thickness_m) = file.product.faces_m().unwrap();
-        let posture = Posture { upward: file.landings[0].attitude.upward(faces_m), thickness_m };
+        let posture = Posture { upward: file.landings[0].attitude.upward(faces_m), thickness_m, about: None };
         let component = &file.components[0];
         let of = |limit: &Limit| bound(&file.product, &file.drop, Some(posture), component, limit, file.product.law());
         let over_m_s = (0.1_f64.powi(2) + 2.0 * file.drop.gravity_m_s2 * (0.075 - 0.007)).sqrt();

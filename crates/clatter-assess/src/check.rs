@@ -2,11 +2,13 @@
 
 use std::collections::HashSet;
 
+use clatter::End;
 use clatter_flight::{Body, ContactLaw};
 
 use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
+use crate::verdict::MERGE_S;
 use crate::{
     Axis, Component, Damping, DataFault, Drop, Error, Fall, Feet, First, Inside, Law, LimitKind, Mount, Product,
     ProductFile, RecordFile, Spread, Width,
@@ -45,6 +47,8 @@ impl ProductFile {
         self.drop.check(self.product.width.is_some())?;
         self.check_landings()?;
         self.check_feet()?;
+        self.check_spin()?;
+        self.check_apart(MERGE_S)?;
         number_of_components(self.components.len())?;
         let mut names = HashSet::new();
         for component in &self.components {
@@ -93,6 +97,7 @@ impl ProductFile {
                 Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
             }
             one(keys::DROP, "attitude_tolerance", landing.tolerance_rad)?;
+            spread(keys::DROP, "spin", Some(&landing.spin_rad_s))?;
         }
         Ok(())
     }
@@ -108,6 +113,21 @@ impl ProductFile {
     /// Refuses contacts that differ where they are to be alike.
     pub(crate) fn check_alike(&self, what: &'static str) -> Result<(), Error> {
         if self.product.own_contacts.is_none() { Ok(()) } else { Err(Error::AlikeContacts(what)) }
+    }
+    /// Whether what touches first comes down, whatever the spin.
+    fn check_spin(&self) -> Result<(), DataFault> {
+        self.listed().iter().try_for_each(|one| spin_down(&self.product, &one.drop, one.posture.is_some()))
+    }
+    /// Whether strikes that are apart are told apart: without contact time those within a time would be one, which with a spin they are not.
+    pub(crate) fn check_apart(&self, merge_s: f64) -> Result<(), DataFault> {
+        let Drop { tilt_rad, .. } = &self.drop;
+        if self.product.contact_time_s.is_some() || !self.drop.may_spin() {
+            return Ok(());
+        }
+        let ([_, fast], length_m) = (self.drop.speeds_m_s(), self.product.body.length_m());
+        let fastest = fast + self.drop.fastest_rad_s() * length_m;
+        let apart = length_m * libm::sin(tilt_rad.lo()) >= merge_s * fastest && tilt_rad.lo() > 0.0;
+        if apart { Ok(()) } else { Err(DataFault::SpinAsOne { merge_s }) }
     }
     /// Refuses a plate where bars alone are taken.
     pub(crate) fn check_bar(&self, what: &'static str) -> Result<(), Error> {
@@ -187,6 +207,45 @@ impl Product {
     }
 }
 
+/// Whether what touches first comes down in all drops of the ranges, with a thousandth of the speed at least: of a bar an end, of a plate a
+/// corner, of a box any corner.
+pub(crate) fn spin_down(product: &Product, drop: &Drop, is_box: bool) -> Result<(), DataFault> {
+    let [speed_m_s, _] = drop.speeds_m_s();
+    let [x, y] = product.feet.map_or([0.0; 2], |feet| feet.inset_m);
+    let most = |[one, other]: [f64; 2]| one.max(other);
+    let arm_m = match &product.width {
+        None => {
+            let [a, b] = product.body.arms_m();
+            x + drop.first_ends().iter().map(|end| if *end == End::A { a } else { b }).fold(0.0, f64::max)
+        }
+        Some(width) => {
+            let [along, across] = [x + most(product.body.arms_m()), y + most(width.edges_m)];
+            let up = match &drop.direction_rad {
+                Some(given) if given.is_value() && !is_box => {
+                    let (sin, cos) = libm::sincos(given.lo());
+                    along * cos.abs() + across * sin.abs()
+                }
+                _ => libm::hypot(along, across),
+            };
+            let deep = width.thickness_m.filter(|_| is_box).map_or(0.0, |thickness_m| most(width.faces_m(thickness_m)));
+            libm::hypot(up, deep)
+        }
+    };
+    let spin_rad_s = if is_box && drop.spin_rad_s.hi() > -drop.spin_rad_s.lo() {
+        drop.spin_rad_s.hi()
+    } else {
+        drop.spin_rad_s.lo()
+    };
+    let turned_up = if is_box { spin_rad_s.abs() } else { -spin_rad_s };
+    if turned_up * arm_m <= (1.0 - LEAST_APPROACH) * speed_m_s {
+        return Ok(());
+    }
+    Err(DataFault::SpinUp { spin_rad_s, speed_m_s: (1.0 - LEAST_APPROACH) * speed_m_s, arm_m, both: is_box })
+}
+
+/// What touches first comes down with this share of the speed at least.
+const LEAST_APPROACH: f64 = 1e-3;
+
 pub(crate) fn mass(mass_kg: f64) -> Result<(), DataFault> {
     one(keys::PRODUCT, "mass", mass_kg)
 }
@@ -232,6 +291,7 @@ impl Drop {
             Fall::HeightM(height) => spread(keys::DROP, "height", Some(height))?,
             Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
         }
+        spread(keys::DROP, "spin", Some(&self.spin_rad_s))?;
         spread(keys::DROP, "tilt", Some(&self.tilt_rad))?;
         let steepest = self.tilt_rad.hi();
         if steepest > STEEPEST_RAD {

@@ -161,6 +161,22 @@ pub enum DataFault {
         /// The steepest at which feet touch first.
         most_rad: f64,
     },
+    /// A spin by which what touches first goes up.
+    SpinUp {
+        /// The spin, in rad/s.
+        spin_rad_s: f64,
+        /// The least speed of the drops.
+        speed_m_s: f64,
+        /// How far from the center of mass it touches at most.
+        arm_m: f64,
+        /// Whether a spin of either sign may do so, as of a box.
+        both: bool,
+    },
+    /// A spin of a product without contact time whose ends may land as one.
+    SpinAsOne {
+        /// Within this time.
+        merge_s: f64,
+    },
     /// A component without a limit.
     NoLimit,
     /// A damage boundary without an acceleration.
@@ -266,6 +282,24 @@ impl DataFault {
             Self::OwnContactsOfBox => [
                 "`contacts` of their own are those of a bar or a plate in one drop; a box lands on any of its sides".to_owned(),
                 "leave `contacts` out, or give one [drop] with a `tilt`".to_owned(),
+            ],
+            Self::SpinUp { spin_rad_s, speed_m_s, arm_m, both } => {
+                let most = format!("{} rad/s", (1e3 * speed_m_s / arm_m).floor() / 1e3);
+                [
+                    format!("with a spin of {spin_rad_s} rad/s what touches first may not come down"),
+                    format!(
+                        "allowed: {}{most}, the least speed over the {} mm from the center of mass to where it touches",
+                        if *both { "within " } else { "above -" },
+                        mm(*arm_m)
+                    ),
+                ]
+            }
+            Self::SpinAsOne { merge_s } => [
+                format!(
+                    "with `spin` ends that land within {} ms of one another do not land as one, and only contacts tell what they do",
+                    (1e6 * merge_s).round() / 1e3
+                ),
+                "add the `contact_time` to [product], or begin the tilt higher".to_owned(),
             ],
             Self::NoLimit => {
                 let keys = LimitKind::ALL.map(LimitKind::key).join(", ");

@@ -9,7 +9,7 @@ use clatter::End;
 use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model as Physics, Plate, PlateScene, Scene};
 use serde::Serialize;
 
-use crate::attitude::turned_off;
+use crate::attitude::{turned_off, turns_off};
 use crate::course::Course;
 use crate::engine::Spot;
 use crate::{Axis, DataFault, Error, Feet, OwnContacts, Width};
@@ -84,8 +84,11 @@ pub struct SingleDrop {
     /// Whether both ends land as one: instant impacts that are closer than any contact lasts. Every place then gets (1 + e) v at
     /// once, at the first landing and at each that follows, whatever the tilt.
     pub flat: bool,
-    /// Speed at the first touch, in m/s.
+    /// Speed of the center of mass at the first touch, in m/s.
     pub speed_m_s: f64,
+    /// Angular velocity at the first touch about the axis about which it is tilted, in rad/s: positive where the tilt grows, so that the end
+    /// that touches first comes down faster than the center of mass, negative where it closes. Flat drops of instant impacts have none.
+    pub spin_rad_s: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
     /// Gravity, in m/s².
@@ -119,6 +122,8 @@ pub struct Posture {
     pub upward: [f64; 3],
     /// Its thickness.
     pub thickness_m: f64,
+    /// The axis of the box about which it turns, of one that lands at a tilt: then the tilt grows. Else it turns off what it lands on.
+    pub about: Option<[f64; 3]>,
 }
 
 impl Across {
@@ -141,11 +146,14 @@ impl Across {
     }
 }
 
+/// A plate is turned about the axis of its tilt where the rest is below this share of its spin.
+const ALONG_TILT: f64 = 1e-9;
+
 impl SingleDrop {
     /// The drop that a scene of a plate has, corner a the lowest one, with contacts that take time.
     ///
     /// # Errors
-    /// [`Error::Setting`] for a plate whose slopes are those of no tilt.
+    /// [`Error::Setting`] for a plate whose slopes are those of no tilt, and for one that turns about another axis than that of its tilt.
     pub fn of_plate(scene: &PlateScene, contact: &Contact) -> Result<Self, Error> {
         let (plate, [hx, hy]) = (scene.plate(), scene.gaps_m());
         let ([left, right, front, back], [length, width], [kx, ky]) =
@@ -156,16 +164,29 @@ impl SingleDrop {
             let (name, allowed) = ("steepest slope of the plate", "below 1");
             return Err(Error::Setting { name, value: steepest, allowed });
         }
+        let [x, y] = scene.spin_rad_s();
+        let spins = libm::hypot(x, y);
+        // Level, it turns to the direction in which it rises from then on.
+        let [up, aside] = if steepest > 0.0 { slopes } else { [x, y] };
+        let off = (x * aside - y * up).abs() / steepest;
+        if off > ALONG_TILT * spins {
+            let (name, allowed) =
+                ("spin across the tilt of the plate in rad/s", "0: turning along length and width as its corners rise");
+            return Err(Error::Setting { name, value: off, allowed });
+        }
+        let direction_rad = libm::atan2(aside, up);
+        let spin_rad_s = spins.copysign(x * up + y * aside) + 0.0;
         let edges_m = [front, back];
         let product_of_inertia_m2 = plate.product_of_inertia_m2();
         let width = Width { edges_m, gyration_m: ky, product_of_inertia_m2, thickness_m: None, depth: None };
         Ok(Self {
             body: Body::off_center(left, right, kx)?,
-            across: Some(Across { width, direction_rad: libm::atan2(slopes[1], slopes[0]), posture: None }),
+            across: Some(Across { width, direction_rad, posture: None }),
             first: End::A,
             tilt_rad: libm::asin(steepest),
             flat: false,
             speed_m_s: scene.speed_m_s(),
+            spin_rad_s,
             restitution: contact.restitution(),
             gravity_m_s2: scene.gravity_m_s2(),
             contact_time_s: Some(contact.time_s()),
@@ -213,7 +234,8 @@ impl SingleDrop {
         let of: [Contact; 4] = self.own_contacts.contacts(self.contact_law, self.restitution, time_s)?;
         Ok([0, 1, 3, 2, 0, 1, 3, 2].map(|corner| of[corner]))
     }
-    /// Checks what no model would refuse: the contact time, which instant impacts do not ask for, and the place of a part.
+    /// Checks what no model would refuse: the contact time, which instant impacts do not ask for, the spin of a flat drop, and the place of a
+    /// part.
     ///
     /// # Errors
     /// [`Error::Setting`].
@@ -223,6 +245,10 @@ impl SingleDrop {
         }
         if let Some(value) = self.contact_time_s.filter(|time| !(1e-12..=1e3).contains(time)) {
             return Err(Error::Setting { name: "contact time in s", value, allowed: "in [1e-12, 1000]" });
+        }
+        if self.flat && self.spin_rad_s != 0.0 {
+            let (name, allowed) = ("spin in rad/s", "0 of a flat drop by instant impacts: its ends do not land as one");
+            return Err(Error::Setting { name, value: self.spin_rad_s, allowed });
         }
         // Places are rounded as they are converted.
         let [most, most_across] = self.sides_m().map(|side_m| 0.5 * side_m * (1.0 + 1e-9));
@@ -267,21 +293,30 @@ impl SingleDrop {
     /// How long the clatter takes, about: four times what the raised end needs to come down, and some contacts.
     pub(crate) fn clatter_s(&self) -> f64 {
         let gap_m = self.gap_m();
-        4.0 * (gap_m / self.speed_m_s + self.contact_times_s().map_or(0.0, |[_, longest]| longest))
+        4.0 * (gap_m / self.closing_m_s() + self.contact_times_s().map_or(0.0, |[_, longest]| longest))
+    }
+    /// How fast the raised end comes down at least, about: a spin that opens the tilt holds it up until the other end strikes.
+    fn closing_m_s(&self) -> f64 {
+        let held = self.spin_rad_s.max(0.0) * self.reach_m();
+        (self.speed_m_s - held).max(0.25 * self.speed_m_s)
     }
     /// Whether the ends land so close after one another that no contact tells them apart: within this time, where that of a contact
     /// is not known.
     pub(crate) fn lands_as_one(&self, merge_s: f64) -> bool {
-        self.contact_time_s.is_none() && self.body.length_m() * libm::sin(self.tilt_rad) < merge_s * self.speed_m_s
+        self.contact_time_s.is_none()
+            && self.spin_rad_s == 0.0
+            && self.body.length_m() * libm::sin(self.tilt_rad) < merge_s * self.speed_m_s
     }
-    /// The same drop landing flat.
+    /// The same drop landing flat, without spin.
     #[must_use]
     pub fn flattened(&self) -> Self {
-        Self { tilt_rad: 0.0, flat: self.contact_time_s.is_none(), ..*self }
+        Self { tilt_rad: 0.0, spin_rad_s: 0.0, flat: self.contact_time_s.is_none(), ..*self }
     }
     /// When a box lies as a rule: after all of its bounces and ten times of falling over. One that balances on an edge is left then.
     fn settled_s(&self) -> f64 {
-        let bounces_s = 2.0 * self.restitution / (1.0 - self.restitution) * self.speed_m_s / self.gravity_m_s2;
+        // What it turns with may lift it as well.
+        let speed_m_s = libm::hypot(self.speed_m_s, self.spin_rad_s * self.reach_m());
+        let bounces_s = 2.0 * self.restitution / (1.0 - self.restitution) * speed_m_s / self.gravity_m_s2;
         // Without gravity and restitution there are none.
         self.clatter_s() + bounces_s.max(0.0) + 10.0 * (self.reach_m() / self.gravity_m_s2).sqrt()
     }
@@ -300,7 +335,14 @@ impl SingleDrop {
             End::A => self.body,
             End::B => Body::off_center(b, a, self.body.gyration_m())?,
         };
-        Ok(Scene::new(body, self.restitution, self.speed_m_s, self.tilt_rad.to_degrees(), self.gravity_m_s2)?)
+        let (tilt_deg, gravity_m_s2) = (self.tilt_rad.to_degrees(), self.gravity_m_s2);
+        Ok(Scene::new(body, self.restitution, self.speed_m_s, tilt_deg, gravity_m_s2)?.with_spin(self.spin_rad_s)?)
+    }
+    /// Vertical velocities of the end that touches first and of the other one, at small tilt.
+    pub(crate) fn approaches_m_s(&self) -> [f64; 2] {
+        let [a, b] = self.body.arms_m();
+        let [first, other] = if self.first == End::A { [a, b] } else { [b, a] };
+        [-first, other].map(|x| x * self.spin_rad_s - self.speed_m_s)
     }
     /// The same of a plate, corner a the lowest one.
     pub(crate) fn plate_scene(&self, across: &Across) -> Result<PlateScene, Error> {
@@ -309,12 +351,17 @@ impl SingleDrop {
         let ([left, right], [front, back]) = (ordered(self.body.arms_m(), sx), ordered(width.edges_m, sy));
         let plate = Plate::new([left, right, front, back], [self.body.gyration_m(), width.gyration_m])?
             .with_product_of_inertia(sx * sy * width.product_of_inertia_m2)?;
-        Ok(PlateScene::new(plate, self.speed_m_s, self.gaps_m(across), self.gravity_m_s2)?)
+        let scene = PlateScene::new(plate, self.speed_m_s, self.gaps_m(across), self.gravity_m_s2)?;
+        Ok(scene.with_spin(self.spin_of_plate(across))?)
     }
     /// Heights of the corners next to the lowest one as it touches, along the length and along the width.
     pub(crate) fn gaps_m(&self, across: &Across) -> [f64; 2] {
         let (rise, [cos, sin]) = (libm::sin(self.tilt_rad), across.upward().map(f64::abs));
         [self.body.length_m() * rise * cos, across.width.m() * rise * sin]
+    }
+    /// How fast the corners next to the lowest one rise, over the side between: along the length and along the width.
+    pub(crate) fn spin_of_plate(&self, across: &Across) -> [f64; 2] {
+        across.upward().map(|rises| self.spin_rad_s * rises.abs())
     }
     /// A place of a plate, from its middle, as its scene has it: from the center of mass.
     pub(crate) fn place(&self, across: &Across, at_m: [f64; 2]) -> [f64; 2] {
@@ -342,10 +389,22 @@ impl SingleDrop {
     /// The same drop of a box of this thickness.
     pub(crate) fn block_drop(&self, across: &Across, thickness_m: f64) -> Result<BlockDrop, Error> {
         let (block, speed, gravity) = (self.block(across, thickness_m)?, self.speed_m_s, self.gravity_m_s2);
-        Ok(match &across.posture {
+        let drop = match &across.posture {
             Some(posture) => BlockDrop::upright(block, across.upward_of(posture, self.tilt_rad), speed, gravity)?,
             None => BlockDrop::tilted(block, self.tilt_rad, across.direction_rad % TAU, speed, gravity)?,
-        })
+        };
+        Ok(drop.with_spin(self.spin_of_box(across))?)
+    }
+    /// Its angular velocity in axes of a box.
+    pub(crate) fn spin_of_box(&self, across: &Across) -> [f64; 3] {
+        let about = across.posture.map_or_else(
+            || {
+                let [x, y] = across.upward();
+                [y, -x, 0.0]
+            },
+            |posture| posture.about.unwrap_or_else(|| turns_off(posture.upward, across.direction_rad)),
+        );
+        about.map(|about| self.spin_rad_s * about + 0.0)
     }
     /// The drop of a box that lands on anything, as flights take it; none of a bar and of a plate.
     ///
@@ -444,7 +503,7 @@ mod tests {
         let edges_m = [0.5 * width + center, 0.5 * width - center];
         let width =
             Width { edges_m, gyration_m: ky, product_of_inertia_m2: 0.0, thickness_m: Some(thickness_m), depth: None };
-        let posture = Some(Posture { upward: [0.6, 0.0, 0.8], thickness_m });
+        let posture = Some(Posture { upward: [0.6, 0.0, 0.8], thickness_m, about: None });
         SingleDrop {
             body: Body::new(length, kx).unwrap(),
             across: Some(Across { width, direction_rad: 0.3, posture }),
@@ -452,6 +511,7 @@ mod tests {
             tilt_rad: 0.05,
             flat: false,
             speed_m_s: 3.0,
+            spin_rad_s: 0.0,
             restitution: 0.4,
             gravity_m_s2: 9.81,
             contact_time_s: Some(1e-4),
@@ -524,7 +584,7 @@ mod tests {
     #[test]
     fn a_box_is_followed_until_it_lies() {
         let mut drop = dropped([0.15, 0.07, 0.02], [0.043, 0.02], 0.0);
-        let posture = Some(Posture { upward: [0.98, 0.0, 0.2], thickness_m: 0.02 });
+        let posture = Some(Posture { upward: [0.98, 0.0, 0.2], thickness_m: 0.02, about: None });
         drop.across = drop.across.map(|across| Across { posture, ..across });
         let followed = Followed::new(&drop, Model::Compliant, 0.01).unwrap();
         assert!(matches!(followed.motion.stop(), Stop::AtRest { .. }), "{:?}", followed.motion.stop());

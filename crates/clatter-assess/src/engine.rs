@@ -124,7 +124,7 @@ impl Answer {
 ///     tilt_rad: 0.05,
 ///     flat: false,
 ///     speed_m_s: 4.0,
-///     restitution: 0.3,
+///     spin_rad_s: 0.0, restitution: 0.3,
 ///     gravity_m_s2: 0.0,
 ///     contact_time_s: None,
 ///     contact_law: ContactLaw::Hysteretic,
@@ -222,7 +222,7 @@ fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> R
     let [a, b] = drop.body.arms_m();
     let flat_m_s = (1.0 + drop.restitution) * drop.speed_m_s;
     let bar = Bar::from_arms([a, b], drop.body.gyration_m(), drop.restitution)?;
-    let start = Start::new([-drop.speed_m_s; 2], drop.body.length_m() * libm::sin(drop.tilt_rad))?;
+    let start = Start::new(drop.approaches_m_s(), drop.body.length_m() * libm::sin(drop.tilt_rad))?;
     let s = 2.0 * part.position_m / drop.body.length_m();
     let of_turn = 2.0 / drop.body.length_m();
     let (shock, turn) = if drop.flat {

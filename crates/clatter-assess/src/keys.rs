@@ -199,7 +199,7 @@ pub(crate) static DROP: &[Key] = &[
         "speed",
         false,
         Spread(&units::SPEED, ["1 mm/s", "100 m/s"]),
-        "Speed at the first touch. Either this or height.",
+        "Speed of the center of mass at the first touch. Either this or height.",
     ),
     key(
         "tilt",
@@ -207,6 +207,14 @@ pub(crate) static DROP: &[Key] = &[
         Spread(&units::ANGLE, ["0 deg", "90 deg"]),
         "Angle to the ground at the first touch, up to 30 deg; needed but for a box that lands on a face, edge or corner. Of a box, with \
          attitude_tolerance and direction: how far its bottom is off level, up to 90 deg.",
+    ),
+    key(
+        "spin",
+        false,
+        Spread(&units::ANGULAR_VELOCITY, ["-1000 rad/s", "1000 rad/s"]),
+        "How fast it turns at the first touch, about the axis about which it is tilted: positive where the tilt grows, negative where it \
+         closes; speed and height stay those of the center of mass, and what touches first must come down. Of a box that lands on a face, \
+         edge or corner, about the level axis about which it is turned off that, which is any. 0 rad/s unless given; not with standard.",
     ),
     key(
         "face",

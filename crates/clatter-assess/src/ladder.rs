@@ -182,7 +182,7 @@ impl Ladder {
     ///     tilt_rad: 0.09,
     ///     flat: false,
     ///     speed_m_s: 4.43,
-    ///     restitution: 0.3,
+    ///     spin_rad_s: 0.0, restitution: 0.3,
     ///     gravity_m_s2: 9.81,
     ///     contact_time_s: Some(2e-4),
     ///     contact_law: clatter_flight::ContactLaw::Hysteretic,

@@ -88,8 +88,8 @@ impl ProductFile {
     ///
     /// # Method
     /// Drops at some forty tilts with either end first are followed until the product lands again, or past the peak of the worst
-    /// cases: at the highest speed and the ends of the ranges of restitution and contact time. All parts are asked in the same drops.
-    /// The curve over the tilt holds besides the drops with the speed, restitution and contact time of the worst case, and the worst
+    /// cases: at the highest speed and the ends of the ranges of spin, restitution and contact time. All parts are asked in the same drops.
+    /// The curve over the tilt holds besides the drops with the speed, spin, restitution and contact time of the worst case, and the worst
     /// case itself. Safe places and changes are those where no drop asks more than at the part's own place, but for what the
     /// assessment leaves room for there: they are as good as these drops, and an assessment decides.
     /// Of a plate that has no contact law of its own the drops are those of the hysteretic one. What is not answered is not drawn;

@@ -124,6 +124,11 @@ impl Width {
         let ([xx, yy], xy) = ([along_m, self.gyration_m].map(|k| k * k), self.product_of_inertia_m2);
         (0.5 * (xx + yy) - libm::hypot(0.5 * (xx - yy), xy)).max(0.0).sqrt()
     }
+    /// The largest one, likewise.
+    pub(crate) fn most_gyration_m(&self, along_m: f64) -> f64 {
+        let ([xx, yy], xy) = ([along_m, self.gyration_m].map(|k| k * k), self.product_of_inertia_m2);
+        (0.5 * (xx + yy) + libm::hypot(0.5 * (xx - yy), xy)).sqrt()
+    }
     /// How mass lies across this thickness.
     pub(crate) fn depth_of(&self, thickness_m: f64) -> Depth {
         let even = Depth { center_m: 0.0, gyration_m: thickness_m / 12_f64.sqrt(), products_of_inertia_m2: [0.0; 2] };
@@ -226,14 +231,16 @@ pub struct Landing {
     pub source: Option<&'static str>,
     /// By how much it may be turned off that, in rad.
     pub tolerance_rad: f64,
+    /// As of [`Drop`]: about the axis about which it is turned off what it lands on, or, of one that lands at a tilt, about that of the tilt.
+    pub spin_rad_s: Spread,
     /// From where, or how fast.
     pub fall: Fall,
 }
 
 impl Landing {
-    /// Whether another drop lands likewise from as high; how far off either may be does not count.
+    /// Whether another drop lands likewise from as high and turns as fast; how far off either may be does not count.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
-        self.attitude == other.attitude && self.fall == other.fall
+        self.attitude == other.attitude && self.fall == other.fall && self.spin_rad_s == other.spin_rad_s
     }
 }
 
@@ -244,6 +251,9 @@ pub struct Drop {
     pub fall: Fall,
     /// Angle to the ground at the first touch, within [0, π/6] rad.
     pub tilt_rad: Spread,
+    /// Angular velocity at the first touch about the axis about which it is tilted, in rad/s: positive where the tilt grows, negative where
+    /// it closes; what touches first must still come down.
+    pub spin_rad_s: Spread,
     /// Which end touches first; of a plate its direction tells it.
     pub first: First,
     /// Where a plate rises to from its lowest corner, in rad from the length towards the width; any direction if none is given.
@@ -257,7 +267,7 @@ pub struct Drop {
 pub enum Fall {
     /// Height of the lower end before the drop, in m; the speed at the first touch is √(2 g h).
     HeightM(Spread),
-    /// Speed at the first touch, in m/s.
+    /// Speed of the center of mass at the first touch, in m/s.
     SpeedMS(Spread),
 }
 
@@ -315,11 +325,11 @@ fn ratio(body: &Body) -> f64 {
 }
 
 impl Drop {
-    /// A drop on either end, with standard gravity.
+    /// A drop on either end, without spin, with standard gravity.
     #[must_use]
     pub fn new(fall: Fall, tilt_rad: Spread) -> Self {
         let (first, gravity_m_s2) = (First::Either, clatter_shock::STANDARD_GRAVITY_M_S2);
-        Self { fall, tilt_rad, first, direction_rad: None, gravity_m_s2 }
+        Self { fall, tilt_rad, spin_rad_s: Spread::finite(0.0), first, direction_rad: None, gravity_m_s2 }
     }
     /// The range of speeds at the first touch, in m/s.
     #[must_use]
@@ -328,6 +338,15 @@ impl Drop {
             Fall::HeightM(h) => [h.lo(), h.hi()].map(|h| self.speed_from(h)),
             Fall::SpeedMS(v) => [v.lo(), v.hi()],
         }
+    }
+    /// Whether it may turn as it touches.
+    #[must_use]
+    pub fn may_spin(&self) -> bool {
+        self.spin_rad_s.lo() != 0.0 || self.spin_rad_s.hi() != 0.0
+    }
+    /// The fastest that it may turn, either way, in rad/s.
+    pub(crate) fn fastest_rad_s(&self) -> f64 {
+        self.spin_rad_s.hi().max(-self.spin_rad_s.lo())
     }
     /// √(2 g h).
     #[must_use]

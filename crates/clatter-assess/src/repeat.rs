@@ -64,6 +64,9 @@ impl WorstCase {
             command.extend([" --tilt-deg=", &tilt]);
         }
         let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
+        if drop.spin_rad_s != 0.0 {
+            add("spin-rad-s", drop.spin_rad_s);
+        }
         add("gravity-m-s2", drop.gravity_m_s2);
         if let Some(feet) = &drop.feet {
             Self::of_feet(feet, &[side * self.part.position_m], &mut command);
@@ -136,6 +139,9 @@ impl WorstCase {
         add("e", &[drop.restitution]);
         add("speed-m-s", &[drop.speed_m_s]);
         add("gaps-m", &drop.gaps_m(across));
+        if drop.spin_rad_s != 0.0 {
+            add("spin-rad-s", &drop.spin_of_plate(across));
+        }
         add("gravity-m-s2", &[drop.gravity_m_s2]);
         let [x, y] = self.part.at_m();
         if let Some(feet) = &drop.feet {
@@ -184,6 +190,9 @@ impl WorstCase {
         add("orientation", &quaternion);
         add("e", &[drop.restitution]);
         add("speed-m-s", &[drop.speed_m_s]);
+        if drop.spin_rad_s != 0.0 {
+            add("spin-rad-s", &drop.spin_of_box(across));
+        }
         add("gravity-m-s2", &[drop.gravity_m_s2]);
         add("at-m", &[self.part.position_m, self.part.across_m, self.part.inside.height_m]);
         if let Some(part) = self.part.suspension {

@@ -85,6 +85,9 @@ pub struct LandingAssessment {
     pub tolerance_deg: f64,
     /// The range of speeds at the first touch.
     pub speed_m_s: [f64; 2],
+    /// The range of its spin there, where it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spin_rad_s: Option<[f64; 2]>,
     /// Unsafe where a limit is, undecided where one is and none is unsafe.
     pub verdict: Verdict,
     /// One for each limit of each component, in the order of the file.
@@ -115,6 +118,8 @@ impl LandingAssessment {
             source: landing.source,
             tolerance_deg: landing.tolerance_rad.to_degrees(),
             speed_m_s: drop.speeds_m_s(),
+            spin_rad_s: Some([landing.spin_rad_s.lo(), landing.spin_rad_s.hi()])
+                .filter(|spins| spins.iter().any(|spin| *spin != 0.0)),
             verdict: Verdict::Safe,
             limits: Vec::new(),
         }
@@ -291,6 +296,11 @@ impl WorstCase {
     pub fn direction_deg(&self) -> Option<f64> {
         self.drop.across.map(|across| across.direction_rad.to_degrees().rem_euclid(360.0))
     }
+    /// How fast it turns at the first touch; none where it does not.
+    #[must_use]
+    pub fn spin_rad_s(&self) -> Option<f64> {
+        Some(self.drop.spin_rad_s).filter(|spin| *spin != 0.0)
+    }
     /// Radius of gyration; none where the file gives one value.
     #[must_use]
     pub fn gyration_m(&self) -> Option<f64> {
@@ -320,6 +330,8 @@ struct WorstCaseRow {
     direction_deg: Option<f64>,
     flat: bool,
     speed_m_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spin_rad_s: Option<f64>,
     restitution: f64,
     contact_time_s: Option<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -343,6 +355,7 @@ impl Serialize for WorstCase {
             direction_deg: self.direction_deg(),
             flat,
             speed_m_s,
+            spin_rad_s: self.spin_rad_s(),
             restitution,
             contact_time_s,
             contacts: ContactRow::of(&self.drop),
@@ -454,7 +467,10 @@ mod tests {
         let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();
         let mut limit = file.assess().unwrap().components[0].limits[0].clone();
         let (attitude, fall) = (Attitude::on("bottom").unwrap(), Fall::HeightM(Spread::finite(1.0)));
-        let mut landing = LandingAssessment::new(&Landing { attitude, source: None, tolerance_rad: 0.0, fall }, 9.81);
+        let mut landing = LandingAssessment::new(
+            &Landing { attitude, source: None, tolerance_rad: 0.0, spin_rad_s: Spread::finite(0.0), fall },
+            9.81,
+        );
         for (own, all) in [
             (Verdict::Safe, Verdict::Safe),
             (Verdict::Unsafe, Verdict::Unsafe),

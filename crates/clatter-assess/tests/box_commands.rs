@@ -47,7 +47,7 @@ fn single(
     [speed_m_s, tilt_deg, direction_deg, e, contact_s]: [f64; 5],
 ) -> SingleDrop {
     let width = file.product.width.unwrap();
-    let posture = Posture { upward, thickness_m: width.thickness_m.unwrap() };
+    let posture = Posture { upward, thickness_m: width.thickness_m.unwrap(), about: None };
     SingleDrop {
         body: file.product.body,
         across: Some(Across { width, direction_rad: direction_deg.to_radians(), posture: Some(posture) }),
@@ -55,6 +55,7 @@ fn single(
         tilt_rad: tilt_deg.to_radians(),
         flat: false,
         speed_m_s,
+        spin_rad_s: 0.0,
         restitution: e,
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: Some(contact_s),

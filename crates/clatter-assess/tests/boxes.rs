@@ -261,6 +261,7 @@ fn hunted(file: &ProductFile, posture: Posture, name: &str, singles: u32, r: &mu
                 tilt_rad: landing.tolerance_rad * x[1].sqrt(),
                 flat: false,
                 speed_m_s: file.drop.speeds_m_s()[1],
+                spin_rad_s: 0.0,
                 restitution: file.product.restitution.at(if x[2] < 0.5 { 1.0 } else { x[4] }),
                 gravity_m_s2: file.drop.gravity_m_s2,
                 contact_time_s: file.product.contact_time_s.map(|time| time.at(x[3])),
@@ -334,7 +335,7 @@ fn no_single_drop_of_a_box_is_worse() {
             })
             .collect();
         let size = down.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let posture = Posture { upward: [-down[0] / size, -down[1] / size, -down[2] / size], thickness_m };
+        let posture = Posture { upward: [-down[0] / size, -down[1] / size, -down[2] / size], thickness_m, about: None };
         let [of_one, passed_of_one] = hunted(&file, posture, &name, singles, &mut r);
         (limits, passed) = (limits + of_one, passed + passed_of_one);
     }
@@ -355,7 +356,8 @@ fn a_box_that_stands_topples() {
     assert!(worst.time_s > 0.1, "{worst:?}");
     let mut r = Random(7);
     let width = file.product.width.expect("a width");
-    let posture = Posture { upward: [-1.0, 0.0, 0.0], thickness_m: width.thickness_m.expect("a thickness") };
+    let posture =
+        Posture { upward: [-1.0, 0.0, 0.0], thickness_m: width.thickness_m.expect("a thickness"), about: None };
     let part = Part { inside: file.components[0].inside, ..worst.part };
     let turned: Vec<[f64; 2]> = (0..64).map(|_| [r.unit(), r.unit()]).collect();
     let asked = |[turn, tilt]: &[f64; 2]| {
@@ -391,7 +393,7 @@ fn no_single_drop_of_a_tilted_box_is_worse() {
         let file = file(&text);
         let thickness_m = file.product.width.and_then(|width| width.thickness_m).expect("a thickness");
         let ((sin, cos), (across, along)) = (tilt.to_radians().sin_cos(), direction.to_radians().sin_cos());
-        let posture = Posture { upward: [sin * along, sin * across, cos], thickness_m };
+        let posture = Posture { upward: [sin * along, sin * across, cos], thickness_m, about: None };
         let name = format!("tilt {tilt:.2} to {direction:.2} within {tolerance:.2}");
         let [of_one, _] = hunted(&file, posture, &name, singles, &mut r);
         limits += of_one;
@@ -485,11 +487,12 @@ fn one([length, width, thickness_m]: [f64; 3], [kx, ky]: [f64; 2], center: [f64;
         Width { edges_m, gyration_m: ky, product_of_inertia_m2: 0.0, thickness_m: Some(thickness_m), depth: None };
     SingleDrop {
         body: Body::off_center(0.5 * length + center[0], 0.5 * length - center[0], kx).expect("a body"),
-        across: Some(Across { width, direction_rad: 0.0, posture: Some(Posture { upward, thickness_m }) }),
+        across: Some(Across { width, direction_rad: 0.0, posture: Some(Posture { upward, thickness_m, about: None }) }),
         first: clatter::End::A,
         tilt_rad: 0.0,
         flat: false,
         speed_m_s: 3.0,
+        spin_rad_s: 0.0,
         restitution: 0.3,
         gravity_m_s2: 9.806_65,
         contact_time_s: Some(1e-4),

@@ -495,6 +495,7 @@ fn single_drops_are_checked() {
         tilt_rad: 0.05,
         flat: false,
         speed_m_s: 4.0,
+        spin_rad_s: 0.0,
         restitution: 0.3,
         gravity_m_s2: 9.81,
         contact_time_s: None,

@@ -74,6 +74,7 @@ fn drops(file: &ProductFile) -> Vec<SingleDrop> {
                     tilt_rad: file.drop.tilt_rad.at(f64::from(tilt) / f64::from(TILTS)),
                     flat,
                     speed_m_s: slow + speed * (fast - slow),
+                    spin_rad_s: 0.0,
                     restitution: file.product.restitution.at(e),
                     gravity_m_s2: file.drop.gravity_m_s2,
                     contact_time_s: file.product.contact_time_s.map(|time| time.lo()),

@@ -41,6 +41,7 @@ fn any_drop(r: &mut Random, tilt_deg: f64) -> SingleDrop {
         tilt_rad: r.even(0.0, tilt_deg).to_radians(),
         flat: false,
         speed_m_s,
+        spin_rad_s: 0.0,
         restitution,
         gravity_m_s2: G,
         contact_time_s: Some(r.decades(1e-4, 1.5e-3).min(0.09 * 2.0 * half / speed_m_s)),

@@ -28,6 +28,7 @@ fn drop(restitution: f64, tilt_deg: f64, speed_m_s: f64) -> SingleDrop {
         tilt_rad: tilt_deg.to_radians(),
         flat: false,
         speed_m_s,
+        spin_rad_s: 0.0,
         restitution,
         gravity_m_s2: G,
         contact_time_s: None,

@@ -23,4 +23,5 @@ mod portrait;
 mod random;
 mod safe;
 mod scatter;
+mod spin;
 mod worst_case;

@@ -99,6 +99,7 @@ fn drop(first: End) -> SingleDrop {
         tilt_rad: 0.05,
         flat: false,
         speed_m_s: 2.0,
+        spin_rad_s: 0.0,
         restitution: 0.4,
         gravity_m_s2: 0.0,
         contact_time_s: Some(4e-4),

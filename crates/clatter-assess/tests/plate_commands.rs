@@ -131,6 +131,7 @@ fn one(file: &ProductFile, tilt_deg: f64, direction_deg: f64) -> (SingleDrop, Pa
         tilt_rad: tilt_deg.to_radians(),
         flat: false,
         speed_m_s: 3.0,
+        spin_rad_s: 0.0,
         restitution: 0.4,
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: Some(4e-4),

@@ -146,7 +146,7 @@ fn single(
     let [slow, fast] = file.drop.speeds_m_s();
     let [from, to] = file.drop.direction_rad.map_or([0.0, TAU], |direction| [direction.lo(), direction.hi()]);
     let direction_rad = from + shares[6] * (to - from);
-    let level = Posture { upward: [0.0, 0.0, 1.0], thickness_m: THICKNESS * file.product.body.length_m() };
+    let level = Posture { upward: [0.0, 0.0, 1.0], thickness_m: THICKNESS * file.product.body.length_m(), about: None };
     let drop = SingleDrop {
         body: file.product.body,
         across: file.product.width.map(|width| Across { width, direction_rad, posture: at_real_tilt.then_some(level) }),
@@ -154,6 +154,7 @@ fn single(
         tilt_rad: file.drop.tilt_rad.at(shares[0]),
         flat: false,
         speed_m_s: slow + shares[1] * (fast - slow),
+        spin_rad_s: 0.0,
         restitution: file.product.restitution.at(shares[2]),
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: file.product.contact_time_s.map(|time| time.at(shares[3])),

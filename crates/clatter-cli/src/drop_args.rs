@@ -113,6 +113,8 @@ pub(crate) struct ExtraArgs<'a> {
     pub(crate) flat: bool,
     /// Whether a contact time counts for instant impacts, too.
     pub(crate) instant_contacts: bool,
+    /// Angular velocity as end a touches, end b upward, over that of the product file, and its option.
+    pub(crate) spin: Option<(f64, &'static str)>,
     /// The end that touches first, over that of the product file.
     pub(crate) first: Option<End>,
     /// Whether places that are typed are those of the product, whichever end touches first; else they are seen from the end that does.
@@ -275,6 +277,11 @@ impl DropArgs {
         let turned = mirrored && beside.of_product;
         let (center_of_mass, body) = self.body(half, beside, e, file.as_mut(), if turned { -1.0 } else { 1.0 })?;
         let scene = self.scene(body, e, [speed, height_m], tilt_deg, gravity)?;
+        let scene = match (beside.spin, file.as_mut()) {
+            (Some((spin, flag)), _) => scene.with_spin(spin).map_err(Failure::flag(flag))?,
+            (None, Some(file)) => scene.with_spin(file.spin_rad_s())?,
+            (None, None) => scene,
+        };
         let part = file.as_mut().map(|file| file.part([half, 0.0])).transpose()?.flatten();
         let shown = self.shown(length.and_then(|length| length.unit), beside, file.as_ref());
         let law = self.contact_law.map(|law| law.0).or(file.as_ref().map(OneDrop::contact_law)).unwrap_or_default();
@@ -377,7 +384,7 @@ impl DropArgs {
         Ok((center, body))
     }
 
-    /// The drop without spin, not limited in time.
+    /// The drop without spin yet, not limited in time.
     fn scene(
         &self,
         body: Body,

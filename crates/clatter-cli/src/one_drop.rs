@@ -257,6 +257,13 @@ impl OneDrop {
         }
         Self::take(&mut self.notes, "restitution", &self.file.product.restitution, Taken::Largest, "")
     }
+    /// Angular velocity at the first touch about the axis of the tilt, positive where that grows.
+    pub(crate) fn spin_rad_s(&mut self) -> f64 {
+        if let Some(worst) = &self.worst {
+            return worst.drop.spin_rad_s;
+        }
+        neat(Self::take(&mut self.notes, "spin", &self.file.drop.spin_rad_s, Taken::Middle, "rad/s"))
+    }
     pub(crate) fn tilt_deg(&mut self) -> f64 {
         if let Some(worst) = &self.worst {
             return worst.tilt_deg();

@@ -49,7 +49,7 @@ use crate::{Failure, Streams, excitation};
 ///   --model         a drop by any of the models of `clatter simulate`: with gravity, real tilt, an
 ///                   off-center mass, contacts that take time; W is then in rad/s. It is
 ///                   answered as `clatter assess` answers it, to the --tolerance, and followed until
-///                   nothing later counts: a spin and limits of time and number are options of
+///                   nothing later counts: limits of time and number are options of
 ///                   `clatter simulate` alone. Without --omega the part is mounted rigidly, and the
 ///                   answer is what its place goes through. With --width, by compliant, the body is
 ///                   a plate: --gyration, --center-of-mass and --at take two values
@@ -115,9 +115,10 @@ pub(crate) struct Args {
     /// Along which axis of the box the part moves, or, mounted rigidly, is shaken: any is the magnitude [default: z]
     #[arg(long, value_enum, requires = "followed")]
     axis: Option<Axis>,
-    /// Angular velocity of a box as it lands, about its axes, in rad/s
-    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true, value_parser = inputs::triple, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
-    spin_rad_s: Option<[f64; 3]>,
+    /// Angular velocity at the first touch in rad/s, of a bar one value, positive where the tilt grows; of a plate WX,WY along its length
+    /// and its width, corners b and d upward where positive, as they are tilted; of a box WX,WY,WZ about its axes
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = quantities::numbers, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
+    spin_rad_s: Option<PerAxis<f64>>,
     /// Feet which are the ends or corners of the body: how far the product goes on beyond them along its length and along its width, 0 of
     /// a bar, and how far they stand out; places beyond them are then allowed, and a drop in which an edge touches is not answered
     #[arg(long, value_name = "X,Y,HEIGHT", value_parser = inputs::feet, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
@@ -181,7 +182,8 @@ const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
 /// What says how a drop is, that of a product file apart.
-const OF_ONE_DROP: [&str; 29] = [
+const OF_ONE_DROP: [&str; 30] = [
+    "spin_rad_s",
     "first",
     "at",
     "e",
@@ -283,10 +285,8 @@ impl Args {
         if self.drop.is_block() {
             return self.block(streams);
         }
-        if self.spin_rad_s.is_some() || self.at_m.is_some() || self.axis.is_some() {
-            return Err(Failure::Usage(
-                "--spin-rad-s, --at-m and --axis are of a box, which has --width and --thickness",
-            ));
+        if self.at_m.is_some() || self.axis.is_some() {
+            return Err(Failure::Usage("--at-m and --axis are of a box, which has --width and --thickness"));
         }
         if self.drop.is_plate() {
             return self.run_plate(None, streams);

@@ -168,6 +168,7 @@ fn title(file: &ProductFile, column: Column) -> String {
         Column::DirectionDeg => "direction_deg".to_owned(),
         Column::SpeedMS => "speed_m_s".to_owned(),
         Column::TiltDeg => "tilt_deg".to_owned(),
+        Column::SpinRadS => "spin_rad_s".to_owned(),
         Column::Restitution => "restitution".to_owned(),
         Column::ContactTimeS => "contact_time_s".to_owned(),
         Column::GyrationM => "gyration_m".to_owned(),
@@ -179,6 +180,7 @@ fn title(file: &ProductFile, column: Column) -> String {
         Column::CriticalAccelerationMS2(i) => format!("critical_acceleration_m_s2 of {}", name_of(file, i)),
         Column::LandingSpeedMS(n) => format!("speed_m_s on {}", file.landings[n].attitude),
         Column::LandingTiltDeg(n) => format!("tilt_deg on {}", file.landings[n].attitude),
+        Column::LandingSpinRadS(n) => format!("spin_rad_s on {}", file.landings[n].attitude),
         Column::LandingDirectionDeg(n) => format!("direction_deg on {}", file.landings[n].attitude),
         Column::LandingUtilization(n, i) => {
             format!("utilization of {} on {}", name_of(file, i), file.landings[n].attitude)

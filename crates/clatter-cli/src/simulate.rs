@@ -18,6 +18,8 @@ use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, PerAxis, Piece, Place};
 use crate::{Failure, Streams};
 
+pub(crate) use plate::turning;
+
 /// Follow one drop in time: its strikes, how hard they are, and how it comes to rest
 ///
 /// Four models of the same drop, each the cheapest that keeps its physics; run two to see what it
@@ -82,13 +84,14 @@ pub(crate) struct Args {
     e: Option<f64>,
     #[command(flatten)]
     drop: DropArgs,
-    /// Angular velocity when end a touches; positive turns end b upward [default: 0rad/s]
+    /// Angular velocity when end a touches; positive turns end b upward, so that the tilt grows [default: 0rad/s]
     #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = quantities::spin, conflicts_with = "spin_rad_s")]
     spin: Option<Quantity>,
     /// Follow the motion until this time after the first touch
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = quantities::until, conflicts_with = "time_limit_s")]
     until: Option<Quantity>,
-    /// --spin in rad/s; of a box WX,WY,WZ about its axes
+    /// --spin in rad/s; of a plate WX,WY along its length and its width, corners b and d upward where positive; of a box WX,WY,WZ
+    /// about its axes
     #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = quantities::numbers, help_heading = IN_SI, hide_short_help = true)]
     spin_rad_s: Option<PerAxis<f64>>,
     /// --until in s
@@ -202,7 +205,13 @@ impl Args {
 
     fn drop(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
         let mass = &self.inertia.mass;
+        let spin = match (self.spin, self.spin_rad_s) {
+            (Some(spin), _) => Some((spin.si, "--spin")),
+            (None, Some(spin)) => Some((spin.of_bar("--spin-rad-s")?, "--spin-rad-s")),
+            (None, None) => None,
+        };
         let beside = ExtraArgs {
+            spin,
             flat: false,
             model: self.model,
             e: self.e,
@@ -214,14 +223,9 @@ impl Args {
             file,
         };
         let mut setup = self.drop.setup(beside)?;
-        let (spin, flag) = match (self.spin, self.spin_rad_s) {
-            (Some(spin), _) => (spin.si, "--spin"),
-            (None, Some(spin)) => (spin.of_bar("--spin-rad-s")?, "--spin-rad-s"),
-            (None, None) => (0.0, "--spin-rad-s"),
-        };
         setup.shown.spin.unit = self.spin.and_then(|spin| spin.unit);
         setup.shown.time.unit = setup.shown.time.unit.or(self.until.and_then(|until| until.unit));
-        let scene = setup.scene.with_spin(spin).map_err(Failure::flag(flag))?.with_impact_limit(self.impact_limit)?;
+        let scene = setup.scene.with_impact_limit(self.impact_limit)?;
         setup.scene = self.time_limit_s().map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?;
         let of_part = setup.part.iter().map(|part| part.place[0]).filter(|_| self.at.is_empty());
         let at = self.at.iter().map(|place| place.of_bar("--at")).collect::<Result<Vec<_>, _>>()?;

@@ -72,13 +72,14 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     } else {
         four(1e3 * worst.part.position_m)
     };
+    let spin = worst.spin_rad_s().map_or(String::new(), |spin| format!(", turning at {} rad/s", four(spin)));
     let own = worst.drop.own_contacts.told(worst.drop.restitution, worst.drop.contact_time_s);
     let one = |(at, e, time_s): (&str, f64, Option<f64>)| {
         format!(", at {at} e {} and {} ms", four(e), four(1e3 * time_s.unwrap_or(0.0)))
     };
     let own: String = own.map(one).collect();
     format!(
-        "{lands}, {} m/s, e {}{contact}{own}{gyration}; at {place} mm{part}",
+        "{lands}, {} m/s{spin}, e {}{contact}{own}{gyration}; at {place} mm{part}",
         four(worst.drop.speed_m_s),
         four(worst.drop.restitution),
     )

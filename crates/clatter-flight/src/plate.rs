@@ -6,7 +6,7 @@ use crate::Error;
 use crate::contact::{Contact, Level, Run, alike, check_time};
 use crate::flight::Log;
 use crate::motion::{Ahead, PlateMotion};
-use crate::scene::within;
+use crate::scene::{SLOWEST, within};
 
 /// A rigid rectangular plate, its center of mass anywhere between the edges.
 ///
@@ -140,7 +140,7 @@ fn inverse(gyration: [f64; 2], product: f64) -> [f64; 3] {
     [1.0 / (xx * left), 1.0 / (yy * left), -product / xx / yy / left + 0.0]
 }
 
-/// A drop of a plate at the moment when corner a touches, without turning.
+/// A drop of a plate at the moment when corner a touches.
 ///
 /// # Validity
 /// Small tilt: lever arms are those of a level plate. Hard, level ground without friction.
@@ -149,13 +149,14 @@ pub struct PlateScene {
     plate: Plate,
     speed: f64,
     gaps: [f64; 2],
+    spin: [f64; 2],
     gravity: f64,
     time_limit: f64,
     impact_limit: usize,
 }
 
 impl PlateScene {
-    /// A plate that comes down at this speed, with corner b and d so high as a touches; c is as high as both together.
+    /// A plate that comes down at this speed without turning, with corner b and d so high as a touches; c is as high as both together.
     ///
     /// No limit of time until set otherwise, and 100 000 strikes.
     ///
@@ -176,10 +177,38 @@ impl PlateScene {
             plate,
             speed: speed_m_s,
             gaps: gaps_m.map(|gap| gap + 0.0),
+            spin: [0.0; 2],
             gravity: gravity_m_s2 + 0.0,
             time_limit: f64::INFINITY,
             impact_limit: 100_000,
         })
+    }
+    /// Already turning at the first touch: rates of the slopes along x and along y, corner b and corner d upward where positive.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`](clatter::Error::Quantity) unless both are finite, corner a still approaches, and no corner is faster than
+    /// 1e30 m/s.
+    pub fn with_spin(mut self, spin_rad_s: [f64; 2]) -> Result<Self, Given> {
+        self.spin = spin_rad_s.map(|spin| spin + 0.0);
+        let velocities = self.corner_velocities();
+        // As it rounds: where all of the speed is turned away nothing may be left of the approach.
+        if !(velocities[0] <= -SLOWEST && velocities.iter().all(|v| v.abs() <= 1e30)) {
+            let [x, y] = spin_rad_s;
+            let value = if x < y || x.is_nan() { x } else { y };
+            let allowed = "such that corner a approaches, and no corner is faster than 1e30 m/s";
+            return Err(Given::Quantity { name: "spin in rad/s", value, allowed });
+        }
+        Ok(self)
+    }
+    /// Vertical velocities of the corners at the first touch.
+    #[must_use]
+    pub fn corner_velocities(&self) -> [f64; 4] {
+        self.plate.corners_m().map(|[x, y]| x * self.spin[0] + y * self.spin[1] - self.speed)
+    }
+    /// Rates of the slopes along x and along y at the first touch.
+    #[must_use]
+    pub fn spin_rad_s(&self) -> [f64; 2] {
+        self.spin
     }
     /// No strike after this time since the first touch.
     ///
@@ -289,7 +318,10 @@ impl PlateScene {
             }
         }
         let length = sides[0].max(sides[1]);
-        let most = [0.2 * length / self.speed, 0.1 * (length / self.gravity).sqrt()];
+        // No corner is faster at the first touch.
+        let reach = self.plate.corners_m().iter().fold(0.0_f64, |most, [x, y]| most.max(libm::hypot(*x, *y)));
+        let fastest = self.speed + reach * libm::hypot(self.spin[0], self.spin[1]);
+        let most = [0.2 * length / fastest, 0.1 * (length / self.gravity).sqrt()];
         let reasons = [
             "a fifth of longer side/speed, so that the corners sink in little",
             "a tenth of sqrt(longer side/gravity), so that the corners sink in little",

@@ -163,7 +163,7 @@ impl Scene<2> {
 }
 
 /// The slowest approach that a [`Start`](clatter::Start) takes.
-const SLOWEST: f64 = 1e-150;
+pub(crate) const SLOWEST: f64 = 1e-150;
 
 pub(crate) fn within(name: &'static str, value: f64, lo: f64, hi: f64, allowed: &'static str) -> Result<(), Error> {
     if (lo..=hi).contains(&value) { Ok(()) } else { Err(Error::Quantity { name, value, allowed }) }

@@ -30,6 +30,7 @@ fn cases(law: ContactLaw) -> Vec<(Value, Drop)> {
         edges: numbers(case, "reach_m"),
         gyration: numbers(case, "gyration_m"),
         gaps: numbers(case, "gaps_m"),
+        spin: [0.0; 2],
         speed: number(case, "speed_m_s"),
         gravity: number(case, "gravity_m_s2"),
         law,
@@ -41,7 +42,8 @@ fn cases(law: ContactLaw) -> Vec<(Value, Drop)> {
 
 fn scene(drop: &Drop) -> PlateScene {
     let plate = Plate::new(drop.edges, drop.gyration).expect("a plate");
-    PlateScene::new(plate, drop.speed, drop.gaps, drop.gravity).expect("a drop")
+    let scene = PlateScene::new(plate, drop.speed, drop.gaps, drop.gravity).expect("a drop");
+    scene.with_spin(drop.spin).expect("corner a comes down")
 }
 
 fn contact(drop: &Drop) -> Contact {
@@ -150,21 +152,27 @@ fn any_drop(e: impl Strategy<Value = f64>) -> impl Strategy<Value = Drop> {
     let off = || prop_oneof![Just(0.0), -0.4..0.4_f64];
     let gap = || prop_oneof![Just(0.0), (-6.0..-1.2_f64).prop_map(|x| 10f64.powf(x)), 0.01..0.1_f64];
     let gaps = prop_oneof![(gap(), gap()), gap().prop_map(|gap| (gap, gap))];
+    // Over what takes away half of the approach of corner a.
+    let turn = || prop_oneof![Just(0.0), -0.95..2.0_f64];
     let size = (0.025..0.14_f64, prop_oneof![Just(1.0), 0.2..2.0_f64], off(), off());
     let inertia = (0.35..1.2_f64, 0.35..1.2_f64);
     let law = prop::sample::select(&ContactLaw::ALL[..]);
-    (size, inertia, gaps, law, e, 0.5..5.0_f64, 1e-4..1.5e-3_f64).prop_map(
-        |((half, aspect, off_x, off_y), (kx, ky), (hx, hy), law, e, speed, time)| {
+    (size, inertia, gaps, (turn(), turn()), law, e, 0.5..5.0_f64, 1e-4..1.5e-3_f64).prop_map(
+        |((half, aspect, off_x, off_y), (kx, ky), (hx, hy), (tx, ty), law, e, speed, time)| {
             let (a, b) = (half, half * aspect);
+            let edges = [a * (1.0 + off_x), a * (1.0 - off_x), b * (1.0 + off_y), b * (1.0 - off_y)];
+            let spin = [0.5 * tx * speed / edges[0], 0.5 * ty * speed / edges[2]];
+            let reach = edges[0].max(edges[1]).hypot(edges[2].max(edges[3]));
             Drop {
-                edges: [a * (1.0 + off_x), a * (1.0 - off_x), b * (1.0 + off_y), b * (1.0 - off_y)],
+                edges,
+                spin,
                 gyration: [kx * a, ky * b],
                 gaps: [hx * 2.0 * a, hy * 2.0 * b],
                 speed,
                 gravity: G,
                 law,
                 e,
-                time: time.min(0.19 * 2.0 * a.max(b) / speed),
+                time: time.min(0.19 * 2.0 * a.max(b) / (speed + reach * spin[0].hypot(spin[1]))),
             }
         },
     )
@@ -172,8 +180,8 @@ fn any_drop(e: impl Strategy<Value = f64>) -> impl Strategy<Value = Drop> {
 
 impl std::fmt::Debug for Drop {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { edges, gyration, gaps, speed, law, e, time, .. } = self;
-        write!(f, "{edges:?} {gyration:?} {gaps:?} {speed} m/s {law:?} e={e} {time} s")
+        let Self { edges, gyration, gaps, spin, speed, law, e, time, .. } = self;
+        write!(f, "{edges:?} {gyration:?} {gaps:?} {spin:?} {speed} m/s {law:?} e={e} {time} s")
     }
 }
 
@@ -206,7 +214,7 @@ proptest! {
         let off = fast(now.velocity_m_s, plain.velocities());
         prop_assert!(times > 1e3 || off < 1e-8 * times, "{off:e}, {times}-fold of {drop:?}");
         let high = (0..4).map(|i| (now.height_m[i] - plain.heights()[i]).abs()).fold(0.0, f64::max);
-        prop_assert!(times > 1e3 || high < 1e-8 * times * drop.speed * until_s, "{high:e}, {times}-fold of {drop:?}");
+        prop_assert!(times > 1e3 || high <= 1e-8 * times * drop.speed * until_s, "{high:e}, {times}-fold of {drop:?}");
     }
 }
 
@@ -247,7 +255,7 @@ proptest! {
     /// more energy than before, and a flight ends.
     #[test]
     fn momenta_add_up_and_energy_never_grows(drop in any_drop(any_e())) {
-        let flight = scene(&drop).with_impact_limit(2000).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
+        let flight = scene(&drop).with_impact_limit(20_000).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
         prop_assert!(matches!(flight.stop, Stop::AtRest { .. }) || drop.e > 0.9, "{:?} {drop:?}", flight.stop);
         // Some 1e-13 a strike.
         prop_assert!(flight.energy_error < 1e-8, "{:e} {drop:?}", flight.energy_error);
@@ -259,7 +267,8 @@ proptest! {
             let size = drop.speed * (drop.edges[0] + drop.edges[1] + drop.edges[2] + drop.edges[3]);
             prop_assert!(off <= 1e-12 * size, "{off:e} {strike:?} {drop:?}");
         }
-        let mut held = energy(&drop, [0.0, drop.gaps[0], drop.gaps[0] + drop.gaps[1], drop.gaps[1]], [-drop.speed; 4]);
+        let begins = plate.corners_m().map(|[x, y]| x * drop.spin[0] + y * drop.spin[1] - drop.speed);
+        let mut held = energy(&drop, [0.0, drop.gaps[0], drop.gaps[0] + drop.gaps[1], drop.gaps[1]], begins);
         let first = held;
         for (k, t) in flight.phases_s().enumerate() {
             let now = flight.sample(t).expect("contacts");
@@ -281,6 +290,7 @@ proptest! {
         let c = askew * kx * ky;
         let plate = plain.with_product_of_inertia(c).expect("a plate");
         let scene = PlateScene::new(plate, drop.speed, drop.gaps, drop.gravity).expect("a drop").with_impact_limit(500);
+        let scene = scene.with_spin(drop.spin).expect("corner a comes down");
         let flight = scene.contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
         prop_assert!(flight.energy_error < 1e-8, "{:e} {askew} {drop:?}", flight.energy_error);
         for strike in &flight.strikes {
@@ -334,6 +344,7 @@ proptest! {
         let sum = |felt: &Excitation| -> f64 { felt.sections().map(|section| section.velocity_after(section.length)).sum() };
         let place = plate.place([x, y]);
         let [v, by_x, by_y] = motion(&plate, flight.sample(end_s).expect("contacts").velocity_m_s);
+        let (by_x, by_y) = (by_x - drop.spin[0], by_y - drop.spin[1]);
         let changed = v + by_x * place[0] + by_y * place[1] + drop.speed + G * end_s;
         let felt = sum(&flight.felt(place));
         prop_assert!((felt - changed).abs() < 1e-9 * (drop.speed + G * end_s), "{felt} {changed} {drop:?}");
@@ -348,8 +359,8 @@ proptest! {
     fn axes_may_be_exchanged(drop in any_drop(0.05..1.0_f64)) {
         let [a, b, c, d] = drop.edges;
         let [kx, ky] = drop.gyration;
-        let [hx, hy] = drop.gaps;
-        let other = Drop { edges: [c, d, a, b], gyration: [ky, kx], gaps: [hy, hx], ..drop };
+        let ([hx, hy], [sx, sy]) = (drop.gaps, drop.spin);
+        let other = Drop { edges: [c, d, a, b], gyration: [ky, kx], gaps: [hy, hx], spin: [sy, sx], ..drop };
         let until_s = 4.0 * drop.time + (hx + hy) / drop.speed;
         let (one, other) = (until(&drop, until_s), until(&other, until_s));
         let big = |flight: &PlateMotion| -> Vec<Strike<4>> { flight.strikes.iter().filter(|s| !grazes(s.approach_m_s, &drop)).copied().collect() };
@@ -376,7 +387,7 @@ fn a_plate_that_lands_on_edges_is_a_bar() {
             let (half, depth, tilt, speed) = (0.07, 0.035, 1e-4_f64, 3.0);
             let gyration = [half * k, depth / (1.0 + (1.0_f64 / k).powi(2)).sqrt()];
             let (edges, gaps) = ([half, half, depth, depth], [2.0 * half * tilt, 0.0]);
-            let drop = Drop { edges, gyration, gaps, speed, gravity: G, law, e, time: 2e-4 };
+            let drop = Drop { edges, gyration, gaps, spin: [0.0; 2], speed, gravity: G, law, e, time: 2e-4 };
             let until_s = 3.0 * drop.time;
             let plate = until(&drop, until_s);
             let body = Body::new(2.0 * half, gyration[0]).unwrap();
@@ -406,6 +417,7 @@ fn a_flat_plate_rises_with_the_restitution() {
                 edges: [0.07, 0.07, 0.035, 0.035],
                 gyration: [0.04, 0.02],
                 gaps: [0.0; 2],
+                spin: [0.0; 2],
                 speed: 2.0,
                 gravity: 0.0,
                 law,
@@ -506,7 +518,7 @@ fn an_even_drop_stays_even() {
         for e in [0.0, 0.05, 0.3, 0.9] {
             let edges = [0.157, 0.087, 0.122, 0.122];
             let (gyration, gaps) = ([0.069, 0.093], [6e-3, 0.0]);
-            let drop = Drop { edges, gyration, gaps, speed: 2.0, gravity: G, law, e, time: 1e-3 };
+            let drop = Drop { edges, gyration, gaps, spin: [0.0; 2], speed: 2.0, gravity: G, law, e, time: 1e-3 };
             let until_s = 6e-3;
             let flight = until(&drop, until_s);
             for k in 0..60 {

@@ -184,7 +184,7 @@ proptest! {
         let drop = Drop {
             edges: [a * (1.0 + x), a * (1.0 - x), b * (1.0 + y), b * (1.0 - y)],
             gyration: [inertia[0] * a, inertia[1] * b], gaps: [gaps.0 * 2.0 * a, gaps.1 * 2.0 * b],
-            speed, gravity: G, law: ContactLaw::Hysteretic, e: 0.5, time: longest,
+            speed, spin: [0.0; 2], gravity: G, law: ContactLaw::Hysteretic, e: 0.5, time: longest,
         };
         let plate = Plate::new(drop.edges, drop.gyration).expect("a plate");
         let scene = PlateScene::new(plate, speed, drop.gaps, G).expect("a drop").with_impact_limit(400);

@@ -56,13 +56,14 @@ const NOT_COVERED: [[&str; 2]; 10] = [
     ["Damage by repetition", "Each limit is on the worst moment of one drop. Fatigue over many drops is not counted."],
 ];
 
-/// Of a bar or of a plate.
-fn not_covered(is_plate: bool) -> [[&'static str; 2]; 10] {
+/// Of a bar or of a plate, which may turn as it lands.
+fn not_covered(is_plate: bool, spins: bool) -> Vec<[String; 2]> {
     let of_plate = |said: [&'static str; 2]| {
         let other = plate::NOT_COVERED.into_iter().find(|other| is_plate && other.0 == said[0]);
         other.map_or(said, |other| other.1)
     };
-    NOT_COVERED.map(of_plate)
+    let of_spin = |said: &str| if spins { said.replace(plate::NO_SPIN, plate::SPIN) } else { said.to_owned() };
+    NOT_COVERED.map(of_plate).iter().map(|said| said.map(of_spin)).collect()
 }
 
 /// Rows of one drawing of the product, and curves of one figure, at most: more are neither read nor hold on a page.
@@ -138,7 +139,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "plate": of_plate.is_some(),
         "landings": landings::rows(file, assessment),
         "landings-of": file.landings.first().and_then(|landing| landing.source),
-        "limits-of-the-model": if is_box { landings::NOT_COVERED.to_vec() } else { not_covered(of_plate.is_some()).to_vec() },
+        "limits-of-the-model": if is_box { json!(landings::NOT_COVERED) } else { json!(not_covered(of_plate.is_some(), file.drop.may_spin())) },
     });
     files.push(("assessment.json".into(), data.to_string()));
     Ok(files)

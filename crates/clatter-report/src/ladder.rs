@@ -53,6 +53,7 @@ mod tests {
                 tilt_rad,
                 flat: false,
                 speed_m_s: 1.0,
+                spin_rad_s: 0.0,
                 restitution: e,
                 gravity_m_s2: 9.81,
                 contact_time_s,

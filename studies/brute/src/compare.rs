@@ -228,6 +228,7 @@ pub fn repeat(worst: &Worst) -> Vec<String> {
         format!("--e={}", drop.e),
         format!("--speed-m-s={}", drop.speed),
         format!("--tilt-deg={}", if worst.flat { 0.0 } else { drop.tilt.to_degrees() }),
+        format!("--spin-rad-s={}", drop.spin),
         format!("--gravity-m-s2={}", drop.gravity),
         format!("--at={}", ((place + drop.center) / half).clamp(-1.0, 1.0)),
         "--tolerance=0.001".to_owned(),

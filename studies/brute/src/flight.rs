@@ -3,7 +3,7 @@
 use crate::ground::{Contact, Ground, LEAST_RESTITUTION, Phase, fine};
 pub use crate::ground::{Law, Own};
 
-/// A bar at the moment when its lower end touches the ground, all of it falling at one speed; SI units.
+/// A bar at the moment when its lower end touches the ground; SI units.
 #[derive(Debug, Clone, Copy)]
 pub struct Drop {
     /// From end a to end b.
@@ -18,8 +18,10 @@ pub struct Drop {
     pub contact: Option<(Law, f64)>,
     /// What ends a and b have of their own.
     pub own: [Own; 2],
-    /// Speed.
+    /// Speed of the center of mass.
     pub speed: f64,
+    /// Angular velocity, positive where the tilt grows.
+    pub spin: f64,
     /// Angle to the ground.
     pub tilt: f64,
     /// Whether end b is the lower one.
@@ -117,7 +119,8 @@ impl Bar {
 
     fn start(&self) -> State {
         let angle = if self.drop.b_first { -self.drop.tilt } else { self.drop.tilt };
-        [-self.ends[usize::from(self.drop.b_first)] * angle.sin(), angle, -self.drop.speed, 0.0]
+        let rate = if self.drop.b_first { -self.drop.spin } else { self.drop.spin };
+        [-self.ends[usize::from(self.drop.b_first)] * angle.sin(), angle, -self.drop.speed, rate]
     }
 
     fn height(&self, end: usize, s: &State) -> f64 {

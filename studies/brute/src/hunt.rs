@@ -106,14 +106,16 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
     let mut random = Random::new(seed);
     let limits: Vec<(&Part, Kind)> =
         product.parts.iter().flat_map(|part| part.limits.iter().map(move |&kind| (part, kind))).collect();
+    let spins = product.spins();
     let draws = if product.parts.iter().any(Part::varies) { DRAWS } else { 1 };
     let mut best: Vec<Vec<(f64, Sample)>> = vec![Vec::new(); limits.len()];
     for _ in 0..drops.div_ceil(2).max(1) {
-        let base = draw(&mut random);
+        let base = draw(&mut random, spins);
         let flights = flights(&product.drop(&base), ROUGH);
         for _ in 0..draws {
-            let mut sample = draw(&mut random);
+            let mut sample = draw(&mut random, spins);
             sample[..5].copy_from_slice(&base[..5]);
+            sample[8] = base[8];
             let mut best = best.iter_mut();
             for part in &product.parts {
                 let (place, suspension) = part.at(&sample);
@@ -136,22 +138,24 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
         starts.truncate(STARTS);
         let mut tops: Vec<(f64, Sample)> = starts
             .into_iter()
-            .map(|start| climb(start, tries, &mut random, |sample| high(part, kind, product, sample)))
+            .map(|start| climb(start, tries, spins, &mut random, |sample| high(part, kind, product, sample)))
             .collect();
         tops.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let top = climb(tops[0], 2 * tries, &mut random, |sample| high(part, kind, product, sample));
+        let top = climb(tops[0], 2 * tries, spins, &mut random, |sample| high(part, kind, product, sample));
         told(part, kind, product, &top.1)
     });
     climbed.collect()
 }
 
 /// A sample: uniform, some inputs at an end of their range, tilts rather small.
-fn draw(random: &mut Random) -> Sample {
+fn draw(random: &mut Random, spins: bool) -> Sample {
     let corners = random.chance(0.5);
-    let mut sample = [0.0; 8].map(|_: f64| match random.unit() {
+    let mut one = || match random.unit() {
         u if corners && u < 0.4 => f64::from(u < 0.2),
         _ => random.unit(),
-    });
+    };
+    let [a, b, c, d, e, f, g, h] = [0.0; 8].map(|_: f64| one());
+    let mut sample = [a, b, c, d, e, f, g, h, if spins { one() } else { 0.0 }];
     if random.chance(0.3) {
         sample[3] = sample[3].powi(4);
     }
@@ -159,12 +163,18 @@ fn draw(random: &mut Random) -> Sample {
 }
 
 /// Random steps that shrink where they find nothing higher.
-fn climb(start: (f64, Sample), tries: usize, random: &mut Random, value: impl Fn(&Sample) -> f64) -> (f64, Sample) {
+fn climb(
+    start: (f64, Sample),
+    tries: usize,
+    spins: bool,
+    random: &mut Random,
+    value: impl Fn(&Sample) -> f64,
+) -> (f64, Sample) {
     let (mut top, mut reach) = (start, 0.1);
     for _ in 0..tries {
         let few = random.chance(0.5);
         let mut sample = top.1;
-        for (i, x) in sample.iter_mut().enumerate() {
+        for (i, x) in sample.iter_mut().take(if spins { 9 } else { 8 }).enumerate() {
             if i != 4 && !(few && random.chance(0.6)) {
                 *x = (*x + reach * random.normal()).clamp(0.0, 1.0);
             }

@@ -59,6 +59,7 @@ pub struct Product {
     own: [Own; 2],
     speed: Range,
     tilt: Range,
+    spin: Range,
     first: Vec<bool>,
     gravity: f64,
     /// The parts.
@@ -66,8 +67,8 @@ pub struct Product {
 }
 
 /// A drop and a part within all ranges, each from 0 to 1: restitution, contact time, speed, tilt, first end, place,
-/// frequency, damping.
-pub type Sample = [f64; 8];
+/// frequency, damping, spin.
+pub type Sample = [f64; 9];
 
 fn between(range: Range, share: f64) -> f64 {
     range[0] + (range[1] - range[0]) * share
@@ -87,9 +88,16 @@ impl Product {
             own: self.own,
             speed: between(self.speed, sample[2]),
             tilt: between(self.tilt, sample[3]),
+            spin: between(self.spin, sample[8]),
             b_first: self.first[end],
             gravity: self.gravity,
         }
+    }
+
+    /// Whether it turns as it lands, at some spin of a range.
+    #[must_use]
+    pub fn spins(&self) -> bool {
+        self.spin[1] > self.spin[0]
     }
 
     /// Reads a product file.
@@ -128,6 +136,7 @@ impl Product {
             own: own(product)?,
             speed,
             tilt: range(drop, "tilt")?,
+            spin: optional(drop, "spin")?.unwrap_or([0.0; 2]),
             first,
             gravity,
             parts: parts.iter().filter_map(Value::as_table).map(|t| part(t, center)).collect::<Result<_, _>>()?,

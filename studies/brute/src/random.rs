@@ -44,8 +44,8 @@ impl Random {
 }
 
 /// Kinds of random products.
-pub const KINDS: [&str; 9] =
-    ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped", "feet", "own-contacts"];
+pub const KINDS: [&str; 10] =
+    ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped", "feet", "own-contacts", "spin"];
 
 /// A value with its unit, or a range about it; three digits, as one writes them.
 fn spread(random: &mut Random, middle: f64, share: f64, chance: f64, unit: &str) -> String {
@@ -110,6 +110,8 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
     let (from, to) = match kind {
         "tiny-tilt" => (0.0, r.log(0.05, 1.0)),
         "steep" => (r.within(0.0, 15.0), r.within(15.0, 30.0)),
+        // Without a contact time so steep that no strikes are one.
+        "spin" if !contact => (r.within(10.0, 12.0), r.within(13.0, 20.0)),
         _ => (if r.chance(0.5) { 0.0 } else { r.within(0.5, 3.0) }, r.within(4.0, 15.0)),
     };
     let first = ["a", "b", "either"][(r.unit() * 3.0) as usize];
@@ -121,6 +123,14 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
         digits(from),
         digits(to)
     );
+    if kind == "spin" {
+        // Over what would turn the first end up, at the least height and the farthest end.
+        let most = (2.0 * 9.806_65 * 0.7 * height).sqrt() / (0.62e-3 * length);
+        let spin = r.within(-0.9, 1.2);
+        let other = if r.chance(0.7) { r.within(-0.9, 1.2) } else { spin };
+        let [low, high] = [spin.min(other), spin.max(other)].map(|share| digits(share * most));
+        let _ = writeln!(text, "spin = [\"{low} rad/s\", \"{high} rad/s\"]");
+    }
     for i in 0..=usize::from(r.chance(0.5)) {
         text.push_str(&part(r, kind, i, length, contact));
     }

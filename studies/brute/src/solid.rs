@@ -7,7 +7,7 @@ use crate::ground::{Contact, Ground, Law, Own, Phase, fine};
 pub type Vector = [f64; 3];
 type Matrix = [Vector; 3];
 
-/// A box at the moment when its lowest corner touches the ground, all of it falling at one speed; SI units. Its axes run along
+/// A box at the moment when its lowest corner touches the ground; SI units. Its axes run along
 /// length, width and thickness.
 #[derive(Debug, Clone, Copy)]
 pub struct Solid {
@@ -25,8 +25,10 @@ pub struct Solid {
     pub contact: (Law, f64),
     /// What the corners (−, −), (+, −), (+, +) and (−, +) of its bottom have of their own.
     pub own: [Own; 4],
-    /// Speed.
+    /// Speed of the center of mass.
     pub speed: f64,
+    /// Angular velocity, in axes of the box.
+    pub spin: Vector,
     /// The vertical in axes of the box.
     pub upward: Vector,
     /// Gravity.
@@ -132,6 +134,9 @@ impl Body {
         for (i, x) in x.into_iter().chain(y).chain(up).enumerate() {
             s[2 + i] = x;
         }
+        let ([a, b, c], [u, v, w], off) = (self.solid.radii.map(|k| k * k), self.solid.spin, -self.solid.askew);
+        let momentum = out(&[x, y, up], [a * u + off * v, off * u + b * v, c * w]);
+        s[11..].copy_from_slice(&momentum);
         s
     }
 

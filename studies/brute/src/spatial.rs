@@ -17,8 +17,10 @@ use crate::solid::{Solid, Vector, follow};
 
 /// Drops are followed so far.
 const UNTIL: Until = Until { time: 0.3, quiet: 2e-2 };
-/// Restitution, contact time, speed, tilt, direction, natural frequency, damping, from 0 to 1.
-type Sample = [f64; 7];
+/// Restitution, contact time, speed, tilt, direction, natural frequency, damping, spin, from 0 to 1.
+type Sample = [f64; 8];
+/// Kinds of products in space.
+pub const KINDS: [&str; 5] = ["plate", "box", "plate-own-contacts", "spin-plate", "spin-box"];
 type Range = [f64; 2];
 
 /// A part: where it is from the center of mass, the axis that it moves along (any of a hard one), and its suspension.
@@ -39,6 +41,8 @@ struct Product {
     /// Of a plate off flat; of a box off its attitude.
     tilt: Range,
     direction: Range,
+    /// About the axis of the tilt, positive where that grows.
+    spin: Range,
     /// The vertical of a box on its face, edge or corner.
     upward: Vector,
     parts: Vec<Part>,
@@ -91,7 +95,7 @@ impl Product {
     fn new(kind: &str, seed: u64) -> Self {
         let number = KINDS.iter().position(|&known| known == kind).unwrap_or(0);
         let r = &mut Random::new(seed.wrapping_mul(64).wrapping_add(number as u64));
-        let (is_box, has_own) = (kind == "box", kind == "plate-own-contacts");
+        let (is_box, has_own) = (kind.ends_with("box"), kind == "plate-own-contacts");
         let length = round(r.log(0.08, 0.3));
         let width = round(length * r.within(0.3, 1.0));
         let thickness = round(length * if is_box { r.within(0.06, 0.4) } else { r.within(0.03, 0.1) });
@@ -154,12 +158,23 @@ impl Product {
             contact: (law, time),
             own,
             speed: 0.0,
+            spin: [0.0; 3],
             upward,
             gravity: 9.806_65,
         };
         let speed = [(2.0 * solid.gravity * height).sqrt(); 2];
+        let mut spin = [0.0; 2];
+        if kind.starts_with("spin") {
+            // Over what would turn a corner up, wherever it is.
+            let far = (0..3).map(|i| 0.5 * solid.sides[i] + solid.center[i].abs()).map(|x| x * x).sum::<f64>().sqrt();
+            let shares = [r.within(-0.9, 0.9), r.within(-0.9, 0.9)];
+            let [low, high] =
+                [shares[0].min(shares[1]), shares[0].max(shares[1])].map(|share| round(share * speed[0] / far));
+            let _ = writeln!(text, "spin = [\"{low} rad/s\", \"{high} rad/s\"]");
+            spin = [low, high];
+        }
         let parts = (0..2).map(|n| part(r, n, &solid, is_box, &mut text)).collect();
-        Self { solid, law, e, time: [time; 2], speed, tilt, direction, upward, parts, text }
+        Self { solid, law, e, time: [time; 2], speed, tilt, direction, spin, upward, parts, text }
     }
 
     fn drop(&self, sample: &Sample) -> Solid {
@@ -173,10 +188,15 @@ impl Product {
             up[0] * first[1] - up[1] * first[0],
         ];
         let off = |i: usize| direction.cos() * first[i] + direction.sin() * second[i];
+        // Where the tilt grows, the vertical turns towards the direction in axes of the box.
+        let [u, v, w] = [0, 1, 2].map(off);
+        let about = [v * up[2] - w * up[1], w * up[0] - u * up[2], u * up[1] - v * up[0]];
+        let spin = at(self.spin, sample[7]);
         Solid {
             e: at(self.e, sample[0]),
             contact: (self.law, at(self.time, sample[1])),
             speed: at(self.speed, sample[2]),
+            spin: about.map(|x| spin * x),
             upward: std::array::from_fn(|i| angle.cos() * up[i] + angle.sin() * off(i)),
             ..self.solid
         }
@@ -202,9 +222,6 @@ fn own_contacts(r: &mut Random, own: &mut [Own; 4], time: f64) -> String {
     }
     list.join(", ")
 }
-
-/// Kinds of products in space.
-pub const KINDS: [&str; 3] = ["plate", "box", "plate-own-contacts"];
 
 /// An axis across another.
 fn across(up: Vector) -> Vector {
@@ -258,10 +275,11 @@ fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String
 /// The largest value of each limit among random drops, half of them close to the worst so far.
 fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f64, Sample)> {
     let limits = product.parts.iter().enumerate().flat_map(|(n, part)| part.kinds.iter().map(move |&kind| (n, kind)));
-    let mut best: Vec<(usize, Kind, f64, Sample)> = limits.map(|(n, kind)| (n, kind, -1.0, [0.5; 7])).collect();
+    let mut best: Vec<(usize, Kind, f64, Sample)> = limits.map(|(n, kind)| (n, kind, -1.0, [0.5; 8])).collect();
     let mut reach = 0.1;
     for k in 0..drops {
-        let mut sample: Sample = std::array::from_fn(|_| match r.unit() {
+        let spins = product.spin[1] > product.spin[0];
+        let mut sample: Sample = std::array::from_fn(|i| match if i < 7 || spins { r.unit() } else { 0.0 } {
             u if u < 0.15 => 0.0,
             u if u > 0.85 => 1.0,
             _ => r.unit(),
@@ -274,7 +292,10 @@ fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f6
         if k > drops / 2 {
             let (_, _, _, near) = best[k % best.len()];
             let few = r.chance(0.5);
-            sample = near.map(|x| if few && r.chance(0.6) { x } else { (x + reach * r.normal()).clamp(0.0, 1.0) });
+            sample = std::array::from_fn(|i| match near[i] {
+                x if i == 7 && !spins || few && r.chance(0.6) => x,
+                x => (x + reach * r.normal()).clamp(0.0, 1.0),
+            });
             reach = (reach * 0.995_f64).max(2e-3);
         }
         let course = follow(&product.drop(&sample), UNTIL);
@@ -313,6 +334,7 @@ fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
         format!("--orientation={}", turn.map(|x| (x / size).to_string()).join(",")),
         format!("--e={}", drop.e),
         format!("--speed-m-s={}", drop.speed),
+        format!("--spin-rad-s={}", list(drop.spin)),
         format!("--contact-time-s={}", drop.contact.1),
         format!("--contact-law={}", if drop.contact.0 == Law::Dashpot { "dashpot" } else { "hysteretic" }),
         format!("--at-m={}", list(place)),
@@ -324,7 +346,7 @@ fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
     args
 }
 
-/// Compares products of one of these kinds.
+/// Compares products of a [kind](KINDS).
 ///
 /// # Errors
 /// Where the command does not run or writes fail.
@@ -396,7 +418,7 @@ pub fn compare(
     .map_err(|error| error.to_string())
 }
 
-/// A random product file of one of these kinds.
+/// A random product file of a [kind](KINDS).
 #[must_use]
 pub fn product(kind: &str, seed: u64) -> String {
     Product::new(kind, seed).text

@@ -19,6 +19,7 @@ fn lone(law: Law, e: f64) -> Drop {
         own: [Own::default(); 2],
         speed: 3.0,
         tilt: 0.5,
+        spin: 0.0,
         b_first: false,
         gravity: 0.0,
     }
@@ -67,6 +68,7 @@ fn energy_never_grows() {
             contact: contact.map(|law| (law, random.log(1e-4, 2e-3))),
             speed: random.within(1.0, 6.0),
             tilt: random.within(0.0, 0.5),
+            spin: 0.0,
             b_first: random.chance(0.5),
             gravity: 9.806_65,
             own: if contact == Some(Law::Hysteretic) && i % 2 == 0 {
@@ -99,6 +101,7 @@ fn instant_impacts_are_those_of_the_paper() {
         contact: None,
         speed: 5.0,
         tilt: 1e-3,
+        spin: 0.0,
         b_first: false,
         own: [Own::default(); 2],
         gravity: 1e-3,

@@ -25,6 +25,7 @@ fn drop_of(case: &Value) -> Drop {
         own: [Own::default(); 2],
         speed: number(case, "speed_m_s"),
         tilt: number(case, "tilt_deg").to_radians(),
+        spin: 0.0,
         b_first: false,
         gravity: number(case, "gravity_m_s2"),
     }

@@ -19,6 +19,7 @@ fn solid(upward: [f64; 3], e: f64, law: Law) -> Solid {
         contact: (law, 4e-4),
         own: [Own::default(); 4],
         speed: 4.0,
+        spin: [0.0; 3],
         upward,
         gravity: 9.806_65,
     }

@@ -90,6 +90,7 @@ impl Question {
             tilt_rad: self.scene.tilt_rad(),
             flat: self.flat,
             speed_m_s: self.scene.speed_m_s(),
+            spin_rad_s: self.scene.spin_rad_s(),
             restitution: self.scene.e(),
             gravity_m_s2: self.scene.gravity_m_s2(),
             contact_time_s: self.contact_time_s,
@@ -122,6 +123,9 @@ pub struct Answer {
     pub speed_m_s: Json,
     /// At the first touch.
     pub tilt_deg: Json,
+    /// At the first touch, positive where the tilt grows; left out where it does not turn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spin_rad_s: Option<Json>,
     /// Of the other end at the first touch.
     pub height_gap_m: Json,
     /// Of gravity.
@@ -216,6 +220,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         e: Json(scene.e()),
         speed_m_s: Json(scene.speed_m_s()),
         tilt_deg: Json(question.tilt_deg),
+        spin_rad_s: Some(scene.spin_rad_s()).filter(|spin| *spin != 0.0).map(Json),
         height_gap_m: Json(scene.height_gap_m()),
         gravity_m_s2: Json(scene.gravity_m_s2()),
         contact_time_s: question.contact_time_s.map(Json),

@@ -114,6 +114,9 @@ pub struct Answer {
     pub tilt_deg: Json,
     /// None of a plate that falls level.
     pub direction_deg: Option<Json>,
+    /// Rates of the slopes along length and width at the first touch; left out where it does not turn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spin_rad_s: Option<[Json; 2]>,
     /// Heights of the corners next to the first one as it touches, along the length and along the width.
     pub gaps_m: [Json; 2],
     /// Of gravity.
@@ -216,6 +219,9 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         speed_m_s: Json(scene.speed_m_s()),
         tilt_deg: Json(question.tilt_deg),
         direction_deg: question.direction_deg.map(Json),
+        spin_rad_s: Some(scene.spin_rad_s())
+            .filter(|spin| spin.iter().any(|rate| *rate != 0.0))
+            .map(|spin| spin.map(Json)),
         gaps_m: scene.gaps_m().map(Json),
         gravity_m_s2: Json(scene.gravity_m_s2()),
         contact_time_s: Json(contact.time_s()),

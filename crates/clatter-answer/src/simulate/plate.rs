@@ -114,6 +114,9 @@ pub struct Answer {
     pub tilt_deg: Json,
     /// None of a plate that falls level.
     pub direction_deg: Option<Json>,
+    /// Rates of the slopes along length and width at the first touch; left out where it does not turn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spin_rad_s: Option<[Json; 2]>,
     /// Heights of b and d as a touches.
     pub gaps_m: [Json; 2],
     /// Of gravity.
@@ -263,6 +266,9 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         speed_m_s: Json(scene.speed_m_s()),
         tilt_deg: Json(question.tilt_deg),
         direction_deg: question.direction_deg.map(Json),
+        spin_rad_s: Some(scene.spin_rad_s())
+            .filter(|spin| spin.iter().any(|rate| *rate != 0.0))
+            .map(|spin| spin.map(Json)),
         gaps_m: scene.gaps_m().map(Json),
         gravity_m_s2: Json(scene.gravity_m_s2()),
         contact,
@@ -295,7 +301,8 @@ fn by_map(question: &Question, e: f64) -> Result<Followed, clatter::Error> {
     let (scene, plate) = (&question.scene, question.scene.plate());
     let ([kx, ky], [length, width]) = (plate.gyration_m(), plate.sides_m());
     let plate = clatter::Plate::off_center([kx / (0.5 * length), ky / (0.5 * width)], question.center_of_mass, e)?;
-    let start = PlateStart::new([-scene.speed_m_s(); 3], scene.gaps_m())?;
+    let [a, b, _, d] = scene.corner_velocities();
+    let start = PlateStart::new([a, b, d], scene.gaps_m())?;
     let mut strikes: Vec<Strike> = Vec::new();
     let mut train = plate.train(&start);
     let stop = loop {

@@ -173,6 +173,7 @@ mod tests {
                 tilt_rad: 0.9 * feet.steepest_rad(None) * x(37),
                 flat: false,
                 speed_m_s: 1.0 + 3.0 * x(41),
+                spin_rad_s: 0.0,
                 restitution: 0.6 * x(43),
                 gravity_m_s2: 9.81,
                 contact_time_s: contacts.then_some(4e-4),

@@ -186,7 +186,7 @@ mod tests {
     fn lying([along, gyration_m]: [f64; 2], restitution: f64) -> SingleDrop {
         let width =
             Width { edges_m: [0.04; 2], gyration_m, product_of_inertia_m2: 0.0, thickness_m: Some(0.02), depth: None };
-        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02 });
+        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02, about: None });
         SingleDrop {
             body: clatter_flight::Body::new(0.12, along).unwrap(),
             across: Some(Across { width, direction_rad: 0.0, posture }),
@@ -194,6 +194,7 @@ mod tests {
             tilt_rad: 0.0,
             flat: false,
             speed_m_s: 2.0,
+            spin_rad_s: 0.0,
             restitution,
             gravity_m_s2: 9.81,
             contact_time_s: Some(2e-4),
@@ -212,6 +213,7 @@ mod tests {
             tilt_rad: 0.0,
             flat: false,
             speed_m_s,
+            spin_rad_s: 0.0,
             restitution,
             gravity_m_s2: 9.81,
             contact_time_s: Some(2e-4),
@@ -318,6 +320,7 @@ mod tests {
                 tilt_rad: 0.02,
                 flat: false,
                 speed_m_s: 3.0,
+                spin_rad_s: 0.0,
                 restitution: 0.99,
                 gravity_m_s2: 9.81,
                 contact_time_s: Some(2e-4),

@@ -19,7 +19,7 @@ pub struct LandingLadder {
     /// By how much it may be turned off that.
     pub tolerance_deg: f64,
     /// How much later than the first of these corners the last one comes down, if the first did nothing, at least and at most over the
-    /// tolerance and the speeds: the gap over the speed.
+    /// tolerance, the speeds and the spins: the gap over the speed of that corner.
     pub last_corner_s: [f64; 2],
     /// How long a lone contact takes, at least and at most.
     pub contact_time_s: [f64; 2],
@@ -52,6 +52,9 @@ impl ProductFile {
             let level = landing.attitude.level(faces_m);
             let reach_m = level.iter().fold(0.0, |all, axis| libm::hypot(all, sides[*axis]));
             let [slow, _] = drop.speeds_m_s();
+            // So slowly its farthest corner comes down, turned up as fast as it may be.
+            let far_m = faces_m.iter().fold(0.0, |all, [low, high]| libm::hypot(all, low.max(*high)));
+            let slow = slow - drop.fastest_rad_s() * far_m;
             let tolerance = landing.tolerance_rad;
             let as_one = libm::asin((contact.lo() * slow / reach_m).min(1.0));
             LandingLadder {
@@ -69,8 +72,8 @@ impl ProductFile {
 }
 
 impl SingleDrop {
-    /// The same drop as one of the plate that the face of a box is, with its part; none of an edge, of a corner, and of a part that does not
-    /// move across the face.
+    /// The same drop as one of the plate that the face of a box is, with its part; none of an edge, of a corner, of a part that does not
+    /// move across the face, and of a spin about another axis than that of the tilt.
     fn as_plate(&self, part: &Part) -> Option<(Self, Part)> {
         let across = self.across?;
         let posture = across.posture?;
@@ -88,12 +91,30 @@ impl SingleDrop {
         let [xz, yz] = depth.products_of_inertia_m2;
         let product_of_inertia_m2 = [yz, xz, across.width.product_of_inertia_m2][normal];
         let width = Width { edges_m: edges[y], gyration_m: radii[y], product_of_inertia_m2, thickness_m, depth: None };
-        let across = Across { width, direction_rad: libm::atan2(upward[y], upward[x]), posture: None };
+        let turns = rising(upward, self.spin_of_box(&across));
+        let ([up, aside], [rise, beside]) = ([upward[x], upward[y]], [turns[x], turns[y]]);
+        // Level and turning, it rises from then on.
+        let level = up == 0.0 && aside == 0.0 && self.spin_rad_s != 0.0;
+        if (rise * aside - beside * up).abs() > 1e-9 * libm::hypot(up, aside) * self.spin_rad_s.abs() {
+            return None;
+        }
+        let spins = libm::hypot(rise, beside);
+        let spin_rad_s = if level { spins } else { spins.copysign(rise * up + beside * aside) };
+        let [up, aside] = if level { [rise, beside] } else { [up, aside] };
+        let across = Across { width, direction_rad: libm::atan2(aside, up), posture: None };
         let body = clatter_flight::Body::off_center(edges[x][0], edges[x][1], radii[x]).ok()?;
         let tilt_rad = libm::asin(libm::hypot(upward[x], upward[y]).min(1.0));
         let part = Part { position_m: places[x], across_m: places[y], inside: Inside::default(), ..*part };
-        Some((Self { body, across: Some(across), first: across.first(), tilt_rad, ..*self }, part))
+        Some((
+            Self { body, across: Some(across), first: across.first(), tilt_rad, spin_rad_s: spin_rad_s + 0.0, ..*self },
+            part,
+        ))
     }
+}
+
+/// How fast the vertical moves in axes of a box that turns: n × ω.
+fn rising([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {
+    [y * c - z * b, z * a - x * c, x * b - y * a]
 }
 
 impl SingleDrop {

@@ -18,7 +18,9 @@ impl SingleDrop {
         // Its ends press as the corners of the edge that comes down first.
         let lands = self.own_contacts.mirrored(true, [false, across.signs()[1] < 0.0]);
         let own_contacts = OwnContacts([lands.0[0], lands.0[1], OwnContact::NONE, OwnContact::NONE]);
-        Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), own_contacts, ..*self }
+        // That is how much of its spin lies along the length, at any tilt.
+        let spin_rad_s = self.spin_rad_s * libm::cos(across.direction_rad).abs();
+        Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), spin_rad_s, own_contacts, ..*self }
     }
 }
 

@@ -4,12 +4,12 @@ use clatter::End;
 
 use super::Point;
 use super::drops::{Drops, Inputs, Places, Tilt, along, corners, parts};
-use crate::drop::Until;
+use crate::drop::{SingleDrop, Until};
 use crate::search::Ranges;
 use crate::{Component, Limit, LimitAssessment, WorstCase};
 
 /// A curve for each end that may touch first: at each tilt the drop that asks most of those followed. These are the `shared` ones, at
-/// the ends of the ranges, and those with the speed, restitution and contact time of the worst case; the worst case is one of the
+/// the ends of the ranges, and those with the speed, spin, restitution and contact time of the worst case; the worst case is one of the
 /// points.
 pub(super) fn over_tilt(
     ranges: &Ranges<'_>,
@@ -21,7 +21,8 @@ pub(super) fn over_tilt(
     let Some(asked) = Limit::of(component).into_iter().find(|l| l.kind == limit.limit) else { return Vec::new() };
     let Some(worst) = &limit.worst_case else { return Vec::new() };
     let corners = corners(ranges);
-    let own: Inputs = (worst.drop.speed_m_s, worst.drop.restitution, worst.drop.contact_time_s);
+    let SingleDrop { speed_m_s, spin_rad_s, restitution, contact_time_s, .. } = worst.drop;
+    let own: Inputs = (speed_m_s, spin_rad_s, restitution, contact_time_s);
     // At the tilt of the worst case all of them, at the others what is not shared.
     let here = if worst.drop.flat { Vec::new() } else { vec![(worst.drop.tilt_rad, true)] };
     let at_worst = Drops::new(ranges, &here, &corners, until);

@@ -16,8 +16,8 @@ const STEPS: u32 = 40;
 /// neighbors the curves show as well, itself.
 pub(super) type Tilt = (f64, bool);
 
-/// Speed, restitution and, where it is known, contact time of a drop.
-pub(super) type Inputs = (f64, f64, Option<f64>);
+/// Speed, spin, restitution and, where it is known, contact time of a drop.
+pub(super) type Inputs = (f64, f64, f64, Option<f64>);
 
 /// Drops, followed as they are asked for.
 pub(super) struct Drops {
@@ -48,7 +48,7 @@ impl Drops {
         let mut all = Vec::with_capacity(tilts.len() * inputs.len() * 2);
         for &first in ranges.firsts() {
             for &tilt in tilts {
-                for &(speed_m_s, restitution, contact_time_s) in inputs {
+                for &(speed_m_s, spin_rad_s, restitution, contact_time_s) in inputs {
                     let drop = SingleDrop {
                         body: ranges.product.body,
                         across: None,
@@ -56,6 +56,7 @@ impl Drops {
                         tilt_rad: tilt.0,
                         flat: false,
                         speed_m_s,
+                        spin_rad_s,
                         restitution,
                         gravity_m_s2: ranges.drop.gravity_m_s2,
                         contact_time_s,
@@ -208,15 +209,17 @@ pub(super) fn along(component: &Component) -> Vec<f64> {
     component.places_m().into_iter().map(|[x, _]| x).collect()
 }
 
-/// The highest speed with the ends of the ranges of restitution and contact time.
+/// The highest speed with the ends of the ranges of spin, restitution and contact time.
 pub(super) fn corners(ranges: &Ranges<'_>) -> Vec<Inputs> {
     let [_, fast] = ranges.drop.speeds_m_s();
     let ends =
         |spread: &crate::Spread| if spread.is_value() { vec![spread.lo()] } else { vec![spread.hi(), spread.lo()] };
     let times: Vec<Option<f64>> =
         ranges.product.contact_time_s.as_ref().map_or(vec![None], |time| ends(time).into_iter().map(Some).collect());
-    let of = |e| times.iter().map(move |time| (fast, e, *time));
-    ends(&ranges.product.restitution).into_iter().flat_map(of).collect()
+    let of = |(spin, e)| times.iter().map(move |time| (fast, spin, e, *time));
+    let restitutions = ends(&ranges.product.restitution);
+    let spins = ends(&ranges.drop.spin_rad_s);
+    spins.into_iter().flat_map(|spin| restitutions.iter().map(move |e| (spin, *e))).flat_map(of).collect()
 }
 
 /// The parts that a limit is asked of: of a response those at the ends of the range of natural frequencies with the least damping, and

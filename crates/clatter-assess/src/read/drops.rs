@@ -3,7 +3,7 @@
 use clatter::End;
 
 use super::{Reader, Section, shown};
-use crate::check::{FLAT, STEEPEST_RAD};
+use crate::check::{FLAT, STEEPEST_RAD, spin_down};
 use crate::data_fault::out_of_range;
 use crate::keys;
 use crate::standard;
@@ -38,8 +38,11 @@ impl Reader {
             }
             if let (Some(drop), false) = (&drop, section.table.contains_key("standard")) {
                 for landing in &mut landings {
-                    landing.fall = drop.fall;
+                    (landing.fall, landing.spin_rad_s) = (drop.fall, drop.spin_rad_s);
                 }
+            }
+            if let (Some(product), Some(drop)) = (product, &drop) {
+                self.spins(section, drop, product);
             }
             for landing in landings {
                 if all.iter().any(|other| other.is_same(&landing)) {
@@ -64,6 +67,14 @@ impl Reader {
         let drop =
             drops.into_iter().next().map(|drop| Drop { fall: all.first().map_or(drop.fall, |l| l.fall), ..drop });
         (drop, all)
+    }
+
+    /// Whether what touches first comes down.
+    fn spins(&mut self, section: &Section<'_>, drop: &Drop, product: &Product) {
+        let Some(spin) = section.table.get("spin") else { return };
+        if let Err(fault) = spin_down(product, drop, self.is_box) {
+            self.data(spin.span(), &fault, "this");
+        }
     }
 
     /// Whether feet touch first.
@@ -126,6 +137,7 @@ impl Reader {
             source,
             tolerance_rad: tolerance.as_ref().map_or_else(|| standard::tolerance_rad(attitude), |given| given.value),
             fall: Fall::HeightM(Spread::finite(height_m)),
+            spin_rad_s: Spread::finite(0.0),
         };
         landings.into_iter().map(landing).collect()
     }
@@ -142,6 +154,7 @@ impl Reader {
             let message = out_of_range("tilt", format!("{degrees} deg"));
             self.fault(tilt.span.clone(), message, keys::allowed(FLAT), help);
         }
+        let spin = self.spread(section, "spin");
         let first = self.choice(section, "first");
         if let (true, false, Some((key, _))) =
             (self.is_box, section.table.contains_key("tilt"), section.table.get_key_value("direction"))
@@ -164,6 +177,7 @@ impl Reader {
         }
         self.exactly_one(section, &["standard", "height"], false);
         self.exactly_one(section, &["standard", "speed"], false);
+        self.exactly_one(section, &["standard", "spin"], false);
         let wrong =
             if self.is_plate { DataFault::OfPlate { field: "first" } } else { DataFault::OfBar { field: "direction" } };
         if let DataFault::OfPlate { field } | DataFault::OfBar { field } = wrong
@@ -187,6 +201,7 @@ impl Reader {
             (None, speed) => Fall::SpeedMS(speed?.value),
         };
         let tilt_rad = if self.is_box { Spread::finite(0.0) } else { tilt?.value };
-        Some(Drop { fall, tilt_rad, first, direction_rad: direction.map(|d| d.value), gravity_m_s2 })
+        let spin_rad_s = spin.map_or(Spread::finite(0.0), |spin| spin.value);
+        Some(Drop { fall, tilt_rad, spin_rad_s, first, direction_rad: direction.map(|d| d.value), gravity_m_s2 })
     }
 }

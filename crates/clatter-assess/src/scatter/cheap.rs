@@ -35,7 +35,7 @@ fn strikes(drop: &SingleDrop) -> Result<Vec<Impact>, Error> {
     }
     let bar = Bar::from_arms(drop.body.arms_m(), drop.body.gyration_m(), drop.restitution)?;
     let bar = if drop.first == End::A { bar } else { bar.exchanged() };
-    let start = Start::new([-drop.speed_m_s; 2], drop.body.length_m() * libm::sin(drop.tilt_rad))?;
+    let start = Start::new(drop.approaches_m_s(), drop.body.length_m() * libm::sin(drop.tilt_rad))?;
     let counts = |strike: &Impact| -strike.approach > SMALL * drop.speed_m_s;
     Ok(bar.train(&start).take(MOST_STRIKES).take_while(counts).collect())
 }
@@ -95,7 +95,7 @@ mod tests {
             let length = 0.14;
             let body = Body::off_center(0.5 * length * (1.0 + center), 0.5 * length * (1.0 - center), gyration * length).unwrap();
             let drop = SingleDrop {
-                body, first: if first_a { End::A } else { End::B }, tilt_rad, flat: false, speed_m_s: 3.0, restitution: e,
+                body, first: if first_a { End::A } else { End::B }, tilt_rad, flat: false, speed_m_s: 3.0, spin_rad_s: 0.0, restitution: e,
                 across: None,
                 gravity_m_s2: 0.0, contact_time_s: contact, contact_law: ContactLaw::Hysteretic, feet: None, own_contacts: crate::OwnContacts::NONE,
             };

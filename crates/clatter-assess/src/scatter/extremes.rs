@@ -36,8 +36,8 @@ const LARGEST_ERROR: f64 = 0.05;
 /// The largest utilization of each component over all ranges of a product but that of its restitution, for other bodies and
 /// restitutions. Limits are at their least values, as in an assessment.
 ///
-/// Drops: tilts all over their range, 33 by the closed form, else 9; the ends of the ranges of contact time and speed, by the closed form;
-/// else the highest speed; either end first. Parts: both ends of where they may be, the ends and the middle of the range of natural
+/// Drops: tilts all over their range, 33 by the closed form, else 9; the ends of the ranges of contact time, spin and speed, by the closed
+/// form; else the highest speed; either end first. Parts: both ends of where they may be, the ends and the middle of the range of natural
 /// frequencies, both ends of that of damping. The closed form is taken where 400 of these drops, of points drawn at random, show
 /// errors of at most 5 % in all parts.
 ///
@@ -160,11 +160,14 @@ impl Corners {
         let speeds = if slow && slowest < fastest { vec![fastest, slowest] } else { vec![fastest] };
         let times =
             product.contact_time_s.as_ref().map_or(vec![None], |time| two(time).into_iter().map(Some).collect());
+        let spins = two(&drop.spin_rad_s);
         let steps = if drop.tilt_rad.is_value() { 0 } else { tilts - 1 };
         let mut drops = Vec::new();
         for &first in if turns { &[End::A][..] } else { drop.first_ends() } {
             for &speed_m_s in &speeds {
-                for &contact_time_s in &times {
+                for (&contact_time_s, &spin_rad_s) in
+                    times.iter().flat_map(|time| spins.iter().map(move |spin| (time, spin)))
+                {
                     drops.extend((0..=steps).map(|k| SingleDrop {
                         body: product.body,
                         across: None,
@@ -172,6 +175,7 @@ impl Corners {
                         tilt_rad: drop.tilt_rad.at(f64::from(k) / f64::from(steps.max(1))),
                         flat: false,
                         speed_m_s,
+                        spin_rad_s,
                         restitution: 0.0,
                         gravity_m_s2: drop.gravity_m_s2,
                         contact_time_s,
@@ -199,6 +203,10 @@ impl Corners {
         let even = vec![1.0; sample.parts.len()];
         let mut worst = Worst::new(&self.counts);
         for drop in &self.drops {
+            // Another body may be turned up where it touches, which no train tells.
+            if (SingleDrop { body: *body, ..*drop }).approaches_m_s()[0] >= 0.0 {
+                return vec![None; self.counts.len()];
+            }
             sample.drops[0] = SingleDrop { body: *body, restitution: e, ..*drop };
             cheap::answer(&sample, &even, &mut asked);
             worst.raise(&asked, |asked, most| Some(asked.utilization.max(most)));

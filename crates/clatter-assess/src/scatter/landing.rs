@@ -43,6 +43,8 @@ pub enum OfLanding {
     Tilt,
     /// Towards where it is turned.
     Direction,
+    /// How fast it turns as it touches.
+    Spin,
 }
 
 impl OfLanding {
@@ -52,6 +54,7 @@ impl OfLanding {
             Self::Height | Self::Speed => 0,
             Self::Tilt => 1,
             Self::Direction => 2,
+            Self::Spin => 3,
         }
     }
 }

@@ -201,6 +201,8 @@ pub enum Column {
     SpeedMS,
     /// Tilt in degrees.
     TiltDeg,
+    /// Angular velocity at the first touch, in rad/s, of a drop that may turn.
+    SpinRadS,
     /// Coefficient of restitution.
     Restitution,
     /// Contact time in s, of a product that has one.
@@ -221,6 +223,8 @@ pub enum Column {
     LandingTiltDeg(usize),
     /// Towards where, in degrees.
     LandingDirectionDeg(usize),
+    /// Angular velocity at the first touch there, in rad/s, of a drop that may turn.
+    LandingSpinRadS(usize),
     /// A limit of a part in the unit of its kind, where it varies.
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part in m/s², where it varies.

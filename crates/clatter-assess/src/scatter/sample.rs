@@ -31,6 +31,8 @@ pub enum Input {
     Speed,
     /// Tilt at the first touch.
     Tilt,
+    /// Angular velocity at the first touch.
+    Spin,
     /// Coefficient of restitution.
     Restitution,
     /// How long a lone contact takes.
@@ -54,7 +56,7 @@ pub enum Input {
 }
 
 impl Input {
-    /// `first`, `direction`, `height`, `speed`, `tilt`, `restitution`, `contact-time`, `radius-of-gyration`, `natural-frequency`, `damping`,
+    /// `first`, `direction`, `height`, `speed`, `tilt`, `spin`, `restitution`, `contact-time`, `radius-of-gyration`, `natural-frequency`, `damping`,
     /// `position`, `position-across`, `limit` or `critical-acceleration`.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -64,6 +66,7 @@ impl Input {
             Self::Height | Self::Landing(_, OfLanding::Height) => "height",
             Self::Speed | Self::Landing(_, OfLanding::Speed) => "speed",
             Self::Tilt | Self::Landing(_, OfLanding::Tilt) => "tilt",
+            Self::Spin | Self::Landing(_, OfLanding::Spin) => "spin",
             Self::Restitution => "restitution",
             Self::ContactTime => "contact-time",
             Self::Gyration => "radius-of-gyration",
@@ -100,6 +103,7 @@ impl Input {
             Self::Direction => column == Column::DirectionDeg,
             Self::Height | Self::Speed => column == Column::SpeedMS,
             Self::Tilt => column == Column::TiltDeg,
+            Self::Spin => column == Column::SpinRadS,
             Self::Restitution => column == Column::Restitution,
             Self::ContactTime => column == Column::ContactTimeS,
             Self::Gyration => column == Column::GyrationM,
@@ -112,6 +116,7 @@ impl Input {
             Self::Landing(n, of) => match of {
                 OfLanding::Height | OfLanding::Speed => column == Column::LandingSpeedMS(n),
                 OfLanding::Tilt => column == Column::LandingTiltDeg(n),
+                OfLanding::Spin => column == Column::LandingSpinRadS(n),
                 OfLanding::Direction => column == Column::LandingDirectionDeg(n),
             },
         }
@@ -132,6 +137,7 @@ impl Input {
             Self::ContactTime => return 4,
             Self::Gyration => return 5,
             Self::Direction => return 6,
+            Self::Spin => return 7,
             Self::Frequency(_) => 0,
             Self::Damping(_) => 1,
             Self::Position(_) => 2,
@@ -191,6 +197,8 @@ struct DropInputs {
     tilt: Drawn,
     /// Of a plate and of a box.
     direction: Option<Drawn>,
+    /// None of one that does not turn.
+    spin: Option<Drawn>,
 }
 
 #[derive(Debug)]
@@ -289,7 +297,7 @@ impl Finder {
         Ok(PartInputs { position, extent_m, inside: component.inside, mount, limits })
     }
 
-    /// Height or speed and tilt of a drop, of a box of that of its list.
+    /// Height or speed, tilt and spin of a drop, of a box of that of its list.
     fn drop(&mut self, listed: &Listed, landing: Option<usize>) -> Result<DropInputs, Error> {
         let Listed { drop, posture } = listed;
         let of_box = |of: OfLanding, other: Input| landing.map_or(other, |n| Input::Landing(n, of));
@@ -304,7 +312,9 @@ impl Finder {
             tilt_rad = Spread::new(tilt_rad.lo(), tilt_rad.hi(), Law::Triangular { mode: tilt_rad.hi() })?;
         }
         let tilt = self.drawn(of_box(OfLanding::Tilt, Input::Tilt), &tilt_rad, "")?;
-        Ok(DropInputs { posture: *posture, fall, is_height, tilt, direction: None })
+        let spins = drop.may_spin();
+        let spin = spins.then(|| self.drawn(of_box(OfLanding::Spin, Input::Spin), &drop.spin_rad_s, "")).transpose()?;
+        Ok(DropInputs { posture: *posture, fall, is_height, tilt, direction: None, spin })
     }
 }
 
@@ -313,6 +323,7 @@ impl Inputs {
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         file.check()?;
         crate::verdict::merge(merge_s)?;
+        file.check_apart(merge_s).map_err(crate::Error::from)?;
         let (product, drop, listed) = (&file.product, &file.drop, file.listed());
         let mut finder = Finder::default();
         let across = product.width.map(|width| Across { width, direction_rad: 0.0, posture: listed[0].posture });
@@ -333,8 +344,12 @@ impl Inputs {
         let any = Spread::new(0.0, TAU, Law::Uniform)?;
         for (n, one) in drops.iter_mut().enumerate().filter(|_| across.is_some()) {
             let input = number(n).map_or(Input::Direction, |n| Input::Landing(n, OfLanding::Direction));
-            // A box that is turned off nothing is turned towards nothing.
-            let any = if one.posture.is_some() && one.tilt.input.is_none() { Spread::finite(0.0) } else { any };
+            // A box that is turned off nothing, and does not turn, is turned towards nothing.
+            let any = if one.posture.is_some() && one.tilt.input.is_none() && one.spin.is_none() {
+                Spread::finite(0.0)
+            } else {
+                any
+            };
             one.direction = Some(finder.drawn(input, drop.direction_rad.as_ref().unwrap_or(&any), "")?);
         }
         let shared = finder.varied.len();
@@ -351,6 +366,7 @@ impl Inputs {
             tilt_rad: drop.tilt_rad.lo(),
             flat: false,
             speed_m_s: listed[0].drop.speeds_m_s()[0],
+            spin_rad_s: 0.0,
             restitution: product.restitution.lo(),
             gravity_m_s2: drop.gravity_m_s2,
             contact_time_s: product.contact_time_s.map(|time| time.lo()),
@@ -435,6 +451,7 @@ impl Inputs {
             let fall = inputs.fall.at(uniforms);
             drop.speed_m_s = if inputs.is_height { (2.0 * drop.gravity_m_s2 * fall).sqrt() } else { fall };
             drop.tilt_rad = inputs.tilt.at(uniforms);
+            drop.spin_rad_s = inputs.spin.as_ref().map_or(0.0, |spin| spin.at(uniforms));
             drop.restitution = self.restitution.at(uniforms);
             drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
             if let Some(gyration) = &self.gyration {
@@ -476,11 +493,16 @@ impl Inputs {
     /// How a sample falls.
     fn falls(&self) -> Vec<Column> {
         if self.is_box() {
-            let of = |n| [Column::LandingSpeedMS(n), Column::LandingTiltDeg(n), Column::LandingDirectionDeg(n)];
+            let of = |n: usize| {
+                let falls = [Column::LandingSpeedMS(n), Column::LandingTiltDeg(n), Column::LandingDirectionDeg(n)];
+                falls.into_iter().chain(self.drops[n].spin.map(|_| Column::LandingSpinRadS(n)))
+            };
             return (0..self.drops.len()).flat_map(of).collect();
         }
         let falls = if self.drop.across.is_some() { Column::DirectionDeg } else { Column::First };
-        vec![falls, Column::SpeedMS, Column::TiltDeg]
+        let mut all = vec![falls, Column::SpeedMS, Column::TiltDeg];
+        all.extend(self.drops[0].spin.map(|_| Column::SpinRadS));
+        all
     }
 
     /// What a row of values holds.
@@ -523,6 +545,8 @@ impl Sample {
             Column::DirectionDeg => direction(drop),
             Column::SpeedMS => Some(drop.speed_m_s),
             Column::TiltDeg => Some(drop.tilt_rad.to_degrees()),
+            Column::SpinRadS => Some(drop.spin_rad_s),
+            Column::LandingSpinRadS(n) => Some(self.drops[n].spin_rad_s),
             Column::LandingDirectionDeg(n) => direction(&self.drops[n]),
             Column::LandingSpeedMS(n) => Some(self.drops[n].speed_m_s),
             Column::LandingTiltDeg(n) => Some(self.drops[n].tilt_rad.to_degrees()),

@@ -47,7 +47,7 @@ impl Ranges<'_> {
         let (until, fastest) = (Until::Lands, rough_to_rad_s(task.component));
         let free = self.free_at(task, &start.place);
         let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
-        let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5, 0.25, DIRECTION_STEP];
+        let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5, 0.25, DIRECTION_STEP, 0.25];
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
         for _ in 0..HALVINGS {

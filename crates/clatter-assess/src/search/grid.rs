@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
-use super::ranges::{Place, Ranges};
+use super::ranges::{AXES, Place, Ranges, SPIN};
 use clatter::End;
 
 use super::{GOLDEN, Task};
@@ -16,6 +16,7 @@ const SQRT_3: f64 = 1.732_050_807_568_877;
 const SQRT_5: f64 = 2.236_067_977_499_79;
 const SQRT_7: f64 = 2.645_751_311_064_59;
 const SQRT_11: f64 = 3.316_624_790_355_4;
+const SQRT_13: f64 = 3.605_551_275_463_989;
 /// Tilts in a contact time, and contact times over which tilts lie so closely: where contacts overlap, velocity shocks change by steps.
 const OVERLAPS: [f64; 2] = [12.0, 4.0];
 /// Tilts at which a plate is turned, as shares of the root of the range.
@@ -52,7 +53,8 @@ impl Level {
 impl Ranges<'_> {
     /// Steps of the tilt, and of the direction of a plate over all of its range: as many as the stiffest of the parts asks.
     pub(super) fn steps(&self, tasks: &[Task<'_>]) -> [f64; 2] {
-        let [_, fast] = self.drop.speeds_m_s();
+        // A spin that opens the tilt leaves parts more time to swing.
+        let [_, slowly] = self.closing_m_s();
         let [low, high] =
             [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()].map(|tilt| self.reach_m() * libm::sin(tilt));
         let highest = tasks.iter().filter_map(|task| match task.component.mount {
@@ -64,7 +66,7 @@ impl Ranges<'_> {
         let stiff = self.product.contact_times_s().map_or(f64::INFINITY, |[shortest, _]| 1.0 / shortest);
         let highest = highest.fold(0.0_f64, f64::max).min(stiff);
         let [least, most] = TILTS;
-        let of = |gap: f64| (TAU * highest * gap / fast / PHASE).clamp(least, most).ceil();
+        let of = |gap: f64| (TAU * highest * gap / slowly / PHASE).clamp(least, most).ceil();
         [of(high - low), of(high) * f64::from(self.quarters())]
     }
 
@@ -90,9 +92,9 @@ impl Ranges<'_> {
         };
         let tilted = !self.drop.tilt_rad.is_value();
         let mut grid = Vec::new();
-        let of = |first, [tilt, speed]: [f64; 2], line: &[Level; 3], direction: f64, k: usize| {
-            let [restitution, contact, gyration] = line.each_ref().map(|level| level.of(k));
-            let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction];
+        let of = |first, [tilt, speed]: [f64; 2], line: &[Level; 4], direction: f64, k: usize| {
+            let [restitution, contact, gyration, spin] = line.each_ref().map(|level| level.of(k));
+            let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction, spin];
             Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
         };
         for &first in self.firsts() {
@@ -127,7 +129,7 @@ impl Ranges<'_> {
             let levels = [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)];
             let speeds = if slow < fast { &[1.0, 0.0, 0.5][..] } else { &[1.0] };
             for (restitution, &speed) in levels.iter().flat_map(|e| speeds.iter().map(move |speed| (e, speed))) {
-                let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0, 0.0, 0.0];
+                let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
                 grid.push(Place { first, flat: true, mirrored: [false; 2], at_m: [0.0; 2], shares });
             }
         }
@@ -135,9 +137,10 @@ impl Ranges<'_> {
     }
 
     /// Drops of a box all around its posture: as it should land, and turned off that by all of its tolerance and by less, the ends of the
-    /// other ranges in turn. Off a face they are closer; off an edge along it, where its corners land one after the other.
+    /// other ranges in turn, all of it at each end of the range of the spin and over it. Off a face they are closer; off an edge along it, where its corners land one after the other.
     fn around(&self) -> Vec<Place> {
-        let levels = self.levels();
+        let (levels, spins) = (self.levels(), self.spins().len());
+        let of_spin = levels.len() / spins;
         let count = self.faces();
         let (around, tilts) = if count == 1 { (AROUND_FACE, &TILTS_OF_FACE[..]) } else { (AROUND, &[1.0, 0.7][..]) };
         let share = |k: u32, of: u32| f64::from(k) / f64::from(of);
@@ -145,18 +148,33 @@ impl Ranges<'_> {
         let along = if count == 2 { ALONG_EDGE } else { 0 };
         let off = off.chain((1..=along).flat_map(|k| [0.0, 0.5].map(|direction| (share(k, along), direction))));
         let all = [(0.0, 0.0)].into_iter().chain(off).enumerate();
-        all.map(|(k, (tilt, direction))| {
-            let [restitution, contact, gyration] = levels[k % levels.len()].map(|level| level.of(k));
+        let of = |spin: usize, k: usize, (tilt, direction): (f64, f64)| {
+            let level = levels[spin * of_spin + k % of_spin];
+            let [restitution, contact, gyration, spin] = level.map(|level| level.of(k));
             let speed = if k % 4 == 3 { (SQRT_7 * f64::from(u32::try_from(k).unwrap_or(0))).fract() } else { 1.0 };
-            let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction];
+            let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction, spin];
             Place { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
-        })
-        .collect()
+        };
+        let all: Vec<_> = all.collect();
+        (0..spins)
+            .flat_map(|spin| all.iter().map(move |(k, at)| (spin, *k, *at)))
+            .map(|(n, k, at)| of(n, k, at))
+            .collect()
     }
 
-    /// Restitution, contact time and radius of gyration of lines of drops: each at both ends of its range and spread over it, each with
+    /// The ends of the range of the spin, the faster one first, and values all over it.
+    fn spins(&self) -> Vec<Level> {
+        let spin = &self.drop.spin_rad_s;
+        match spin.hi() > -spin.lo() {
+            _ if spin.is_value() => vec![Level::At(0.0)],
+            true => vec![Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_13)],
+            false => vec![Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_13)],
+        }
+    }
+
+    /// Restitution, contact time, radius of gyration and spin of lines of drops: each at both ends of its range and spread over it, each with
     /// each; those that bounce most and press shortest first.
-    fn levels(&self) -> Vec<[Level; 3]> {
+    fn levels(&self) -> Vec<[Level; 4]> {
         let Product { restitution, contact_time_s, gyration_m, .. } = self.product;
         let of = |range: Option<&Spread>, levels: [Level; 3]| {
             let free = range.is_some_and(|range| !range.is_value());
@@ -165,10 +183,13 @@ impl Ranges<'_> {
         let restitutions = of(Some(restitution), [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)]);
         let contacts = of(contact_time_s.as_ref(), [Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_3)]);
         let gyrations = of(Some(gyration_m), [Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_5)]);
-        let mut all = Vec::with_capacity(restitutions.len() * contacts.len() * gyrations.len());
-        for &e in &restitutions {
-            for &contact in &contacts {
-                all.extend(gyrations.iter().map(|&gyration| [e, contact, gyration]));
+        let spins = self.spins();
+        let mut all = Vec::with_capacity(restitutions.len() * contacts.len() * gyrations.len() * spins.len());
+        for &spin in &spins {
+            for &e in &restitutions {
+                for &contact in &contacts {
+                    all.extend(gyrations.iter().map(|&gyration| [e, contact, gyration, spin]));
+                }
             }
         }
         all
@@ -176,7 +197,7 @@ impl Ranges<'_> {
 
     /// Lines of drops over the tilt: of a bar one at each of these levels; of a plate at directions that spread evenly, its edges among
     /// them, and at the levels in turn.
-    fn lines(&self) -> Vec<([Level; 3], f64)> {
+    fn lines(&self) -> Vec<([Level; 4], f64)> {
         let levels = self.levels();
         if self.quarters() == 0 {
             return levels.into_iter().map(|line| (line, 0.0)).collect();
@@ -185,7 +206,7 @@ impl Ranges<'_> {
         let edges = (0..=quarters).map(|k| (f64::from(k) / f64::from(quarters)).min(1.0));
         let between = (1..=LINES + LINES_A_QUARTER * quarters).map(|k| (GOLDEN * f64::from(k)).fract());
         // The ends of all ranges, and one that spreads over them.
-        let is_end = |line: &&[Level; 3]| line.iter().all(|level| matches!(level, Level::At(_)));
+        let is_end = |line: &&[Level; 4]| line.iter().all(|level| matches!(level, Level::At(_)));
         let lines: Vec<_> = levels.iter().filter(is_end).chain(levels.last().filter(|line| !is_end(line))).collect();
         edges.chain(between).zip(lines.iter().cycle()).map(|(direction, line)| (**line, direction)).collect()
     }
@@ -201,9 +222,10 @@ impl Ranges<'_> {
     /// The same of contacts that last so long.
     fn overlaps_within(&self, contact_s: f64) -> Vec<(u32, Place)> {
         let [lo, hi] = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()];
-        let [_, fast] = self.drop.speeds_m_s();
+        // A spin that closes the tilt lets contacts overlap at larger ones.
+        let [fastest, _] = self.closing_m_s();
         let [often, far] = OVERLAPS;
-        let of_one = fast * contact_s / self.reach_m();
+        let of_one = fastest * contact_s / self.reach_m();
         let step = of_one / often;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 48")]
         let count = (((far * of_one).min(hi) - lo) / step).clamp(0.0, often * far) as u32;
@@ -213,7 +235,8 @@ impl Ranges<'_> {
             let direction = (spread(k, SQRT_11) + n).fract();
             let contact = (spread(k, SQRT_3) + GOLDEN * n).fract();
             let tilt = share(lo + f64::from(k) * step);
-            let shares = [tilt, 1.0, restitution, contact, 0.0, 0.0, spread(k, SQRT_5), direction];
+            let spin = self.spin_share((spread(k, SQRT_13) + GOLDEN * n).fract());
+            let shares = [tilt, 1.0, restitution, contact, 0.0, 0.0, spread(k, SQRT_5), direction, spin];
             (k, Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares })
         };
         let directions = (OVERLAPS_A_QUARTER * self.quarters()).max(1);
@@ -229,14 +252,15 @@ impl Ranges<'_> {
     pub(super) fn spread_out(&self, k: u32) -> Place {
         let firsts = self.firsts();
         let first = firsts[k as usize % firsts.len()];
-        let shares = std::array::from_fn(|axis| halton(axis, k));
+        let mut shares: [f64; AXES] = std::array::from_fn(|axis| halton(axis, k));
+        shares[SPIN] = self.spin_share(shares[SPIN]);
         Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
     }
 }
 
 /// Number k of Halton's sequence along an axis.
 pub(super) fn halton(axis: usize, mut k: u32) -> f64 {
-    let base = [2, 3, 5, 7, 11, 13, 17, 19][axis];
+    let base = [2, 3, 5, 7, 11, 13, 17, 19, 23][axis];
     let (mut share, mut digit) = (0.0, 1.0);
     while k > 0 {
         digit /= f64::from(base);

@@ -21,8 +21,8 @@ pub(crate) struct Place {
     pub(crate) shares: [f64; AXES],
 }
 
-/// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio, radius of gyration, direction.
-pub(super) const AXES: usize = 8;
+/// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio, radius of gyration, direction, spin.
+pub(super) const AXES: usize = 9;
 pub(super) const TILT: usize = 0;
 pub(super) const RESTITUTION: usize = 2;
 /// Those of the part.
@@ -30,6 +30,7 @@ pub(super) const FREQUENCY: usize = 4;
 pub(super) const DAMPING: usize = 5;
 pub(super) const GYRATION: usize = 6;
 pub(super) const DIRECTION: usize = 7;
+pub(super) const SPIN: usize = 8;
 
 /// The ranges of a product's drops, and how they are followed.
 #[derive(Debug, Clone, Copy)]
@@ -67,6 +68,7 @@ impl Ranges<'_> {
             tilt_rad: if place.flat { 0.0 } else { (root * root).clamp(tilt.lo(), tilt.hi()) },
             flat: place.flat,
             speed_m_s: (slow + speed * (fast - slow)).clamp(slow, fast),
+            spin_rad_s: if place.flat { 0.0 } else { self.drop.spin_rad_s.at(place.shares[SPIN]) },
             restitution: self.product.restitution.at(restitution),
             gravity_m_s2: self.drop.gravity_m_s2,
             contact_time_s: self.product.contact_time_s.map(|time| time.at(contact)),
@@ -107,6 +109,7 @@ impl Ranges<'_> {
             part[1],
             worst.gyration_m().map_or(0.0, |rho| of(&self.product.gyration_m, rho)),
             direction,
+            of(&self.drop.spin_rad_s, drop.spin_rad_s),
         ];
         Place { first: drop.first, flat: drop.flat, mirrored, at_m: worst.part.at_m(), shares }
     }
@@ -123,12 +126,13 @@ impl Ranges<'_> {
     pub(crate) fn hold_flat(&self) -> bool {
         let [_, fast] = self.drop.speeds_m_s();
         let gap_m = self.reach_m() * libm::sin(self.drop.tilt_rad.lo());
-        self.product.contact_time_s.is_none() && gap_m < self.merge_s * fast
+        // With spin they do not; a file in which they may is refused.
+        self.product.contact_time_s.is_none() && !self.drop.may_spin() && gap_m < self.merge_s * fast
     }
 
     /// Whether a flat drop is one of the ranges.
     pub(crate) fn hold(&self, flat: &Candidate) -> bool {
-        if flat.place.flat { self.hold_flat() } else { self.drop.tilt_rad.lo() == 0.0 }
+        if flat.place.flat { self.hold_flat() } else { self.drop.tilt_rad.lo() == 0.0 && !self.drop.may_spin() }
     }
 
     /// Which axes have a range at a place: a flat drop has no tilt.
@@ -150,10 +154,10 @@ impl Ranges<'_> {
             _ => [false; 2],
         };
         let varies = |spread: &Spread| !spread.is_value();
-        let [tilt, restitution, gyration] =
-            [&self.drop.tilt_rad, &self.product.restitution, &self.product.gyration_m].map(varies);
+        let of = [&self.drop.tilt_rad, &self.product.restitution, &self.product.gyration_m, &self.drop.spin_rad_s];
+        let [tilt, restitution, gyration, spin] = of.map(varies);
         let [from, to] = self.directions();
-        [tilt, slow < fast, restitution, contact, frequency, damping, gyration, from < to]
+        [tilt, slow < fast, restitution, contact, frequency, damping, gyration, from < to, spin]
     }
 
     /// The directions that drops are followed in: of a plate that may rise to any, those of which the others are mirror images.
@@ -202,6 +206,18 @@ impl Ranges<'_> {
         let length = self.product.body.length_m();
         self.product.width.map_or(length, |width| libm::hypot(length, width.m()))
     }
+    /// A share of the range of the spin; 0 where it has none, so that no two places differ by it.
+    pub(super) fn spin_share(&self, share: f64) -> f64 {
+        if self.drop.spin_rad_s.is_value() { 0.0 } else { share }
+    }
+    /// How fast the raised end or corner comes down as the other touches, at most and at least over the spins of the fastest drop, before
+    /// that strikes; at least a tenth of the speed, as the strike turns it down.
+    pub(super) fn closing_m_s(&self) -> [f64; 2] {
+        let ([_, fast], reach_m) = (self.drop.speeds_m_s(), self.reach_m());
+        let [closes, opens] =
+            [-self.drop.spin_rad_s.lo(), self.drop.spin_rad_s.hi()].map(|spin| reach_m * spin.max(0.0));
+        [fast + closes, (fast - opens).max(0.1 * fast)]
+    }
     /// Of a symmetric product one end first is the other one turned around.
     pub(crate) fn turns(&self) -> bool {
         let [a, b] = self.product.body.arms_m();
@@ -247,7 +263,7 @@ mod tests {
     fn a_drop_is_where_it_was_taken_from() {
         let text = r#"
 product = { name = "bar", length = "150 mm", radius_of_gyration = ["40 mm", "45 mm"], restitution = [0.2, 0.4], contact_time = ["0.3 ms", "0.5 ms"] }
-drop = { speed = ["2 m/s", "4 m/s"], tilt = ["1 deg", "9 deg"] }
+drop = { speed = ["2 m/s", "4 m/s"], tilt = ["1 deg", "9 deg"], spin = ["-2 rad/s", "3 rad/s"] }
 component = [{ name = "part", position = "30 mm", natural_frequency = ["80 Hz", "120 Hz"], damping_ratio = [0.02, 0.1], rattle_space = "9 mm" }]
 "#;
         let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
@@ -257,12 +273,13 @@ component = [{ name = "part", position = "30 mm", natural_frequency = ["80 Hz", 
             flat: false,
             mirrored: [false; 2],
             at_m: [0.03, 0.0],
-            shares: [0.3, 0.2, 0.7, 0.1, 0.6, 0.4, 0.9, 0.0],
+            shares: [0.3, 0.2, 0.7, 0.1, 0.6, 0.4, 0.9, 0.0, 0.8],
         };
         let drop = ranges.single(&place);
         let near = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-9, "{got}, not {want}");
         near(drop.tilt_rad.to_degrees(), (1.0 + 0.3 * 2.0_f64).powi(2));
         near(drop.speed_m_s, 2.4);
+        near(drop.spin_rad_s, 2.0);
         near(drop.restitution, 0.34);
         near(drop.contact_time_s.unwrap(), 0.32e-3);
         near(drop.body.gyration_m(), 0.0445);

@@ -117,7 +117,9 @@ fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> i
 fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     let heads = ["drop", "off, deg", "verdict", "tightest", "limit", "demand", "margin"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
-    let speeds = |landing: &LandingAssessment| landing.speed_m_s.map(f64::to_bits);
+    let speeds = |landing: &LandingAssessment| {
+        (landing.speed_m_s.map(f64::to_bits), landing.spin_rad_s.map(|spins| spins.map(f64::to_bits)))
+    };
     let alike = assessment.landings.windows(2).all(|two| speeds(&two[0]) == speeds(&two[1]));
     for landing in &assessment.landings {
         let Some(tightest) = landing.tightest() else { continue };
@@ -126,11 +128,15 @@ fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) ->
         let unit = tightest.limit.unit();
         let of = |value: f64| in_words(unit, component.limits.unit(tightest.limit, unit), value);
         let [slow, fast] = landing.speed_m_s.map(four);
+        let spin = landing.spin_rad_s.map_or(String::new(), |spins| match spins.map(four) {
+            [least, most] if least == most => format!(", turning at {least} rad/s"),
+            [least, most] => format!(", turning at {least} to {most} rad/s"),
+        });
         rows.push(vec![
             match &landing.landing {
                 on if alike => on.to_string(),
-                on if slow == fast => format!("{on}, {slow} m/s"),
-                on => format!("{on}, {slow} to {fast} m/s"),
+                on if slow == fast => format!("{on}, {slow} m/s{spin}"),
+                on => format!("{on}, {slow} to {fast} m/s{spin}"),
             },
             format!("{}", neat(landing.tolerance_deg)),
             verdict(landing.verdict).to_owned(),

@@ -85,6 +85,8 @@ pub(crate) struct ExtraArgs {
     pub(crate) e: Option<f64>,
     pub(crate) gyration: Option<PerAxis<Quantity>>,
     pub(crate) gyration_flag: &'static str,
+    /// Rates at which it turns along length and width as corner a touches, b and d upward, over those of the product file.
+    pub(crate) spin_rad_s: Option<PerAxis<f64>>,
     /// The product file, if there is one.
     pub(crate) file: Option<OneDrop>,
 }
@@ -137,7 +139,7 @@ impl DropArgs {
 
     /// The drop of a plate, over that of the product file where there is one.
     pub(crate) fn plate_setup(&self, beside: ExtraArgs) -> Result<PlateSetup, Failure> {
-        let ExtraArgs { model, e, gyration, gyration_flag, mut file } = beside;
+        let ExtraArgs { model, e, gyration, gyration_flag, spin_rad_s, mut file } = beside;
         let model = self.plate_model(model, file.is_some())?;
         let compliant = model == Model::Compliant;
         let width = self.plate.width().map(|width| width.si).or(file.as_ref().and_then(OneDrop::width).map(|w| w.m()));
@@ -188,6 +190,15 @@ impl DropArgs {
         )?;
         let gaps_flag = if matches!(tilted, Tilted::Gaps(_)) { "--gaps" } else { "--tilt" };
         let scene = PlateScene::new(plate, speed, gaps_m, gravity).map_err(Failure::flag(gaps_flag))?;
+        let spin = match (spin_rad_s, file.as_mut()) {
+            (Some(spin), _) => Some(spin.of_plate("--spin-rad-s")?),
+            (None, Some(file)) => {
+                let (spin, (sin, cos)) = (file.spin_rad_s(), libm::sincos(folded(direction_deg).0.to_radians()));
+                Some([spin * cos, spin * sin])
+            }
+            (None, None) => None,
+        };
+        let scene = spin.map_or(Ok(scene), |spin| scene.with_spin(spin).map_err(Failure::flag("--spin-rad-s")))?;
         let law = self.contact_law.map(|law| law.0).or(file.as_ref().map(OneDrop::contact_law)).unwrap_or_default();
         let contact = contact_time.filter(|_| compliant);
         let contact = contact.map(|time| Contact::new(law, e, time)).transpose()?;

@@ -91,7 +91,7 @@ impl Args {
             model: self.model,
             e: self.e,
             gyration,
-            spin_rad_s: self.spin_rad_s.unwrap_or_default(),
+            spin_rad_s: self.spin_rad_s.map_or(Ok([0.0; 3]), |spin| spin.of_block("--spin-rad-s"))?,
             time_limit_s: None,
             impact_limit: usize::MAX,
         })?;

@@ -36,7 +36,10 @@ impl Args {
         if feet.is_some_and(|feet| feet.inset_m[1] != 0.0) {
             return Err(Failure::Usage("--feet-m=X,Y,HEIGHT of a bar has Y = 0: it goes on along its length alone"));
         }
+        let flag = "--spin-rad-s";
+        let spin = self.spin_rad_s.map(|spin| Ok::<_, Failure>((spin.of_bar(flag)?, flag))).transpose()?;
         let beside = ExtraArgs {
+            spin,
             flat: self.flat,
             model: self.model,
             e: self.e,
@@ -117,7 +120,11 @@ impl Drop<'_> {
         let speed = shown.speed.said(speed_m_s.0);
         let (tilt, tolerance) =
             (shown.tilt(self.args.shortly(self.setup.tilt_deg)), given(100.0 * self.args.tolerance));
-        writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}")?;
+        let spin = match self.setup.scene.spin_rad_s() {
+            0.0 => String::new(),
+            spin => format!(", turning at {}", shown.spin.given(self.args.shortly(spin))),
+        };
+        writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}{spin}")?;
         match (contact_time_s, contact_law) {
             (Some(time), Some(law)) => writeln!(
                 out,

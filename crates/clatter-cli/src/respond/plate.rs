@@ -17,6 +17,7 @@ use crate::inputs::Format;
 use crate::numbers::given;
 use crate::one_drop::OneDrop;
 use crate::quantities::{Show, neat};
+use crate::simulate::turning;
 use crate::{Failure, Streams};
 
 /// A part on a plate.
@@ -57,7 +58,8 @@ impl Args {
         }
         let (gyration, flag, feet) = (self.inertia.given(), self.inertia.flag(), self.feet(file.as_ref()));
         let own_contacts = self.own_contacts(file.as_ref(), true)?;
-        let beside = BesidePlate { model: self.model, e: self.e, gyration, gyration_flag: flag, file };
+        let spin_rad_s = self.spin_rad_s;
+        let beside = BesidePlate { model: self.model, e: self.e, gyration, gyration_flag: flag, spin_rad_s, file };
         let setup = self.drop.plate_setup(beside)?;
         // That there is a contact time was checked before.
         let Some(contact) = setup.contact else {
@@ -128,10 +130,11 @@ impl Drop<'_> {
         }
         let ([hx, hy], speed) = (gaps_m.map(|gap| shown.length.said(gap.0)), shown.speed.said(speed_m_s.0));
         let tolerance = given(100.0 * self.args.tolerance);
+        let spin = turning(self.question.scene.spin_rad_s(), shown.spin, |spin| self.args.shortly(spin));
         let [first, along, opposite, across] = self.setup.corners().map(Corner::letter);
         writeln!(
             out,
-            "To {tolerance} %: corner {first} touches at {speed}; {along} is {hx} higher, {across} {hy}, {opposite} both together"
+            "To {tolerance} %: corner {first} touches at {speed}{spin}; {along} is {hx} higher, {across} {hy}, {opposite} both together"
         )?;
         let own = super::own_contacts(&self.answer.contacts, shown.time);
         writeln!(out, "Contacts of {}, {contact_law}{own}", shown.time.given(contact_time_s.0))

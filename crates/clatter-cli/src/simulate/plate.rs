@@ -12,7 +12,7 @@ use crate::drop_args::{BesidePlate, PlateSetup};
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, given};
 use crate::one_drop::OneDrop;
-use crate::quantities::PerAxis;
+use crate::quantities::{PerAxis, Show};
 use crate::{Failure, Streams, columns};
 
 /// A drop of a plate and what came of it.
@@ -57,15 +57,21 @@ impl Args {
                 "--mass is that of a bar: a plate takes --gyration=KX,KY and --center-of-mass=SX,SY",
             ));
         }
-        if self.spin.is_some() || self.spin_rad_s.is_some() {
-            return Err(Failure::Usage("--spin is that of a bar: a plate touches without turning"));
+        if self.spin.is_some() {
+            return Err(Failure::Usage("--spin is that of a bar: of a plate it is --spin-rad-s=WX,WY"));
         }
         if self.output.is_some() {
             return Err(Failure::Usage("-o writes the motion of a bar; the strikes of a plate go to standard output"));
         }
         let (gyration, gyration_flag) = (self.inertia.given(), self.inertia.flag());
-        let setup =
-            self.drop.plate_setup(BesidePlate { model: self.model, e: self.e, gyration, gyration_flag, file })?;
+        let setup = self.drop.plate_setup(BesidePlate {
+            model: self.model,
+            e: self.e,
+            gyration,
+            gyration_flag,
+            spin_rad_s: self.spin_rad_s,
+            file,
+        })?;
         let of_part = setup.part.iter().map(|part| PerAxis::Plate(part.place)).filter(|_| self.at.is_empty());
         let at: Vec<_> = self.at.iter().copied().chain(of_part).collect();
         let signs = setup.signs();
@@ -124,7 +130,8 @@ impl Drop<'_> {
         };
         writeln!(out, "Plate of {length} by {width}, radii of gyration {kx} and {ky}{center}; e = {}", given(setup.e))?;
         let ([hx, hy], speed) = (scene.gaps_m().map(|gap| shown.length.said(gap)), shown.speed.said(scene.speed_m_s()));
-        writeln!(out, "Corner a touches at {speed}; b is {hx} higher, d {hy}, c both together\n")
+        let spin = turning(scene.spin_rad_s(), shown.spin, |spin| spin);
+        writeln!(out, "Corner a touches at {speed}{spin}; b is {hx} higher, d {hy}, c both together\n")
     }
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -190,6 +197,15 @@ impl Drop<'_> {
 }
 
 /// Time, end of the contact where it takes time, approach and shocks of a strike.
+/// How fast a plate turns along its length and its width, where it does.
+pub(crate) fn turning(spin: [f64; 2], show: Show, short: impl Fn(f64) -> f64) -> String {
+    if spin.iter().all(|rate| *rate == 0.0) {
+        return String::new();
+    }
+    let [x, y] = spin.map(|rate| show.given(short(rate)));
+    format!(", turning at {x} along its length and {y} along its width")
+}
+
 fn cells(impact: &Impact, time: impl Fn(f64) -> String, speed: impl Fn(f64) -> String) -> Vec<String> {
     let Impact { time_s, until_s, approach_m_s, delta_v_m_s, delta_v_at_m_s, .. } = impact;
     let shocks = delta_v_m_s.iter().chain(delta_v_at_m_s);

@@ -29,7 +29,7 @@ impl Level {
         let ([length, width], [x, y]) = (plate.sides_m(), scene.gaps_m());
         let slopes = [x / length, y / width];
         let (gravity, v) = (scene.gravity_m_s2(), -scene.speed_m_s());
-        let mut level = Self { plate, gravity, y: 0.0, v, slopes, rates: [0.0; 2] };
+        let mut level = Self { plate, gravity, y: 0.0, v, slopes, rates: scene.spin_rad_s() };
         level.y = -level.points().0.into_iter().fold(f64::INFINITY, f64::min);
         level
     }

@@ -52,6 +52,8 @@ pub(crate) struct Drop {
     pub(crate) edges: [f64; 4],
     pub(crate) gyration: [f64; 2],
     pub(crate) gaps: [f64; 2],
+    /// Rates of the slopes along x and y as corner a touches.
+    pub(crate) spin: [f64; 2],
     pub(crate) speed: f64,
     pub(crate) gravity: f64,
     pub(crate) law: ContactLaw,
@@ -117,13 +119,14 @@ impl PlainPlate {
             e: [drop.e; 4],
             omega: [omega; 4],
             theta,
-            state: [-lowest, slopes[0], slopes[1], -drop.speed, 0.0, 0.0],
+            state: [-lowest, slopes[0], slopes[1], -drop.speed, drop.spin[0], drop.spin[1]],
             time: 0.0,
             touches: Vec::new(),
             part: None,
             fine: 100.0,
         };
-        let low: Vec<usize> = (0..4).filter(|&i| plate.height(&plate.state, i) <= 0.0).collect();
+        let low: Vec<usize> =
+            (0..4).filter(|&i| plate.height(&plate.state, i) <= 0.0 && plate.velocity(&plate.state, i) < 0.0).collect();
         for i in low {
             plate.touch(i);
         }

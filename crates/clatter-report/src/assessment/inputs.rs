@@ -55,6 +55,21 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
         let of = if listed < file.landings.len() { format!(", {listed} of them of") } else { ":".to_owned() };
         add("Lands on", source.map_or(drops.clone(), |source| format!("{drops}{of} {source}")));
     }
+    if file.landings.is_empty() && file.drop.may_spin() {
+        let spin = range(&file.drop.spin_rad_s, 1.0, "rad/s");
+        add("Spin", format!("{spin} at the first touch about the axis of the tilt, which grows where positive"));
+    }
+    if let Some(landing) =
+        file.landings.iter().find(|landing| landing.spin_rad_s.lo() != 0.0 || landing.spin_rad_s.hi() != 0.0)
+    {
+        let spin = range(&landing.spin_rad_s, 1.0, "rad/s");
+        let others = if file.landings.iter().all(|other| other.spin_rad_s == landing.spin_rad_s) {
+            ""
+        } else {
+            "; others otherwise"
+        };
+        add("Spin", format!("{spin} at the first touch on {}{others}", landing.attitude));
+    }
     let gravity = file.drop.gravity_m_s2;
     add(
         "Gravity",

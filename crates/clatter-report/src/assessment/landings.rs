@@ -31,7 +31,9 @@ pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
 
 /// Of a box, a row for each drop: what it lands on, how far off it may be, verdict, and the limit that it leaves least room.
 pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
-    let speeds = |landing: &LandingAssessment| landing.speed_m_s.map(f64::to_bits);
+    let speeds = |landing: &LandingAssessment| {
+        (landing.speed_m_s.map(f64::to_bits), landing.spin_rad_s.map(|spins| spins.map(f64::to_bits)))
+    };
     let alike = assessment.landings.windows(2).all(|two| speeds(&two[0]) == speeds(&two[1]));
     let row = |landing: &LandingAssessment| {
         let tightest = landing.tightest()?;
@@ -42,7 +44,10 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
             if alike {
                 landing.landing.to_string()
             } else {
-                format!("{}, {}", landing.landing, span(landing.speed_m_s, 1.0, "m/s"))
+                let spin = landing
+                    .spin_rad_s
+                    .map_or(String::new(), |spins| format!(", turning at {}", span(spins, 1.0, "rad/s")));
+                format!("{}, {}{spin}", landing.landing, span(landing.speed_m_s, 1.0, "m/s"))
             },
             format!("{}°", three(landing.tolerance_deg)),
             name(&tightest.component),

@@ -10,7 +10,7 @@ use super::changes::{Of, changes};
 use super::inputs::held;
 use super::plate;
 use crate::Pages;
-use crate::words::{end, hundredths, is_sure, millimeters, minus, name, percent, place, shown, sure_name};
+use crate::words::{end, hundredths, is_sure, millimeters, minus, name, percent, place, shown, span, sure_name};
 
 /// What else is known of a limit, a sentence each.
 fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
@@ -49,7 +49,7 @@ fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
             (None, None) => end(worst.drop.first).to_owned(),
         },
         if worst.drop.flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg())) },
-        format!("{} m/s", three(worst.drop.speed_m_s)),
+        format!("{} m/s{}", three(worst.drop.speed_m_s), turning(worst)),
         three(worst.drop.restitution),
         contact.map_or("–".to_owned(), |time| format!("{} ms", three(1e3 * time))),
         worst.frequency_hz().map_or("–".to_owned(), |hz| format!("{} Hz", three(hz))),
@@ -125,7 +125,8 @@ fn drop(worst: &WorstCase) -> String {
         let peak = peak.as_str();
         let (off, speed, e) = (three(worst.tilt_deg()), three(worst.drop.speed_m_s), three(worst.drop.restitution));
         return format!(
-            "That drop lands on the {landing}, {off}° off, at {speed} m/s, with e = {e}{frequency}; {peak}."
+            "That drop lands on the {landing}, {off}° off, at {speed} m/s{}, with e = {e}{frequency}; {peak}.",
+            turning(worst),
         );
     } else if let Some(direction) = worst.direction_deg() {
         format!("on {}, rising to {}°,", plate::lowest(direction), three(direction))
@@ -136,7 +137,13 @@ fn drop(worst: &WorstCase) -> String {
     };
     let tilted = if worst.drop.flat { String::new() } else { format!(", tilted by {}°", three(worst.tilt_deg())) };
     let (speed, e) = (three(worst.drop.speed_m_s), three(worst.drop.restitution));
-    format!("That drop lands {lands} at {speed} m/s{tilted}, with e = {e}{frequency}; {peak}.")
+    let turning = turning(worst);
+    format!("That drop lands {lands} at {speed} m/s{tilted}{turning}, with e = {e}{frequency}; {peak}.")
+}
+
+/// How fast it turns as it lands, where it does.
+fn turning(worst: &WorstCase) -> String {
+    worst.spin_rad_s().map_or_else(String::new, |spin| format!(", turning at {}", span([spin; 2], 1.0, "rad/s")))
 }
 
 /// Up to which tilt both ends land as one.

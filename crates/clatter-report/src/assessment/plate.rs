@@ -35,6 +35,10 @@ pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
     ),
 ];
 
+/// What is said of a plate that turns as it lands, in place of one that does not.
+pub(super) const NO_SPIN: &str = "the plate does not turn before it lands";
+pub(super) const SPIN: &str = "before it lands the plate turns about the axis of its tilt alone";
+
 /// The plan with some of the parts, after as many others.
 pub(super) fn plan(
     plate: &clatter_flight::Plate,
