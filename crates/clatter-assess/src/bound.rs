@@ -1,8 +1,8 @@
 //! What no drop of the ranges exceeds, by the energy that the body has as it touches.
 //!
-//! Per mass that is `E = ½ v₀² + ½ ρ² ω₀² + g y`, y the height of the center of mass over where it lies. It bounds every speed from then on, whatever
-//! the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by √(2E (1 + x²/ρ²)), of
-//! the turning by √(2E)/ρ. A suspended part has no such bound: it may add up shocks.
+//! Per mass that is `E = ½ v₀² + ½ ρ² ω₀² + g y`, y the height of the center of mass over where it lies. It bounds every speed from then
+//! on, whatever the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by
+//! √(2E (1 + x²/ρ²)), of the turning by √(2E)/ρ. A suspended part has no such bound: it may add up shocks.
 
 use clatter_flight::{Contact, ContactLaw};
 

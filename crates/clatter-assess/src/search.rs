@@ -148,10 +148,11 @@ impl Ranges<'_> {
             .iter_mut()
             .enumerate()
             .flat_map(|(n, found)| {
+                let all = starts(found);
                 // A box that tumbles is followed for long: only where that asks most.
-                let numbered = starts(found).into_iter().take(most_starts).enumerate();
-                let such = numbered.filter(|(k, start)| of_all || *k == 0 || !start.late);
-                such.map(move |(_, start)| (n, start))
+                let tumbles = all.first().copied().filter(|start| !of_all && start.late);
+                let such = all.into_iter().filter(move |start| of_all || !start.late).take(most_starts);
+                tumbles.into_iter().chain(such).map(move |start| (n, start))
             })
             .collect();
         let each_climb = climbing / climbs.len().max(1);

@@ -137,7 +137,8 @@ impl Ranges<'_> {
     }
 
     /// Drops of a box all around its posture: as it should land, and turned off that by all of its tolerance and by less, the ends of the
-    /// other ranges in turn, all of it at each end of the range of the spin and over it. Off a face they are closer; off an edge along it, where its corners land one after the other.
+    /// other ranges in turn, all of it at each end of the range of the spin and over it. Off a face they are closer; off an edge along it, where
+    /// its corners land one after the other.
     fn around(&self) -> Vec<Place> {
         let (levels, spins) = (self.levels(), self.spins().len());
         let of_spin = levels.len() / spins;
