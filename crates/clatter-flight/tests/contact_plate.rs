@@ -255,7 +255,9 @@ proptest! {
     /// more energy than before, and a flight ends.
     #[test]
     fn momenta_add_up_and_energy_never_grows(drop in any_drop(any_e())) {
-        let flight = scene(&drop).with_impact_limit(20_000).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
+        // What loses little goes on; what loses more may chatter for thousands of touches before it rests.
+        let most = if drop.e > 0.9 { 200 } else { 20_000 };
+        let flight = scene(&drop).with_impact_limit(most).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
         prop_assert!(matches!(flight.stop, Stop::AtRest { .. }) || drop.e > 0.9, "{:?} {drop:?}", flight.stop);
         // Some 1e-13 a strike.
         prop_assert!(flight.energy_error < 1e-8, "{:e} {drop:?}", flight.energy_error);
