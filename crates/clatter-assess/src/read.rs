@@ -230,8 +230,11 @@ impl Reader {
         else {
             return Vec::new();
         };
+        // Of the product it stands within its table.
+        let of = section.title.strip_prefix('[').and_then(|title| title.strip_suffix(']'));
+        let path = of.map_or(name.to_owned(), |of| format!("{of}.{name}"));
         let DeValue::Array(items) = value.get_ref() else {
-            self.wrong_type(value, name, &format!("one table [[{name}]] each"));
+            self.wrong_type(value, name, &format!("one table [[{path}]] each"));
             return Vec::new();
         };
         if items.is_empty() || items.len() > MOST_COMPONENTS {
@@ -242,7 +245,7 @@ impl Reader {
         let mut sections = Vec::with_capacity(items.len());
         for (i, item) in items.iter().enumerate() {
             let DeValue::Table(table) = item.get_ref() else {
-                self.wrong_type(item, name, &format!("a table [[{name}]]"));
+                self.wrong_type(item, name, &format!("a table [[{path}]]"));
                 continue;
             };
             let title = format!("[[{name}]] {}", i + 1);
