@@ -563,3 +563,19 @@ fn rest_is_not_bounded_in_time() {
     let Stop::AtRest { time_bound_s, .. } = EVEN.flight(2.0).stop else { panic!("at rest") };
     assert!(time_bound_s.is_infinite(), "{time_bound_s}");
 }
+
+/// Left where a quarter of its largest approach is enough: whatever it does from there on, no press changes a corner's velocity by more.
+#[test]
+fn what_follows_a_box_that_is_left_is_as_small_as_was_asked() {
+    let case = Case { turned: [0.96, 0.28, 0.0, 0.0], e: 0.3, ..EVEN };
+    let share = 0.25;
+    let left = case.drop().with_enough(share).contacts(&case.contact(), |_| ()).unwrap();
+    let Stop::Enough { time_s } = left.stop else { panic!("{:?}", left.stop) };
+    let whole = case.flight(10.0);
+    let fastest = whole.strikes.iter().map(|strike| -strike.approach_m_s).fold(0.0, f64::max);
+    let later: Vec<_> = whole.strikes.iter().filter(|strike| strike.time_s > time_s).collect();
+    assert!(!later.is_empty() && matches!(whole.stop, Stop::AtRest { .. }), "{:?}", whole.stop);
+    for strike in later {
+        assert!(strike.delta_v_m_s.iter().all(|v| v.abs() <= share * fastest), "{strike:?}");
+    }
+}
