@@ -338,6 +338,32 @@ fn the_command_below_a_worst_drop_of_a_box_says_the_same() {
     }
 }
 
+/// Drops of a bar beside one another: each has its row, the worst its number and a command that says the same; one drop of a list is not asked for
+/// without saying which.
+#[test]
+fn several_drops_of_a_bar_are_told_one_by_one() {
+    let (_dir, path) = changed(|text| {
+        text.replace("[drop]\n", "[[drop]]\nspeed = \"2 m/s\"\ntilt = \"3 deg\"\nfirst = \"b\"\n[[drop]]\n")
+    });
+    let json: Value = serde_json::from_str(&clatter(["assess", &path, "--format=json"]).stdout).unwrap();
+    let landings = json["landings"].as_array().unwrap();
+    let named: Vec<_> = landings.iter().map(|one| one["landing"].as_str().unwrap()).collect();
+    assert_eq!(named, ["drop 1", "drop 2"]);
+    for (one, tilts) in landings.iter().zip([[3.0, 3.0], [1.0, 10.0]]) {
+        let off = |k: usize| (one["tilt_deg"][k].as_f64().unwrap() - tilts[k]).abs();
+        assert!(off(0) < 1e-9 && off(1) < 1e-9 && one["tolerance_deg"].is_null(), "{one}");
+    }
+    let worst = &json["components"][0]["limits"][0];
+    assert_eq!(worst["worst_case"]["landing"], "drop 2");
+    assert!((repeated(worst) / worst["demand"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{worst}");
+    let table = clatter(["assess", &path]).stdout;
+    for said in ["drop 1, 2.000 m/s", "1 to 10", "display, acceleration: drop 2, "] {
+        assert!(table.contains(said), "{said}: {table}");
+    }
+    let one = clatter(["simulate", &format!("--product={path}")]);
+    assert!(one.exit == Exit::BadInput && one.stderr.contains("lists several drops"), "{}", one.stderr);
+}
+
 #[test]
 fn the_command_below_a_worst_drop_says_the_same() {
     let (_dir, path) = changed(|text| text);

@@ -193,13 +193,20 @@ function row(part, limit, { unit, si }, isFirst) {
   );
 }
 
+/// Whether a drop is on a face, an edge or a corner.
+function isOfBox({ landing }) {
+  return landing !== undefined && !landing.startsWith('drop ');
+}
+
 function worst(part, limit, { command: line }) {
   const worst = limit.worst_case;
   const say = (value, words) => (value === null || value === undefined ? undefined : words);
   const words =
     worst &&
     [
-      worst.landing ?? (worst.flat ? 'flat' : say(worst.first, `${worst.first} first, ${digits(worst.tilt_deg)}°`)),
+      worst.landing,
+      // A box lands on what its drop is called by.
+      isOfBox(worst) ? undefined : worst.flat ? 'flat' : say(worst.first, `${worst.first} first, ${digits(worst.tilt_deg)}°`),
       `${digits(worst.speed_m_s)} m/s`,
       say(worst.spin_rad_s, `turning at ${digits(worst.spin_rad_s)} rad/s`),
       `e ${digits(worst.restitution, 3)}`,

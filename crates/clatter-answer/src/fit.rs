@@ -127,7 +127,7 @@ impl Answer<'_> {
 /// Finds the nearest drop.
 ///
 /// # Errors
-/// A radius of gyration that is to be known and has a range; a plate or a spin, but for flat bounces; contacts of their own; bounces beside other
+/// A radius of gyration that is to be known and has a range; a plate, a spin or several drops, but for flat bounces; contacts of their own; bounces beside other
 /// records; those of [`fit::fit`] and [`fit::bounces`].
 pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
     let Question { file, ref records, timing_s, gyration_known } = *question;
@@ -141,6 +141,9 @@ pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
     }
     if !file.product.own_contacts.is_none() {
         return Err(clatter_assess::Error::AlikeContacts("a fit").into());
+    }
+    if !(file.landings.is_empty() || bounces) {
+        return Err(clatter_assess::Error::OneDrop("a fit of strikes, heights or accelerations").into());
     }
     if file.drop.may_spin() && !bounces {
         return Err(clatter_assess::Error::NoSpin("a fit of strikes, heights or accelerations").into());

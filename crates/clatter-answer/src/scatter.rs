@@ -21,7 +21,7 @@ use clatter_assess::scatter::{
     ComponentScatter, Driver, Error, Input, LandingComponent, LandingScatter, Pilot, Probability, Sampler, Scatter,
     Settings,
 };
-use clatter_assess::{Attitude, Component, Model, ProductFile};
+use clatter_assess::{Component, DropName, Model, ProductFile};
 use serde::{Serialize, Serializer};
 
 use crate::Json;
@@ -81,18 +81,18 @@ struct AnswerJson<'a> {
     /// Why the first of them is not answered.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
-    /// Of a box, samples in which what answers may be off by, or the energy left, decides.
+    /// Of several drops in sequence, samples in which what answers may be off by, or the energy left, decides.
     #[serde(skip_serializing_if = "Option::is_none")]
     open: Option<u64>,
     components: Vec<ComponentJson<'a>>,
-    /// Of a box, its drops one by one.
+    /// Of several drops, each of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     landings: Vec<LandingJson<'a>>,
 }
 
 #[derive(Serialize)]
 struct LandingJson<'a> {
-    landing: Attitude,
+    landing: DropName,
     survival: SurvivalJson,
     components: Vec<LandingComponentJson<'a>>,
 }
@@ -115,7 +115,7 @@ struct ModelJson {
     refined: u64,
     /// Null where the cheap model was not tried.
     pilot: Option<PilotJson>,
-    /// Of a box, what a sample is.
+    /// Of several drops, what a sample is.
     #[serde(skip_serializing_if = "Option::is_none")]
     sequence: Option<&'static str>,
 }
@@ -148,9 +148,9 @@ struct InputJson {
     /// Index of the component that it belongs to.
     #[serde(skip_serializing_if = "Option::is_none")]
     component: Option<usize>,
-    /// The drop of a box that it belongs to.
+    /// The drop of several that it belongs to.
     #[serde(skip_serializing_if = "Option::is_none")]
-    landing: Option<Attitude>,
+    landing: Option<DropName>,
     /// Of a limit, which one.
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<&'static str>,
@@ -197,7 +197,7 @@ struct UtilizationJson {
 struct DriverJson {
     input: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    landing: Option<Attitude>,
+    landing: Option<DropName>,
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<&'static str>,
     variance_share: Json,
@@ -251,7 +251,7 @@ impl<'a> LandingJson<'a> {
 }
 
 impl<'a> ComponentJson<'a> {
-    fn new(c: &'a ComponentScatter, landing: &dyn Fn(&Input) -> Option<Attitude>) -> Self {
+    fn new(c: &'a ComponentScatter, landing: &dyn Fn(&Input) -> Option<DropName>) -> Self {
         let driver = |driver: &Driver| DriverJson {
             input: driver.input.name(),
             landing: landing(&driver.input),
@@ -281,7 +281,8 @@ impl Serialize for Answer<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { file, scatter, target } = self;
         let Settings { samples, seed, confidence, .. } = scatter.settings;
-        let landing = |input: &Input| input.landing().map(|n| file.landings[n].attitude);
+        let names = file.drop_names();
+        let landing = |input: &Input| input.landing().map(|n| names[n]);
         let input = |input: &Input| InputJson {
             input: input.name(),
             component: input.component(),

@@ -32,7 +32,7 @@ use std::ops::Range;
 
 use clatter_assess::scatter::{Column, PartRow, Sampler, Settings};
 use clatter_assess::{
-    Accuracy, Assessment, Attitude, Component, Family, Faults, LimitKind, Plan, ProductFile, Verdict,
+    Accuracy, Assessment, Component, DropName, Family, Faults, LimitKind, Plan, ProductFile, Verdict,
 };
 use clatter_record::{Field, FieldKind};
 
@@ -82,8 +82,8 @@ pub struct Study {
     drawn: Vec<Column>,
     /// The parts of all products.
     components: Vec<Component>,
-    /// What all boxes land on, in one drop after the other; none of bars, of plates, and of a search.
-    attitudes: Vec<Attitude>,
+    /// What the drops of all products are called that they go through one after the other; none of those that fall once, and of a search.
+    drop_names: Vec<DropName>,
 }
 
 /// Rows of a group of the file: 1 MiB of each column.
@@ -100,19 +100,19 @@ impl Study {
     pub fn new(plan: Plan, product: &str, origin: &str) -> Result<Self, Error> {
         let family = plan.family(product, origin)?;
         let first = family.member(0)?;
-        let (drawn, attitudes, components) = (Vec::new(), Vec::new(), first.components.clone());
-        let mut study = Self { plan, family, drawn, components, attitudes };
+        let (drawn, drop_names, components) = (Vec::new(), Vec::new(), first.components.clone());
+        let mut study = Self { plan, family, drawn, components, drop_names };
         if study.plan.search {
             return Ok(study);
         }
         let sampler = study.sampler(&first, NO_INTERVAL)?;
-        study.attitudes = sampler.attitudes().to_vec();
+        study.drop_names = sampler.drop_names().to_vec();
         let quantities = sampler.quantities();
         let values = sampler.drawn(0, &quantities);
         let mut differs: Vec<bool> = quantities.iter().map(|column| sampler.varies(*column)).collect();
         for i in 1..study.family.members() {
             let sampler = study.sampler(&study.family.member(i)?, NO_INTERVAL)?;
-            if sampler.attitudes() != study.attitudes {
+            if sampler.drop_names() != study.drop_names {
                 return Err(Error::Drops(i + 1));
             }
             for (k, (value, other)) in sampler.drawn(0, &quantities).iter().zip(&values).enumerate() {
@@ -203,9 +203,9 @@ impl Study {
         fields
     }
 
-    /// What is asked of a part in a row: through all of its drops, and of a box in each of them too, by its number from 0.
+    /// What is asked of a part in a row: through all of its drops, and where several are listed in each of them too, by its number from 0.
     fn asked(&self) -> impl Iterator<Item = (&Component, Option<usize>)> {
-        let drops = std::iter::once(None).chain((0..self.attitudes.len()).map(Some));
+        let drops = std::iter::once(None).chain((0..self.drop_names.len()).map(Some));
         drops.flat_map(|on| self.components.iter().map(move |component| (component, on)))
     }
 
@@ -220,9 +220,13 @@ impl Study {
         self.components.iter().flat_map(|part| part.limits.kinds().into_iter().map(move |kind| (part, kind)))
     }
 
-    /// Of one of the drops of a box, by its number from 0.
+    /// Of one of several drops, by its number from 0.
     fn on(&self, what: &str, n: usize) -> String {
-        self.attitudes.get(n).map_or(what.to_owned(), |attitude| format!("{what} on drop {}, {attitude}", n + 1))
+        match self.drop_names.get(n) {
+            Some(DropName::On(attitude)) => format!("{what} on drop {}, {attitude}", n + 1),
+            Some(name) => format!("{what} in {name}"),
+            None => what.to_owned(),
+        }
     }
 
     fn drawn_field(&self, column: Column) -> Field {
@@ -241,6 +245,7 @@ impl Study {
             Column::DampingRatio(i) => (of("damping_ratio", i), "1"),
             Column::PositionM(i) => (of("position_m", i), "m"),
             Column::AcrossM(i) => (of("position_across_m", i), "m"),
+            Column::LandingFirst(n) => (self.on("b_first", n), ""),
             Column::LandingSpeedMS(n) => (self.on("speed_m_s", n), "m/s"),
             Column::LandingTiltDeg(n) => (self.on("tilt_rad", n), "rad"),
             Column::LandingSpinRadS(n) => (self.on("spin_rad_s", n), "rad/s"),
@@ -249,7 +254,8 @@ impl Study {
             Column::CriticalAccelerationMS2(i) => (of("critical_acceleration_m_s2", i), "m/s2"),
             other => (format!("{other:?}"), ""),
         };
-        let kind = if column == Column::First { FieldKind::Flag } else { FieldKind::Float };
+        let is_first = matches!(column, Column::First | Column::LandingFirst(_));
+        let kind = if is_first { FieldKind::Flag } else { FieldKind::Float };
         Field { name, unit: unit.to_owned(), kind }
     }
 

@@ -11,8 +11,8 @@ use crate::quantity::Source;
 use crate::reason::{Doubt, Note, Reason};
 use crate::search::{Candidate, Place, Ranges, Task, Watch, Worst};
 use crate::{
-    Accuracy, Assessment, Component, ComponentAssessment, Drop, Error, Landing, LandingAssessment, Law, Limit,
-    LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Spread, Unit, Verdict, WorstCase,
+    Accuracy, Assessment, Component, ComponentAssessment, Drop, DropName, Error, Landing, LandingAssessment, Limit,
+    LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Unit, Verdict, WorstCase,
 };
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
@@ -190,8 +190,9 @@ impl ProductFile {
         };
         let mut all = tasks.iter().enumerate();
         let mut components = Vec::with_capacity(these.len());
+        let names = self.drop_names();
         let mut landings: Vec<LandingAssessment> =
-            self.landings.iter().map(|landing| LandingAssessment::new(landing, self.drop.gravity_m_s2)).collect();
+            names.iter().zip(&self.landings).map(|(name, landing)| LandingAssessment::new(*name, landing)).collect();
         for component in these {
             let mut limits = Vec::new();
             for (n, task) in all.by_ref().take(component.limits.kinds().len()) {
@@ -203,33 +204,27 @@ impl ProductFile {
                 for (landing, limit) in landings.iter_mut().zip(&of_drops) {
                     landing.take(component, limit);
                 }
-                limits.push(governing(of_drops, &self.landings));
+                limits.push(governing(of_drops, &names));
             }
             components.push(verdict(component, self.product.width.is_some(), limits));
         }
         Ok(Ok(Found { components, landings }))
     }
 
-    /// The drops that are searched one after the other: each on what a box lands on, or the one of the file.
+    /// The drops that are searched one after the other: all that are listed, or the one of the file.
     pub(crate) fn listed(&self) -> Vec<Listed> {
-        let faces_m = self.product.faces_m();
-        let of = |landing: &Landing| {
-            let tilt_rad = Spread::new(0.0, landing.tolerance_rad, Law::Range).unwrap_or(Spread::finite(0.0));
-            let posture = faces_m.map(|(faces, thickness_m)| {
-                let (upward, about) = (landing.attitude.upward(faces), landing.attitude.about());
-                Posture { upward, thickness_m, about }
-            });
-            let Landing { fall, spin_rad_s, .. } = *landing;
-            Listed { drop: Drop { fall, tilt_rad, spin_rad_s, ..self.drop }, posture }
+        let posture = |landing: &Landing| {
+            let ((faces, thickness_m), attitude) = self.product.faces_m().zip(landing.attitude)?;
+            Some(Posture { upward: attitude.upward(faces), thickness_m, about: attitude.about() })
         };
         if self.landings.is_empty() {
-            vec![Listed { drop: self.drop, posture: None }]
-        } else {
-            self.landings.iter().map(of).collect()
+            return vec![Listed { drop: self.drop, posture: None }];
         }
+        self.landings.iter().map(|landing| Listed { drop: landing.drop, posture: posture(landing) }).collect()
     }
 
-    /// The ranges as the search takes them.
+    /// The ranges as the search takes them, of a product that falls once.
+    #[cfg(test)]
     pub(crate) fn ranges(&self, accuracy: &Accuracy) -> Ranges<'_> {
         self.ranges_of(&self.drop, None, accuracy)
     }
@@ -422,8 +417,8 @@ pub(crate) struct Listed {
     pub(crate) posture: Option<Posture>,
 }
 
-/// What the drops that a box is put through say of a limit together: the one that leaves least, by its verdict and then by its margin.
-fn governing(of_drops: Vec<LimitAssessment>, landings: &[Landing]) -> LimitAssessment {
+/// What the drops that are listed say of a limit together: the one that leaves least, by its verdict and then by its margin.
+fn governing(of_drops: Vec<LimitAssessment>, names: &[DropName]) -> LimitAssessment {
     let order = |limit: &LimitAssessment| (limit.verdict, -limit.room());
     let numbered = of_drops.into_iter().enumerate();
     let least = numbered.max_by(|(_, a), (_, b)| {
@@ -431,8 +426,8 @@ fn governing(of_drops: Vec<LimitAssessment>, landings: &[Landing]) -> LimitAsses
         verdict.cmp(&other).then(room.total_cmp(&other_room))
     });
     let Some((n, mut limit)) = least else { unreachable!("a drop is listed") };
-    if let (Some(worst), Some(landing)) = (&mut limit.worst_case, landings.get(n)) {
-        worst.landing = Some(landing.attitude);
+    if let Some(worst) = &mut limit.worst_case {
+        (worst.listed, worst.landing) = (n, names.get(n).copied());
     }
     limit
 }
@@ -521,6 +516,7 @@ fn worst_case(asked: &Candidate, ranges: &Ranges<'_>, component: &Component) -> 
         part: asked.part_there(component),
         gyration_varies: !ranges.product.gyration_m.is_value(),
         landing: None,
+        listed: 0,
         impact: asked.answer.impact,
         time_s: asked.answer.time_s,
         model: ranges.model,

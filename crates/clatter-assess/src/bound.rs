@@ -176,7 +176,7 @@ component = [{ name = "part", position = ["0 mm", "0 mm"], mount = "hard", veloc
 "#;
         let file = ProductFile::read(text, "box.toml").unwrap_or_else(|faults| panic!("{faults}"));
         let (faces_m, thickness_m) = file.product.faces_m().unwrap();
-        let posture = Posture { upward: file.landings[0].attitude.upward(faces_m), thickness_m, about: None };
+        let posture = Posture { upward: file.landings[0].attitude.unwrap().upward(faces_m), thickness_m, about: None };
         let component = &file.components[0];
         let of = |limit: &Limit| bound(&file.product, &file.drop, Some(posture), component, limit, file.product.law());
         let over_m_s = (0.1_f64.powi(2) + 2.0 * file.drop.gravity_m_s2 * (0.075 - 0.007)).sqrt();

@@ -10,8 +10,8 @@ use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
 use crate::verdict::MERGE_S;
 use crate::{
-    Axis, Component, Damping, DataFault, Drop, Error, Fall, Feet, First, Inside, Law, LimitKind, Mount, Product,
-    ProductFile, RecordFile, Spread, Width,
+    Axis, Component, Damping, DataFault, Drop, Error, Fall, Feet, First, Inside, Landing, Law, LimitKind, Mount,
+    Product, ProductFile, RecordFile, Spread, Width,
 };
 
 /// Feet may lie so far inside the edges, over the side.
@@ -53,7 +53,7 @@ impl ProductFile {
         let mut names = HashSet::new();
         for component in &self.components {
             component.check(&self.product)?;
-            let box_or_not = component.check_axis(!self.landings.is_empty());
+            let box_or_not = component.check_axis(self.is_box());
             box_or_not.map_err(|fault| Error::Data { component: Some(component.name.clone()), fault })?;
             if !names.insert(told_apart(&component.name)) {
                 return Err(DataFault::SameName(component.name.clone()).into());
@@ -64,6 +64,9 @@ impl ProductFile {
         }
         if !(self.product.own_contacts.is_none() || self.records.is_empty()) {
             return Err(DataFault::OwnContactsMeasured.into());
+        }
+        if !(self.landings.is_empty() || self.records.is_empty()) {
+            return Err(DataFault::ListMeasured.into());
         }
         Ok(self.records.iter().try_for_each(|record| record.check(&self.product))?)
     }
@@ -76,39 +79,47 @@ pub(crate) const STEEPEST_RAD: f64 = std::f64::consts::FRAC_PI_6 * (1.0 + ROUNDI
 
 impl ProductFile {
     fn check_landings(&self) -> Result<(), DataFault> {
-        if self.landings.is_empty() {
-            return Ok(());
-        }
-        if self.product.width.is_none_or(|width| width.thickness_m.is_none()) {
+        let is_box = self.is_box();
+        if is_box && self.product.width.is_none_or(|width| width.thickness_m.is_none()) {
             return Err(DataFault::BoxWithoutThickness);
         }
-        if !self.product.own_contacts.is_none() {
+        if is_box && !self.product.own_contacts.is_none() {
             return Err(DataFault::OwnContactsOfBox);
         }
-        if self.drop.direction_rad.is_some() {
-            return Err(DataFault::OfPlate { field: "direction" });
-        }
-        for (n, landing) in self.landings.iter().enumerate() {
+        for (n, (name, landing)) in self.drop_names().into_iter().zip(&self.landings).enumerate() {
+            let Landing { drop, attitude, .. } = landing;
+            if attitude.is_some() != is_box {
+                return Err(DataFault::BoxAndPlate);
+            }
             if self.landings[..n].iter().any(|other| other.is_same(landing)) {
-                return Err(DataFault::Twice(landing.attitude));
+                return Err(DataFault::Twice(name));
             }
-            match &landing.fall {
-                Fall::HeightM(height) => spread(keys::DROP, "height", Some(height))?,
-                Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
+            if drop.gravity_m_s2.to_bits() != self.drop.gravity_m_s2.to_bits() {
+                return Err(DataFault::Gravity);
             }
-            one(keys::DROP, "attitude_tolerance", landing.tolerance_rad)?;
-            spread(keys::DROP, "spin", Some(&landing.spin_rad_s))?;
+            if is_box {
+                // Its tilt is its tolerance.
+                one(keys::DROP, "attitude_tolerance", landing.tolerance_rad())?;
+                Drop { tilt_rad: Spread::finite(0.0), ..*drop }.check(true)?;
+                if drop.direction_rad.is_some() {
+                    return Err(DataFault::OfPlate { field: "direction" });
+                }
+            } else {
+                drop.check(self.product.width.is_some())?;
+            }
         }
         Ok(())
     }
     /// Whether feet touch first, also in the steepest drop.
     fn check_feet(&self) -> Result<(), DataFault> {
         let Some(feet) = &self.product.feet else { return Ok(()) };
-        if !self.landings.is_empty() {
+        if self.is_box() {
             return Err(DataFault::FeetOfBox);
         }
-        let (tilt_rad, most_rad) = (self.drop.tilt_rad.hi(), feet.steepest_rad(self.drop.direction_rad.as_ref()));
-        if tilt_rad > most_rad { Err(DataFault::FeetLow { tilt_rad, most_rad }) } else { Ok(()) }
+        self.drops().iter().try_for_each(|drop| {
+            let (tilt_rad, most_rad) = (drop.tilt_rad.hi(), feet.steepest_rad(drop.direction_rad.as_ref()));
+            if tilt_rad > most_rad { Err(DataFault::FeetLow { tilt_rad, most_rad }) } else { Ok(()) }
+        })
     }
     /// Refuses contacts that differ where they are to be alike.
     pub(crate) fn check_alike(&self, what: &'static str) -> Result<(), Error> {
@@ -120,14 +131,16 @@ impl ProductFile {
     }
     /// Whether strikes that are apart are told apart: without contact time those within a time would be one, which with a spin they are not.
     pub(crate) fn check_apart(&self, merge_s: f64) -> Result<(), DataFault> {
-        let Drop { tilt_rad, .. } = &self.drop;
-        if self.product.contact_time_s.is_some() || !self.drop.may_spin() {
+        if self.product.contact_time_s.is_some() {
             return Ok(());
         }
-        let ([_, fast], length_m) = (self.drop.speeds_m_s(), self.product.body.length_m());
-        let fastest = fast + self.drop.fastest_rad_s() * length_m;
-        let apart = length_m * libm::sin(tilt_rad.lo()) >= merge_s * fastest && tilt_rad.lo() > 0.0;
-        if apart { Ok(()) } else { Err(DataFault::SpinAsOne { merge_s }) }
+        let length_m = self.product.body.length_m();
+        self.drops().iter().filter(|drop| drop.may_spin()).try_for_each(|drop| {
+            let (least_rad, [_, fast]) = (drop.tilt_rad.lo(), drop.speeds_m_s());
+            let fastest = fast + drop.fastest_rad_s() * length_m;
+            let apart = length_m * libm::sin(least_rad) >= merge_s * fastest && least_rad > 0.0;
+            if apart { Ok(()) } else { Err(DataFault::SpinAsOne { merge_s }) }
+        })
     }
     /// Refuses a plate where bars alone are taken.
     pub(crate) fn check_bar(&self, what: &'static str) -> Result<(), Error> {

@@ -2,7 +2,7 @@
 
 use crate::keys::MOST_COMPONENTS;
 use crate::standard;
-use crate::{Attitude, LimitKind};
+use crate::{DropName, LimitKind};
 
 /// What is wrong with data of a product.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,8 +75,12 @@ pub enum DataFault {
     },
     /// A box without its thickness.
     BoxWithoutThickness,
-    /// A box that lands twice on the same.
-    Twice(Attitude),
+    /// A drop that is listed twice.
+    Twice(DropName),
+    /// Drops on faces, edges and corners beside drops at a tilt.
+    BoxAndPlate,
+    /// Gravity that is not that of the other drops.
+    Gravity,
     /// What an attitude is not called.
     Attitude {
         /// The key.
@@ -152,6 +156,8 @@ pub enum DataFault {
     OwnContactsLaw,
     /// Records of measured drops of a product with contacts of their own.
     OwnContactsMeasured,
+    /// Records of a product that falls several times.
+    ListMeasured,
     /// Contacts of their own of a box that lands on any side.
     OwnContactsOfBox,
     /// A drop so steep that an edge touches before the foot.
@@ -279,6 +285,10 @@ impl DataFault {
                 "a fit takes a product whose contacts are alike, without `contacts` of their own".to_owned(),
                 "leave one of `record` and `contacts` out".to_owned(),
             ],
+            Self::ListMeasured => [
+                "a fit takes a file with one drop: nothing says which of several a record is of".to_owned(),
+                "leave `record` out, or give one [drop]".to_owned(),
+            ],
             Self::OwnContactsOfBox => [
                 "`contacts` of their own are those of a bar or a plate in one drop; a box lands on any of its sides".to_owned(),
                 "leave `contacts` out, or give one [drop] with a `tilt`".to_owned(),
@@ -358,9 +368,20 @@ impl DataFault {
                 "a drop on a face, an edge or a corner is that of a box".to_owned(),
                 "add `width` and `thickness` to [product]".to_owned(),
             ],
-            Self::Twice(attitude) => [
-                format!("two drops are the same: {attitude}, from as high"),
+            Self::Twice(name @ DropName::On(_)) => [
+                format!("two drops are the same: {name}, from as high"),
                 "allowed: each drop once, or from another height".to_owned(),
+            ],
+            Self::Twice(name @ DropName::Number(_)) => {
+                [format!("{name} is the same as one before it"), "allowed: each drop once".to_owned()]
+            }
+            Self::BoxAndPlate => [
+                "drops on faces, edges and corners stand beside drops at a tilt".to_owned(),
+                "allowed: all of a box, or none".to_owned(),
+            ],
+            Self::Gravity => [
+                "gravity differs from drop to drop".to_owned(),
+                "give all drops the same, or another file".to_owned(),
             ],
             Self::Attitude { field, value } => [
                 format!("`{field}` cannot be {value:?}"),

@@ -94,6 +94,9 @@ pub enum Error {
     /// What takes products alone whose contacts are alike.
     #[error("{0} takes a product whose contacts are alike, without `contacts` of their own")]
     AlikeContacts(&'static str),
+    /// What takes a product that falls once.
+    #[error("{0} takes a file with one drop")]
+    OneDrop(&'static str),
     /// What takes no spin.
     #[error("{0} takes a drop without `spin`")]
     NoSpin(&'static str),

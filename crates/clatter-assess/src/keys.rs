@@ -57,7 +57,12 @@ const MASSES: [&str; 2] = ["1 mg", "1000 kg"];
 pub(crate) const MOST_COMPONENTS: usize = 1000;
 pub(crate) static FILE: &[Key] = &[
     key("product", true, Table(PRODUCT), "What falls: a flat body, seen from the side as a bar with ends a and b."),
-    key("drop", true, OneOrMore(DROP), "How it falls; of a box one table [[drop]] for each of its drops, or [drop]."),
+    key(
+        "drop",
+        true,
+        OneOrMore(DROP),
+        "How it falls; one table [[drop]] for each of several drops, which all must hold.",
+    ),
     key("component", true, Tables(COMPONENT), "The fragile parts, one table [[component]] each."),
     key("record", false, Tables(RECORD), "Measured drops of the product, one table [[record]] for each file."),
 ];

@@ -27,7 +27,7 @@ use crate::{
     Verdict, WorstCase,
 };
 use changes::{Failing, Shared};
-use drops::{Drops, Places, along, corners, parts, tilts};
+use drops::{Drops, Places, Tilt, along, parts, tilts};
 pub use plate::{CornerStrike, PlaceMap, PlatePortrait};
 use scale::Scale;
 
@@ -99,28 +99,31 @@ impl ProductFile {
         if self.check().and(assessment.accuracy.check()).and(assessment.is_of(self)).is_err() {
             return Vec::new();
         }
-        let ranges = self.ranges(&assessment.accuracy);
+        let listed = self.listed();
+        let of = listed.iter().map(|one| self.ranges_of(&one.drop, one.posture, &assessment.accuracy));
+        let each: Vec<Ranges<'_>> = of.collect();
+        let at_worst = |limit: &LimitAssessment| each[limit.worst_case.map_or(0, |worst| worst.listed)];
+        let ranges = each[0];
         let until = Self::until(assessment);
         if self.product.width.is_some() {
             let portrait = |(component, assessed): (&Component, &ComponentAssessment)| {
                 let tightest = assessed.tightest();
+                let ranges = at_worst(tightest);
                 let (history, impacts_s) = Self::history(tightest, &ranges).unwrap_or_default();
                 let plate = plate::portrait(&ranges, component, tightest, until);
                 Portrait { history, impacts_s, plate, over_tilt: Vec::new(), zone_m: None, changes: None }
             };
             return self.components.par_iter().zip(&assessment.components).map(portrait).collect();
         }
-        let tilts = tilts(&ranges);
+        let tilts: Vec<Vec<Tilt>> = each.iter().map(tilts).collect();
         // Where the file names no contact law a verdict counts with both of them.
         let laws = match (ranges.model, self.product.contact_law) {
             (Model::Compliant, None) => vec![ranges.law, ranges.law.other()],
             _ => vec![ranges.law],
         };
-        let of_law = |&law: &ContactLaw| {
-            let ranges = Ranges { law, ..ranges };
-            Drops::new(&ranges, &tilts, &corners(&ranges), until)
-        };
-        let drops: Vec<Drops> = laws.iter().map(of_law).collect();
+        let of_law =
+            |&law: &ContactLaw| Drops::of_all(each.iter().map(|ranges| Ranges { law, ..*ranges }), &tilts, until);
+        let drops: Vec<Drops> = laws.iter().filter_map(of_law).collect();
         let fastest = self.components.iter().map(rough_to_rad_s).fold(0.0, f64::max);
         let places = zone::grid(self.product.sides_m()[0]);
         let grids: Vec<_> = drops.iter().map(|drops| Places::new(drops, places.clone(), fastest)).collect();
@@ -131,8 +134,9 @@ impl ProductFile {
         let each = self.components.par_iter().zip(&assessment.components);
         let portrait = |(component, assessed)| {
             let tightest: &LimitAssessment = ComponentAssessment::tightest(assessed);
+            let (ranges, own) = (at_worst(tightest), tightest.worst_case.map_or(0, |worst| worst.listed));
             let (history, impacts_s) = Self::history(tightest, &ranges).unwrap_or_default();
-            let over_tilt = curves::over_tilt(&ranges, &drops[0], (component, tightest), tilts, until);
+            let over_tilt = curves::over_tilt(&ranges, &drops[0], (component, tightest), &tilts[own], until);
             let fastest = bounds.frequency_factor * rough_to_rad_s(component);
             let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, along(component), fastest)).collect();
             let (mut zone_m, mut changes) = (None, None);

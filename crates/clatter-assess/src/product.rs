@@ -4,6 +4,7 @@
 
 use clatter::End;
 use clatter_flight::{Body, Contact, ContactLaw};
+use serde::{Serialize, Serializer};
 
 use crate::{Attitude, Component, Error, OwnContacts, Spread};
 
@@ -14,7 +15,7 @@ pub struct ProductFile {
     pub product: Product,
     /// How it falls.
     pub drop: Drop,
-    /// Of a box, what it lands on, one drop after the other; none of a product that lands as its drop says.
+    /// The drops that it goes through one after the other, all of a box or none: none of a product that falls once, as its drop says.
     pub landings: Vec<Landing>,
     /// What must survive; at least one.
     pub components: Vec<Component>,
@@ -50,6 +51,22 @@ impl ProductFile {
         let file = Self { product, drop, landings: Vec::new(), components, records: Vec::new() };
         file.check()?;
         Ok(file)
+    }
+    /// Whether it lands on faces, edges and corners.
+    #[must_use]
+    pub fn is_box(&self) -> bool {
+        self.landings.first().is_some_and(|landing| landing.attitude.is_some())
+    }
+    /// What its drops are called, in order; none of a product that falls once.
+    #[must_use]
+    pub fn drop_names(&self) -> Vec<DropName> {
+        let name =
+            |(number, landing): (usize, &Landing)| landing.attitude.map_or(DropName::Number(number), DropName::On);
+        (1..).zip(&self.landings).map(name).collect()
+    }
+    /// All of its drops: those that are listed, or the one.
+    pub(crate) fn drops(&self) -> Vec<Drop> {
+        if self.landings.is_empty() { vec![self.drop] } else { self.landings.iter().map(|one| one.drop).collect() }
     }
 }
 
@@ -222,25 +239,78 @@ impl Product {
     }
 }
 
-/// A drop of a box on a face, an edge or a corner.
+/// One of the drops that a file lists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Landing {
-    /// What it lands on.
-    pub attitude: Attitude,
+    /// How it falls; a box is tilted by up to so much off what it lands on.
+    pub drop: Drop,
+    /// What a box lands on; none of a bar and of a plate.
+    pub attitude: Option<Attitude>,
     /// The standard that asks for it, with clause and title; none of one that was given by hand.
     pub source: Option<&'static str>,
-    /// By how much it may be turned off that, in rad.
-    pub tolerance_rad: f64,
-    /// As of [`Drop`]: about the axis about which it is turned off what it lands on, or, of one that lands at a tilt, about that of the tilt.
-    pub spin_rad_s: Spread,
-    /// From where, or how fast.
-    pub fall: Fall,
+}
+
+/// What one of several drops is called.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DropName {
+    /// Of a box, what it lands on.
+    On(Attitude),
+    /// Of a bar and of a plate, its number in the file, from 1.
+    Number(usize),
+}
+
+impl DropName {
+    /// Of a box, what it lands on.
+    #[must_use]
+    pub fn attitude(self) -> Option<Attitude> {
+        if let Self::On(attitude) = self { Some(attitude) } else { None }
+    }
+    /// Of a bar and of a plate, its number in the file, from 1.
+    #[must_use]
+    pub fn number(self) -> Option<usize> {
+        if let Self::Number(number) = self { Some(number) } else { None }
+    }
+    /// Where something happens: `on face bottom`, `in drop 2`.
+    #[must_use]
+    pub fn there(self) -> String {
+        let on = if matches!(self, Self::On(_)) { "on" } else { "in" };
+        format!("{on} {self}")
+    }
+}
+
+impl std::fmt::Display for DropName {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::On(attitude) => attitude.fmt(f),
+            Self::Number(number) => write!(f, "drop {number}"),
+        }
+    }
+}
+
+impl Serialize for DropName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
 }
 
 impl Landing {
-    /// Whether another drop lands likewise from as high and turns as fast; how far off either may be does not count.
+    /// A drop of a bar or of a plate, one of several.
+    #[must_use]
+    pub fn tilted(drop: Drop) -> Self {
+        Self { drop, attitude: None, source: None }
+    }
+    /// By how much a box may be turned off what it lands on.
+    #[must_use]
+    pub fn tolerance_rad(&self) -> f64 {
+        self.drop.tilt_rad.hi()
+    }
+    /// Whether another drop is the same; how far off what a box lands on either may be does not count.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
-        self.attitude == other.attitude && self.fall == other.fall && self.spin_rad_s == other.spin_rad_s
+        let [one, two] = [self, other].map(|landing| match landing.attitude {
+            Some(_) => Drop { tilt_rad: Spread::finite(0.0), ..landing.drop },
+            None => landing.drop,
+        });
+        self.attitude == other.attitude && one == two
     }
 }
 

@@ -283,6 +283,9 @@ impl Reader {
         }
         let product = product.and_then(|section| self.product(&section));
         let (drop, landings) = self.drops(root, product.as_ref());
+        if let (false, Some((key, _))) = (landings.is_empty(), root.table.get_key_value("record")) {
+            self.data(key.span(), &DataFault::ListMeasured, "here");
+        }
         let mut components = Vec::new();
         let sections = self.tables(root, "component");
         self.distinct(&sections);

@@ -6,7 +6,7 @@ use clatter::End;
 use serde::{Serialize, Serializer};
 
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
-use crate::{Attitude, Component, Drop, Landing, LimitKind, Model, Part, ProductFile, SingleDrop, Unit};
+use crate::{Component, Drop, DropName, Landing, LimitKind, Model, Part, ProductFile, SingleDrop, Unit};
 
 /// Whether every limit holds in the worst drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -73,16 +73,20 @@ impl Assessment {
     }
 }
 
-/// What one drop of a box, on a face, an edge or a corner, says of every limit.
+/// What one of several drops says of every limit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LandingAssessment {
-    /// What it lands on.
-    pub landing: Attitude,
+    /// What it is called.
+    pub landing: DropName,
     /// The standard that asks for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub source: Option<&'static str>,
-    /// By how much it may be turned off that.
-    pub tolerance_deg: f64,
+    /// Of a box, by how much it may be turned off what it lands on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance_deg: Option<f64>,
+    /// Of a bar and of a plate, the range of the tilt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tilt_deg: Option<[f64; 2]>,
     /// The range of speeds at the first touch.
     pub speed_m_s: [f64; 2],
     /// The range of its spin there, where it has one.
@@ -94,7 +98,7 @@ pub struct LandingAssessment {
     pub limits: Vec<LandingLimit>,
 }
 
-/// What one drop of a box says of a limit.
+/// What one of several drops says of a limit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LandingLimit {
     /// Name of the component.
@@ -111,15 +115,17 @@ pub struct LandingLimit {
 }
 
 impl LandingAssessment {
-    pub(crate) fn new(landing: &Landing, gravity_m_s2: f64) -> Self {
-        let drop = Drop { gravity_m_s2, ..Drop::new(landing.fall, crate::Spread::finite(0.0)) };
+    pub(crate) fn new(name: DropName, landing: &Landing) -> Self {
+        let Drop { tilt_rad, spin_rad_s, .. } = &landing.drop;
+        let tilt_deg = [tilt_rad.lo(), tilt_rad.hi()].map(f64::to_degrees);
+        let is_of_box = landing.attitude.is_some();
         Self {
-            landing: landing.attitude,
+            landing: name,
             source: landing.source,
-            tolerance_deg: landing.tolerance_rad.to_degrees(),
-            speed_m_s: drop.speeds_m_s(),
-            spin_rad_s: Some([landing.spin_rad_s.lo(), landing.spin_rad_s.hi()])
-                .filter(|spins| spins.iter().any(|spin| *spin != 0.0)),
+            tolerance_deg: is_of_box.then_some(tilt_deg[1]),
+            tilt_deg: (!is_of_box).then_some(tilt_deg),
+            speed_m_s: landing.drop.speeds_m_s(),
+            spin_rad_s: Some([spin_rad_s.lo(), spin_rad_s.hi()]).filter(|spins| spins.iter().any(|spin| *spin != 0.0)),
             verdict: Verdict::Safe,
             limits: Vec::new(),
         }
@@ -271,8 +277,10 @@ pub struct WorstCase {
     pub drop: SingleDrop,
     /// The place in the component, and the suspension that it has in this drop; none where it does not matter.
     pub part: Part,
-    /// Of a box, what it lands on.
-    pub landing: Option<Attitude>,
+    /// What the drop of the file is called, where it lists several.
+    pub landing: Option<DropName>,
+    /// Its place in that list, from 0.
+    pub listed: usize,
     /// Whether the file gives a range of radii of gyration, of which this drop has one.
     pub gyration_varies: bool,
     /// The impact that does it, or that the peak follows; from 1.
@@ -324,7 +332,7 @@ struct WorstCaseRow {
     #[serde(serialize_with = "letter")]
     first: End,
     #[serde(skip_serializing_if = "Option::is_none")]
-    landing: Option<Attitude>,
+    landing: Option<DropName>,
     tilt_deg: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     direction_deg: Option<f64>,
@@ -459,18 +467,14 @@ pub(crate) fn letter<S: Serializer>(end: &End, serializer: S) -> Result<S::Ok, S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{EXAMPLE, Fall, Spread};
+    use crate::EXAMPLE;
 
     /// What a landing says of all limits together is the worst of them, whichever comes last.
     #[test]
     fn a_landing_is_as_its_worst_limit() {
         let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();
         let mut limit = file.assess().unwrap().components[0].limits[0].clone();
-        let (attitude, fall) = (Attitude::on("bottom").unwrap(), Fall::HeightM(Spread::finite(1.0)));
-        let mut landing = LandingAssessment::new(
-            &Landing { attitude, source: None, tolerance_rad: 0.0, spin_rad_s: Spread::finite(0.0), fall },
-            9.81,
-        );
+        let mut landing = LandingAssessment::new(DropName::Number(1), &Landing::tilted(file.drop));
         for (own, all) in [
             (Verdict::Safe, Verdict::Safe),
             (Verdict::Unsafe, Verdict::Unsafe),

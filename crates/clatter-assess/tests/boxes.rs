@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use crate::plates::file;
 use crate::random::Random;
 use clatter_assess::{
-    Across, Attitude, Axis, Fall, Inside, Limit, LimitAssessment, LimitKind, Model, Mount, Note, Part, Posture,
-    ProductFile, SingleDrop, Verdict, Width, WorstCase, answer,
+    Across, Attitude, Axis, DropName, Fall, Inside, Limit, LimitAssessment, LimitKind, Model, Mount, Note, Part,
+    Posture, ProductFile, SingleDrop, Verdict, Width, WorstCase, answer,
 };
 use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
@@ -73,7 +73,8 @@ fn a_standard_is_its_drops_one_by_one() {
     // By hand, each alone.
     for (key, faces) in [("face", "bottom"), ("edge", "front end-b"), ("corner", "top back end-a")] {
         let attitude = Attitude::on(faces).expect("an attitude");
-        let listed = assessment.landings.iter().find(|landing| landing.landing == attitude).expect("a landing");
+        let listed =
+            assessment.landings.iter().find(|landing| landing.landing == DropName::On(attitude)).expect("a landing");
         let alone = file(&on(key, faces)).assess().expect("an assessment");
         let limits = alone.components.iter().flat_map(|component| &component.limits);
         for (limit, listed) in limits.zip(&listed.limits) {
@@ -258,7 +259,7 @@ fn hunted(file: &ProductFile, posture: Posture, name: &str, singles: u32, r: &mu
                 body: file.product.body,
                 across: Some(Across { width, direction_rad: TAU * x[0], posture: Some(posture) }),
                 first: clatter::End::A,
-                tilt_rad: landing.tolerance_rad * x[1].sqrt(),
+                tilt_rad: landing.tolerance_rad() * x[1].sqrt(),
                 flat: false,
                 speed_m_s: file.drop.speeds_m_s()[1],
                 spin_rad_s: 0.0,
@@ -362,7 +363,7 @@ fn a_box_that_stands_topples() {
     let turned: Vec<[f64; 2]> = (0..64).map(|_| [r.unit(), r.unit()]).collect();
     let asked = |[turn, tilt]: &[f64; 2]| {
         let across = Some(Across { width, direction_rad: TAU * turn, posture: Some(posture) });
-        let drop = SingleDrop { across, tilt_rad: file.landings[0].tolerance_rad * tilt.sqrt(), ..worst.drop };
+        let drop = SingleDrop { across, tilt_rad: file.landings[0].tolerance_rad() * tilt.sqrt(), ..worst.drop };
         answer(&drop, &part, &Limit::of(&file.components[0])[0], Model::Compliant, 0.02).expect("an answer").value
     };
     let most = turned.par_iter().map(asked).reduce(|| 0.0, f64::max);
@@ -475,7 +476,7 @@ fn a_standard_goes_by_the_largest_side() {
         });
         let large = large.replace("[\"43 mm\", \"20 mm\"]", "[\"260 mm\", \"260 mm\"]");
         let landing = file(&large).landings[0];
-        let Fall::HeightM(height) = landing.fall else { panic!("{landing:?}") };
+        let Fall::HeightM(height) = landing.drop.fall else { panic!("{landing:?}") };
         assert!((height.lo() - height_m).abs() < 1e-12, "{side:?}: {landing:?}");
     }
 }
@@ -656,6 +657,7 @@ fn directions_are_told_as_compasses_have_them() {
             drop: SingleDrop { across, ..drop },
             part: Part::new(0.0, None),
             landing: None,
+            listed: 0,
             gyration_varies: false,
             impact: 1,
             time_s: 0.0,

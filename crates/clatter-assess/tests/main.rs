@@ -23,5 +23,6 @@ mod portrait;
 mod random;
 mod safe;
 mod scatter;
+mod several;
 mod spin;
 mod worst_case;

@@ -87,9 +87,13 @@ impl OneDrop {
     ) -> Result<Self, Failure> {
         let file = assess::read(path, files, streams)?;
         if !(file.landings.is_empty() || at_worst) {
-            let path = crate::text::path(path);
+            let (path, is, others) = if file.is_box() {
+                (crate::text::path(path), "is that of a box", "--thickness and --orientation")
+            } else {
+                (crate::text::path(path), "lists several drops", "options in place of the file")
+            };
             return Err(Failure::Wrong(format!(
-                "{path} is that of a box: 'clatter respond --worst' takes its worst drop; give others by --thickness and --orientation"
+                "{path} {is}: 'clatter respond --worst' takes its worst drop; give others by {others}"
             )));
         }
         let found = match component {
@@ -158,7 +162,7 @@ impl OneDrop {
 
     /// The worst drop of a box, where that is the one.
     pub(crate) fn worst_of_box(&self) -> Option<WorstCase> {
-        self.worst.filter(|worst| worst.landing.is_some())
+        self.worst.filter(|_| self.file.is_box())
     }
 
     pub(crate) fn is_mirrored(&self) -> bool {

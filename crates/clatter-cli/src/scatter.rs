@@ -163,6 +163,7 @@ impl Args {
 
 /// Heading of a column.
 fn title(file: &ProductFile, column: Column) -> String {
+    let there = |what: &str, n: usize| format!("{what} {}", file.drop_names()[n].there());
     match column {
         Column::First => "first".to_owned(),
         Column::DirectionDeg => "direction_deg".to_owned(),
@@ -178,13 +179,12 @@ fn title(file: &ProductFile, column: Column) -> String {
         Column::AcrossM(i) => format!("position_across_m of {}", name_of(file, i)),
         Column::Limit(i, kind) => format!("{} limit of {}", kind.name(), name_of(file, i)),
         Column::CriticalAccelerationMS2(i) => format!("critical_acceleration_m_s2 of {}", name_of(file, i)),
-        Column::LandingSpeedMS(n) => format!("speed_m_s on {}", file.landings[n].attitude),
-        Column::LandingTiltDeg(n) => format!("tilt_deg on {}", file.landings[n].attitude),
-        Column::LandingSpinRadS(n) => format!("spin_rad_s on {}", file.landings[n].attitude),
-        Column::LandingDirectionDeg(n) => format!("direction_deg on {}", file.landings[n].attitude),
-        Column::LandingUtilization(n, i) => {
-            format!("utilization of {} on {}", name_of(file, i), file.landings[n].attitude)
-        }
+        Column::LandingFirst(n) => there("first", n),
+        Column::LandingSpeedMS(n) => there("speed_m_s", n),
+        Column::LandingTiltDeg(n) => there("tilt_deg", n),
+        Column::LandingSpinRadS(n) => there("spin_rad_s", n),
+        Column::LandingDirectionDeg(n) => there("direction_deg", n),
+        Column::LandingUtilization(n, i) => there(&format!("utilization of {}", name_of(file, i)), n),
         Column::Model => "model".to_owned(),
         Column::Utilization(i) => format!("utilization of {}", name_of(file, i)),
         _ => "value".to_owned(),

@@ -1,7 +1,7 @@
 //! Values as people say them: in common units, with as many digits as they are good for.
 
 use clatter_answer::significant;
-use clatter_assess::{STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
+use clatter_assess::{DropName, STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
 
 use crate::inputs;
 
@@ -60,7 +60,8 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     let lands = if worst.drop.flat {
         "flat".to_owned()
     } else {
-        let landing = worst.landing.map(|landing| format!("{landing}, {} deg off", four(worst.tilt_deg())));
+        let attitude = worst.landing.and_then(DropName::attitude);
+        let landing = attitude.map(|attitude| format!("{attitude}, {} deg off", four(worst.tilt_deg())));
         match worst.direction_deg() {
             _ if landing.is_some() => landing.unwrap_or_default(),
             Some(direction) => format!("{} deg, rising to {} deg", four(worst.tilt_deg()), four(direction)),
@@ -78,8 +79,9 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
         format!(", at {at} e {} and {} ms", four(e), four(1e3 * time_s.unwrap_or(0.0)))
     };
     let own: String = own.map(one).collect();
+    let number = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!("drop {n}, "));
     format!(
-        "{lands}, {} m/s{spin}, e {}{contact}{own}{gyration}; at {place} mm{part}",
+        "{number}{lands}, {} m/s{spin}, e {}{contact}{own}{gyration}; at {place} mm{part}",
         four(worst.drop.speed_m_s),
         four(worst.drop.restitution),
     )

@@ -114,7 +114,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
     tightest.sort_by(|a, b| a.0.0.1.tightest().room().total_cmp(&b.0.0.1.tightest().room()));
     tightest.truncate(CURVES);
     let shown: Vec<Share<'_>> = tightest.into_iter().map(|(part, name)| share(part, name)).collect();
-    let is_box = !file.landings.is_empty();
+    let is_box = file.is_box();
     if !is_box {
         files.push(("shares.svg".into(), shares(&shown, of_plate.is_some())?));
     }
@@ -137,6 +137,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "drawings": drawings.collect::<Vec<_>>(),
         "curves": shown.len(),
         "plate": of_plate.is_some(),
+        "box": is_box,
         "landings": landings::rows(file, assessment),
         "landings-of": file.landings.first().and_then(|landing| landing.source),
         "limits-of-the-model": if is_box { json!(landings::NOT_COVERED) } else { json!(not_covered(of_plate.is_some(), file.drop.may_spin())) },
@@ -242,6 +243,21 @@ mod tests {
 
     fn data(files: &[(String, String)]) -> Value {
         serde_json::from_str(&files.iter().find(|(name, _)| name == "assessment.json").unwrap().1).unwrap()
+    }
+
+    /// A page of several drops of a bar has a row and the tilt of each, and figures as of one drop.
+    #[test]
+    fn several_drops_of_a_bar_have_a_row_each() {
+        let drops = "[[drop]]\nspeed = \"2 m/s\"\ntilt = \"3 deg\"\nfirst = \"b\"\n[[drop]]\n";
+        let text = EXAMPLE.replace("[drop]\n", drops);
+        let dir = tempfile::tempdir().unwrap();
+        let page = said(&pages(&text, &dir.path().join("page.pdf")), 1);
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        for words in
+            ["Each drop of the file", "drop 1, 2 m/s", "drop 1: 3° at the first touch, end b first", "drop 2: 1 to 10°"]
+        {
+            assert!(page.contains(words), "{words}: {page}");
+        }
     }
 
     #[test]

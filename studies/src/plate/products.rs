@@ -110,13 +110,7 @@ impl Product {
         });
         let mut lying = plate.clone();
         let attitude = Attitude::on("bottom").unwrap_or_else(|| unreachable!("a face"));
-        lying.landings = vec![Landing {
-            attitude,
-            source: None,
-            tolerance_rad: most,
-            spin_rad_s: bar.drop.spin_rad_s,
-            fall: bar.drop.fall,
-        }];
+        lying.landings = vec![Landing { drop: bar.drop, attitude: Some(attitude), source: None }];
         lying.drop.tilt_rad = Spread::value(0.0)?;
         Ok([bar, plate, lying])
     }

@@ -145,10 +145,11 @@ fn goals(file: &ProductFile, component: &Component) -> Option<Vec<Goal>> {
     let body = &file.product.body;
     let [a, b] = body.arms_m();
     let middle = (a - b).abs() <= 1e-12 * (a + b); // roundings of what was given
-    if !middle || file.drop.first != First::Either {
+    let drops = file.drops();
+    if !middle || drops.iter().any(|drop| drop.first != First::Either) {
         return None;
     }
-    let [_, fastest] = file.drop.speeds_m_s();
+    let fastest = drops.iter().map(|drop| drop.speeds_m_s()[1]).fold(0.0, f64::max);
     let s = component.ends_m().iter().fold(0.0_f64, |most, [x, _]| most.max(file.product.relative(*x).abs())).min(1.0);
     let goal = |limit: Limit| match limit.kind.source() {
         Source::Shock => Goal::zone(limit.allowed / fastest, s).ok(),

@@ -4,7 +4,7 @@ use super::lever::Lever;
 use super::remedies::Case;
 use crate::assess::{Breaker, Listed};
 use crate::search::{Ranges, Task};
-use crate::{ComponentAssessment, Error, Landing, Limit, ProductFile, Verdict, WorstCase};
+use crate::{ComponentAssessment, Error, Limit, ProductFile, Verdict, WorstCase};
 
 /// Whether a part is safe with a margin.
 pub(super) fn is_enough(found: &ComponentAssessment, margin: f64) -> bool {
@@ -36,12 +36,7 @@ impl Breakers {
         limits.sort_by(|a, b| b.room().total_cmp(&a.room()));
         let worst = limits.into_iter().filter_map(|limit| limit.worst_case.as_ref());
         let breaker = |worst: &WorstCase| {
-            // The same attitude may be dropped from several heights.
-            let on = |(landing, listed): (&Landing, &Listed)| {
-                let [slow, fast] = listed.drop.speeds_m_s();
-                Some(landing.attitude) == worst.landing && (slow..=fast).contains(&worst.drop.speed_m_s)
-            };
-            let n = file.landings.iter().zip(&listed).position(on).unwrap_or_default();
+            let n = worst.listed;
             let ranges = case.ranges(file, &listed[n]);
             Breaker { other_law: false, listed: n, place: ranges.place_of(case.component, worst) }
         };

@@ -7,13 +7,13 @@ use super::{Groups, Ladder, Reference, Rung, cheapest, with};
 use crate::assess::Listed;
 use crate::drop::{Across, Followed, Model, SingleDrop, Until};
 use crate::engine::{Part, answer};
-use crate::{Assessment, Attitude, Axis, Error, Inside, LandingLimit, Limit, ProductFile, Width};
+use crate::{Assessment, Axis, DropName, Error, Inside, LandingLimit, Limit, ProductFile, Width};
 
 /// One drop of a box: how late its last corner may come, beside a contact, and what it leaves least room.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LandingLadder {
     /// What it lands on.
-    pub landing: Attitude,
+    pub landing: DropName,
     /// How many corners that has.
     pub corners: usize,
     /// By how much it may be turned off that.
@@ -46,19 +46,20 @@ impl ProductFile {
         };
         let sides = faces_m.map(|[low, high]| low + high);
         let listed = self.listed();
-        let each = self.landings.iter().zip(&listed).zip(&assessment.landings);
-        each.map(|((landing, Listed { drop, .. }), assessed)| {
+        let attitudes = self.landings.iter().filter_map(|landing| landing.attitude);
+        let each = attitudes.zip(&listed).zip(&assessment.landings);
+        each.map(|((attitude, Listed { drop, .. }), assessed)| {
             // Corners that are landed on lie along the sides that are level.
-            let level = landing.attitude.level(faces_m);
+            let level = attitude.level(faces_m);
             let reach_m = level.iter().fold(0.0, |all, axis| libm::hypot(all, sides[*axis]));
             let [slow, _] = drop.speeds_m_s();
             // So slowly its farthest corner comes down, turned up as fast as it may be.
             let far_m = faces_m.iter().fold(0.0, |all, [low, high]| libm::hypot(all, low.max(*high)));
             let slow = slow - drop.fastest_rad_s() * far_m;
-            let tolerance = landing.tolerance_rad;
+            let tolerance = drop.tilt_rad.hi();
             let as_one = libm::asin((contact.lo() * slow / reach_m).min(1.0));
             LandingLadder {
-                landing: landing.attitude,
+                landing: assessed.landing,
                 corners: 1 << level.len(),
                 tolerance_deg: tolerance.to_degrees(),
                 last_corner_s: [0.0, reach_m * libm::sin(tolerance) / slow],

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use super::drops::{Drops, Places, Tilt, View, along, corners, parts};
+use super::drops::{Drops, Places, Tilt, View, along, parts};
 use super::scale::Scale;
 use super::zone::zone;
 use super::{Changes, MARGIN};
@@ -21,7 +21,8 @@ pub(super) struct Shared<'a> {
     pub(super) file: &'a ProductFile,
     pub(super) accuracy: Accuracy,
     pub(super) bounds: &'a Bounds,
-    pub(super) tilts: &'a [Tilt],
+    /// Of each drop of the file.
+    pub(super) tilts: &'a [Vec<Tilt>],
     pub(super) until: Until,
     /// Contact laws that count, each with places all over the product in its drops as it is.
     pub(super) laws: &'a [ContactLaw],
@@ -134,12 +135,13 @@ impl Shared<'_> {
     fn product_holds(&self, case: &Case<'_>, of: &Failing<'_>, (lever, x): (Lever, f64)) -> bool {
         let followed = || {
             let file = case.changed(&[(lever, x)])?;
-            let ranges = file.ranges(&self.accuracy);
+            let listed = file.listed();
             let of = |&law: &ContactLaw| {
-                let ranges = Ranges { law, ..ranges };
-                Drops::new(&ranges, self.tilts, &corners(&ranges), self.until)
+                let ranges =
+                    listed.iter().map(|one| Ranges { law, ..file.ranges_of(&one.drop, one.posture, &self.accuracy) });
+                Drops::of_all(ranges, self.tilts, self.until)
             };
-            Some(self.laws.iter().map(of).collect())
+            self.laws.iter().map(of).collect()
         };
         let Some(kept) = OF_PRODUCT.iter().position(|l| *l == lever).map(|n| &self.changed[n]) else { return false };
         let Some(drops) = kept.get(&x.to_bits()).and_then(|drops| drops.get_or_init(followed).as_ref()) else {

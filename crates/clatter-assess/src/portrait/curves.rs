@@ -29,9 +29,9 @@ pub(super) fn over_tilt(
     let of_worst = Drops::new(ranges, if corners.contains(&own) { &[] } else { tilts }, &[own], until);
     let parts = parts(component, &asked, Some(worst));
     let mut found: Vec<Point> = Vec::new();
-    for drops in [shared, &at_worst, &of_worst] {
+    for (drops, listed) in [(shared, worst.listed), (&at_worst, 0), (&of_worst, 0)] {
         let places = Places::new(drops, along(component), f64::INFINITY);
-        for view in drops.views() {
+        for view in drops.views().into_iter().filter(|view| drops.listed(*view) == listed) {
             let of = |at| places.share(view, at, &asked, &parts, -1.0);
             let most = (0..places.positions_m.len()).filter_map(of).reduce(|a, b| if b.0 > a.0 { b } else { a });
             if let Some((share, part)) = most {

@@ -24,13 +24,15 @@ pub(super) struct Drops {
     model: Model,
     tolerance: f64,
     until: Until,
-    /// Whether each drop of a symmetric product stands for the one that is turned around as well.
-    turns: bool,
     all: Vec<Kept>,
 }
 
 struct Kept {
     drop: SingleDrop,
+    /// Of which drop of the file.
+    listed: usize,
+    /// Whether that of a symmetric product stands for the one that is turned around as well.
+    turns: bool,
     tilt: Tilt,
     followed: OnceLock<Option<Followed>>,
 }
@@ -45,7 +47,27 @@ pub(super) struct View {
 impl Drops {
     /// Drops at these tilts with either end first, of each of these inputs, by the contact law of the ranges.
     pub(super) fn new(ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Inputs], until: Until) -> Self {
-        let mut all = Vec::with_capacity(tilts.len() * inputs.len() * 2);
+        let Ranges { model, tolerance, .. } = *ranges;
+        let mut drops = Self { model, tolerance: tolerance.max(0.02), until, all: Vec::new() };
+        drops.extend(0, ranges, tilts, inputs);
+        drops
+    }
+
+    /// The same of all drops of a file, at the ends of their ranges.
+    pub(super) fn of_all<'r>(
+        ranges: impl Iterator<Item = Ranges<'r>>,
+        tilts: &[Vec<Tilt>],
+        until: Until,
+    ) -> Option<Self> {
+        let mut each = ranges.zip(tilts).enumerate();
+        let (_, (first, of_first)) = each.next()?;
+        let mut drops = Self::new(&first, of_first, &corners(&first), until);
+        each.for_each(|(listed, (ranges, tilts))| drops.extend(listed, &ranges, tilts, &corners(&ranges)));
+        Some(drops)
+    }
+
+    fn extend(&mut self, listed: usize, ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Inputs]) {
+        let turns = ranges.turns();
         for &first in ranges.firsts() {
             for &tilt in tilts {
                 for &(speed_m_s, spin_rad_s, restitution, contact_time_s) in inputs {
@@ -65,19 +87,19 @@ impl Drops {
                         own_contacts: ranges.product.own_contacts,
                     };
                     let drop = SingleDrop { flat: drop.lands_as_one(ranges.merge_s), ..drop };
-                    all.push(Kept { drop, tilt, followed: OnceLock::new() });
+                    self.all.push(Kept { drop, listed, turns, tilt, followed: OnceLock::new() });
                 }
             }
         }
-        let Ranges { model, tolerance, .. } = *ranges;
-        Self { model, tolerance: tolerance.max(0.02), until, turns: ranges.turns(), all }
     }
 
     /// All of them.
     pub(super) fn views(&self) -> Vec<View> {
-        let turned: &[bool] = if self.turns { &[false, true] } else { &[false] };
-        let of = |index| turned.iter().map(move |&turned| View { index, turned });
-        (0..self.all.len()).flat_map(of).collect()
+        let of = |(index, kept): (usize, &Kept)| {
+            let turned: &[bool] = if kept.turns { &[false, true] } else { &[false] };
+            turned.iter().map(move |&turned| View { index, turned })
+        };
+        self.all.iter().enumerate().flat_map(of).collect()
     }
 
     /// Those that places and changes count with.
@@ -91,6 +113,11 @@ impl Drops {
 
     pub(super) fn tilt(&self, view: View) -> Tilt {
         self.all[view.index].tilt
+    }
+
+    /// Of which drop of the file.
+    pub(super) fn listed(&self, view: View) -> usize {
+        self.all[view.index].listed
     }
 
     pub(super) fn drop(&self, view: View) -> SingleDrop {

@@ -7,13 +7,27 @@ use crate::check::{FLAT, STEEPEST_RAD, spin_down};
 use crate::data_fault::out_of_range;
 use crate::keys;
 use crate::standard;
-use crate::{Attitude, DataFault, Drop, Fall, Feet, First, Landing, Product, Spread};
+use crate::{Attitude, DataFault, Drop, DropName, Fall, Feet, First, Landing, Law, Product, Spread};
 
 /// Keys of what a box lands on, by so many faces at once.
 const LANDS_ON: [&str; 3] = ["face", "edge", "corner"];
 
 /// Drops of a file that are listed by hand: each takes a tenth of a second.
 const MOST_DROPS: usize = 100;
+
+/// What a box lands on in one drop.
+struct LandsOn {
+    attitude: Attitude,
+    /// Where a standard asks for it.
+    height_m: f64,
+    tolerance_rad: f64,
+    source: Option<&'static str>,
+}
+
+/// Any angle up to this one.
+fn up_to(angle_rad: f64) -> Spread {
+    Spread::new(0.0, angle_rad, Law::Range).unwrap_or(Spread::finite(0.0))
+}
 
 impl Reader {
     /// How it falls, and what a box lands on in one drop after the other.
@@ -23,7 +37,7 @@ impl Reader {
         let is_of_box = |section: &Section<'_>| {
             LANDS_ON.iter().chain(&["standard", "attitude_tolerance"]).any(|key| section.table.contains_key(*key))
         };
-        self.is_box = sections.len() > 1 || sections.iter().any(is_of_box);
+        self.is_box = sections.iter().any(is_of_box);
         if let (true, Some(section)) =
             (self.is_box && product.is_some_and(|product| !product.own_contacts.is_none()), sections.first())
         {
@@ -31,27 +45,34 @@ impl Reader {
         }
         let (mut drops, mut all) = (Vec::new(), Vec::<Landing>::new());
         for section in &sections {
-            let mut landings = self.landings(section, product);
+            let lands_on = self.lands_on(section, product);
             let drop = self.drop(section);
             if let (Some(feet), Some(drop)) = (product.and_then(|product| product.feet), &drop) {
                 self.on_feet(section, drop, &feet);
             }
-            if let (Some(drop), false) = (&drop, section.table.contains_key("standard")) {
-                for landing in &mut landings {
-                    (landing.fall, landing.spin_rad_s) = (drop.fall, drop.spin_rad_s);
-                }
-            }
             if let (Some(product), Some(drop)) = (product, &drop) {
                 self.spins(section, drop, product);
             }
-            for landing in landings {
+            let Some(drop) = drop else { continue };
+            let own = if several && !self.is_box { vec![Landing::tilted(drop)] } else { Vec::new() };
+            let is_listed = section.table.contains_key("standard");
+            let of_box = lands_on.into_iter().map(|LandsOn { attitude, height_m, tolerance_rad, source }| {
+                let fall = if is_listed { Fall::HeightM(Spread::finite(height_m)) } else { drop.fall };
+                Landing {
+                    drop: Drop { fall, tilt_rad: up_to(tolerance_rad), ..drop },
+                    attitude: Some(attitude),
+                    source,
+                }
+            });
+            for landing in own.into_iter().chain(of_box) {
                 if all.iter().any(|other| other.is_same(&landing)) {
-                    self.data(section.span.clone(), &DataFault::Twice(landing.attitude), "here again");
+                    let name = landing.attitude.map_or(DropName::Number(all.len() + 1), DropName::On);
+                    self.data(section.span.clone(), &DataFault::Twice(name), "here again");
                     break;
                 }
                 all.push(landing);
             }
-            drops.extend(drop);
+            drops.push(drop);
         }
         if all.len() > MOST_DROPS {
             let (message, label) = (format!("the file has {} drops", all.len()), format!("at most {MOST_DROPS}"));
@@ -60,12 +81,15 @@ impl Reader {
         }
         let gravity = |drop: &Drop| drop.gravity_m_s2.to_bits();
         if let Some(n) = drops.windows(2).position(|two| gravity(&two[0]) != gravity(&two[1])) {
-            let help = "give all drops the same, or another file";
-            self.fault(sections[n + 1].span.clone(), "gravity differs from drop to drop", "in this drop", help);
+            self.data(sections[n + 1].span.clone(), &DataFault::Gravity, "in this drop");
         }
         // What is common to all.
-        let drop =
-            drops.into_iter().next().map(|drop| Drop { fall: all.first().map_or(drop.fall, |l| l.fall), ..drop });
+        let drop = drops.into_iter().next();
+        let drop = drop.map(|drop| Drop { fall: all.first().map_or(drop.fall, |first| first.drop.fall), ..drop });
+        // One alone is no list.
+        if !self.is_box && all.len() == 1 {
+            all.clear();
+        }
         (drop, all)
     }
 
@@ -103,7 +127,7 @@ impl Reader {
     }
 
     /// What a box lands on; none where a fault was told.
-    fn landings(&mut self, section: &Section<'_>, product: Option<&Product>) -> Vec<Landing> {
+    fn lands_on(&mut self, section: &Section<'_>, product: Option<&Product>) -> Vec<LandsOn> {
         if !self.is_box {
             return Vec::new();
         }
@@ -132,14 +156,12 @@ impl Reader {
                 Err(fault) => self.data(keyword.span, &fault, "this"),
             }
         }
-        let landing = |(attitude, height_m, source)| Landing {
-            attitude,
-            source,
-            tolerance_rad: tolerance.as_ref().map_or_else(|| standard::tolerance_rad(attitude), |given| given.value),
-            fall: Fall::HeightM(Spread::finite(height_m)),
-            spin_rad_s: Spread::finite(0.0),
+        let one = |(attitude, height_m, source)| {
+            let tolerance_rad =
+                tolerance.as_ref().map_or_else(|| standard::tolerance_rad(attitude), |given| given.value);
+            LandsOn { attitude, height_m, tolerance_rad, source }
         };
-        landings.into_iter().map(landing).collect()
+        landings.into_iter().map(one).collect()
     }
 
     fn drop(&mut self, section: &Section<'_>) -> Option<Drop> {

@@ -58,7 +58,7 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
     }
     // Of a symmetric body one end first is the other one turned around.
     let symmetric = points.iter().all(|(body, _)| body.arms_m()[0].to_bits() == body.arms_m()[1].to_bits());
-    let turns = symmetric && file.drop.first_ends().len() > 1;
+    let turns = symmetric && file.drops().iter().all(|drop| drop.first_ends().len() > 1);
     let corners = |tilts, slow| Corners::new(file, &parts, turns, tilts, slow);
     let [many, few] = [corners(TILTS[0], true), corners(TILTS[1], false)];
     let off = |k| {
@@ -143,7 +143,7 @@ fn variants(component: &Component) -> Result<Vec<PartSample>, crate::Error> {
 
 impl Corners {
     fn new(file: &ProductFile, parts: &[Vec<PartSample>], turns: bool, tilts: u32, slow: bool) -> Self {
-        let (product, drop) = (&file.product, &file.drop);
+        let product = &file.product;
         let turned = |part: &PartSample| {
             let [[lo, hi], across] = part.reaches_m;
             PartSample { reaches_m: [[-hi, -lo], across], ..part.clone() }
@@ -156,36 +156,39 @@ impl Corners {
             of_one
         };
         let of_each: Vec<Vec<PartSample>> = parts.iter().map(each).collect();
-        let [slowest, fastest] = drop.speeds_m_s();
-        let speeds = if slow && slowest < fastest { vec![fastest, slowest] } else { vec![fastest] };
         let times =
             product.contact_time_s.as_ref().map_or(vec![None], |time| two(time).into_iter().map(Some).collect());
-        let spins = two(&drop.spin_rad_s);
-        let steps = if drop.tilt_rad.is_value() { 0 } else { tilts - 1 };
         let mut drops = Vec::new();
-        for &first in if turns { &[End::A][..] } else { drop.first_ends() } {
-            for &speed_m_s in &speeds {
-                for (&contact_time_s, &spin_rad_s) in
-                    times.iter().flat_map(|time| spins.iter().map(move |spin| (time, spin)))
-                {
-                    drops.extend((0..=steps).map(|k| SingleDrop {
-                        body: product.body,
-                        across: None,
-                        first,
-                        tilt_rad: drop.tilt_rad.at(f64::from(k) / f64::from(steps.max(1))),
-                        flat: false,
-                        speed_m_s,
-                        spin_rad_s,
-                        restitution: 0.0,
-                        gravity_m_s2: drop.gravity_m_s2,
-                        contact_time_s,
-                        contact_law: product.law(),
-                        feet: product.feet,
-                        own_contacts: product.own_contacts,
-                    }));
-                    let least = drops.len() - 1 - steps as usize;
-                    let flat: Option<SingleDrop> = drops.get(least).filter(|drop| drop.lands_as_one(MERGE_S)).copied();
-                    drops.extend(flat.map(|drop| SingleDrop { flat: true, ..drop }));
+        for drop in file.drops() {
+            let [slowest, fastest] = drop.speeds_m_s();
+            let speeds = if slow && slowest < fastest { vec![fastest, slowest] } else { vec![fastest] };
+            let spins = two(&drop.spin_rad_s);
+            let steps = if drop.tilt_rad.is_value() { 0 } else { tilts - 1 };
+            for &first in if turns { &[End::A][..] } else { drop.first_ends() } {
+                for &speed_m_s in &speeds {
+                    for (&contact_time_s, &spin_rad_s) in
+                        times.iter().flat_map(|time| spins.iter().map(move |spin| (time, spin)))
+                    {
+                        drops.extend((0..=steps).map(|k| SingleDrop {
+                            body: product.body,
+                            across: None,
+                            first,
+                            tilt_rad: drop.tilt_rad.at(f64::from(k) / f64::from(steps.max(1))),
+                            flat: false,
+                            speed_m_s,
+                            spin_rad_s,
+                            restitution: 0.0,
+                            gravity_m_s2: drop.gravity_m_s2,
+                            contact_time_s,
+                            contact_law: product.law(),
+                            feet: product.feet,
+                            own_contacts: product.own_contacts,
+                        }));
+                        let least = drops.len() - 1 - steps as usize;
+                        let flat: Option<SingleDrop> =
+                            drops.get(least).filter(|drop| drop.lands_as_one(MERGE_S)).copied();
+                        drops.extend(flat.map(|drop| SingleDrop { flat: true, ..drop }));
+                    }
                 }
             }
         }

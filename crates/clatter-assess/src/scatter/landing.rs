@@ -1,22 +1,22 @@
-//! The drops of a box, one by one and in sequence.
+//! The drops of a list, one by one and in sequence.
 
 use super::levels::Count;
 use super::{OfPart, Probability, SampleDemand, Settings};
-use crate::Attitude;
+use crate::DropName;
 
-/// What came of one of the drops of a box.
+/// What came of one of several drops.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LandingScatter {
-    /// What it lands on.
-    pub landing: Attitude,
+    /// What it is called.
+    pub landing: DropName,
     /// Probability that every component survives this drop alone.
     pub survival: Probability,
     /// In the order of the file.
     pub components: Vec<LandingComponent>,
 }
 
-/// What one of the drops of a box does to a component, as of [`ComponentScatter`](super::ComponentScatter).
+/// What one of several drops does to a component, as of [`ComponentScatter`](super::ComponentScatter).
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LandingComponent {
@@ -32,19 +32,21 @@ pub struct LandingComponent {
     pub largest_utilization: f64,
 }
 
-/// What is drawn anew for each drop of a box.
+/// What is drawn anew for each drop of a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OfLanding {
     /// Its height.
     Height,
     /// Its speed at the first touch.
     Speed,
-    /// How far it is turned off what it lands on: every attitude within the tolerance is as likely.
+    /// Its tilt; how far a box is turned off what it lands on: every attitude within the tolerance is as likely.
     Tilt,
     /// Towards where it is turned.
     Direction,
     /// How fast it turns as it touches.
     Spin,
+    /// Which end of a bar is first.
+    First,
 }
 
 impl OfLanding {
@@ -55,6 +57,7 @@ impl OfLanding {
             Self::Tilt => 1,
             Self::Direction => 2,
             Self::Spin => 3,
+            Self::First => 4,
         }
     }
 }
@@ -79,7 +82,7 @@ pub(super) fn all_of(parts: &[OfPart]) -> OfPart {
     parts.iter().try_fold(SampleDemand::default(), together)
 }
 
-/// What came of one of the drops of a box, so far: of all parts, and of each with the largest utilization.
+/// What came of one of several drops, so far: of all parts, and of each with the largest utilization.
 #[derive(Debug, Clone)]
 pub(super) struct LandingTally {
     all: Count,
@@ -107,7 +110,7 @@ impl LandingTally {
         }
     }
 
-    pub(super) fn summary(&self, landing: Attitude, settings: &Settings) -> LandingScatter {
+    pub(super) fn summary(&self, landing: DropName, settings: &Settings) -> LandingScatter {
         let of = |(count, largest_utilization): &(Count, f64)| {
             let [failures, open, unanswered] = count.counts(settings.samples);
             let survival = count.survival(settings.confidence);

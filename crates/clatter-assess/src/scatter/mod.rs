@@ -45,7 +45,7 @@ mod tally;
 
 use rayon::prelude::*;
 
-use crate::{Attitude, Component, LimitKind, Model, ProductFile};
+use crate::{Component, DropName, LimitKind, Model, ProductFile};
 use landing::sequence;
 use levels::{Levels, float, round};
 use sample::{Inputs, Sample};
@@ -89,8 +89,8 @@ pub enum Error {
 /// How to draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How many drops answered by the full model the intervals are as wide as; of a box how many products, each of which goes through all
-    /// of its drops.
+    /// How many drops answered by the full model the intervals are as wide as; where several are listed how many products, each of which goes
+    /// through all of them.
     pub samples: u64,
     /// Another seed, other drops.
     pub seed: u64,
@@ -102,8 +102,8 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Samples unless said otherwise: 100 000 drops; of a box 1000 products, whose 26 drops take from some 6 s to three minutes, by how often
-    /// more than the first landing decides.
+    /// Samples unless said otherwise: 100 000 drops; where several are listed 1000 products: of a box 26 drops of each take from some 6 s to three
+    /// minutes, by how often more than the first landing decides.
     #[must_use]
     pub fn samples_of(file: &ProductFile) -> u64 {
         if file.landings.is_empty() { 100_000 } else { 1000 }
@@ -138,7 +138,7 @@ pub struct Scatter {
     pub open: u64,
     /// In the order of the file.
     pub components: Vec<ComponentScatter>,
-    /// Of a box, what came of each of its drops, in the order of the file; else empty.
+    /// What came of each of several drops, in the order of the file; else empty.
     pub landings: Vec<LandingScatter>,
 }
 
@@ -217,9 +217,11 @@ pub enum Column {
     PositionM(usize),
     /// Where it is across a plate, in m, where it varies.
     AcrossM(usize),
-    /// Speed at the first touch in one of the drops of a box, in m/s; drops by their order in the file.
+    /// In one of several drops, which end touches first, as [`First`](Self::First); drops by their order in the file.
+    LandingFirst(usize),
+    /// Speed at the first touch there, in m/s.
     LandingSpeedMS(usize),
-    /// How far it is turned off what it lands on there, in degrees.
+    /// Its tilt there, in degrees; how far a box is turned off what it lands on.
     LandingTiltDeg(usize),
     /// Towards where, in degrees.
     LandingDirectionDeg(usize),
@@ -233,7 +235,7 @@ pub enum Column {
     Model,
     /// Utilization of a part; by the cheap model times a factor, so that as many drops fail in the first batch: the largest demand over allowed. It survives up to 1. NaN where the model has no answer.
     Utilization(usize),
-    /// In one of the drops of a box, the utilization of a part.
+    /// In one of several drops, the utilization of a part.
     LandingUtilization(usize, usize),
 }
 
@@ -276,7 +278,7 @@ struct Answers {
     cheap: Vec<SampleDemand>,
     /// By the full one, in all drops.
     full: Vec<OfPart>,
-    /// The same in each drop of a box.
+    /// The same in each of several drops.
     landings: Vec<Vec<OfPart>>,
 }
 
@@ -285,8 +287,8 @@ type OfPart = Result<SampleDemand, crate::Error>;
 
 /// Samples of one block; sums are made within blocks and then over blocks, in order.
 const BLOCK: u64 = 1024;
-/// Drops of boxes in a block, each of which takes longer.
-const BLOCK_OF_BOXES: u64 = 128;
+/// Drops in a block of products that go through several, which take longer.
+const BLOCK_OF_LISTS: u64 = 128;
 /// Samples at most.
 const MOST_SAMPLES: u64 = 1_000_000_000_000;
 
@@ -296,8 +298,8 @@ pub struct Sampler {
     settings: Settings,
     inputs: Inputs,
     components: Vec<Component>,
-    /// Of a box.
-    attitudes: Vec<Attitude>,
+    /// Of several drops in sequence, what they are called.
+    drop_names: Vec<DropName>,
     fullest: Model,
 }
 
@@ -321,8 +323,7 @@ impl Sampler {
         }
         let inputs = Inputs::new(file, settings.merge_s)?;
         let fullest = inputs.blank().drops[0].fullest();
-        let attitudes = file.landings.iter().map(|landing| landing.attitude).collect();
-        Ok(Self { settings, inputs, components: file.components.clone(), attitudes, fullest })
+        Ok(Self { settings, inputs, components: file.components.clone(), drop_names: file.drop_names(), fullest })
     }
 
     /// What each sample of [`Progress::values`] consists of.
@@ -376,13 +377,13 @@ impl Sampler {
 
     /// Samples of one block.
     fn block_size(&self) -> u64 {
-        BLOCK_OF_BOXES.checked_div(self.inputs.landings() as u64).map_or(BLOCK, |samples| samples.max(1))
+        BLOCK_OF_LISTS.checked_div(self.inputs.landings() as u64).map_or(BLOCK, |samples| samples.max(1))
     }
 
-    /// What the drops of a box land on, in order; none of a bar and of a plate.
+    /// What the drops of a sequence are called, in order; none of a product that falls once.
     #[must_use]
-    pub fn attitudes(&self) -> &[Attitude] {
-        &self.attitudes
+    pub fn drop_names(&self) -> &[DropName] {
+        &self.drop_names
     }
 
     /// What came of all blocks, for the intervals of so many samples.
@@ -406,7 +407,12 @@ impl Sampler {
             reason,
             open,
             components,
-            landings: self.attitudes.iter().zip(&landings).map(|(on, tally)| tally.summary(*on, &settings)).collect(),
+            landings: self
+                .drop_names
+                .iter()
+                .zip(&landings)
+                .map(|(name, tally)| tally.summary(*name, &settings))
+                .collect(),
         }
     }
 
@@ -450,7 +456,7 @@ impl Sampler {
         }
         match drawn {
             _ if !follow => {}
-            Ok(()) if self.inputs.is_box() => {
+            Ok(()) if self.inputs.landings() > 0 => {
                 landings.resize_with(sample.drops.len(), Vec::new);
                 let each = sample.drops.iter().zip(landings.iter_mut());
                 each.for_each(|(drop, asked)| full::answer(drop, &sample.parts, asked));

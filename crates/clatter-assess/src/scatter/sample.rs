@@ -15,7 +15,7 @@ use crate::component::places;
 use crate::drop::{Across, Posture};
 use crate::engine::Spot;
 use crate::quantity::Source;
-use crate::{Component, Damping, Fall, First, Inside, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
+use crate::{Component, Damping, Fall, Inside, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +51,7 @@ pub enum Input {
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part.
     CriticalAcceleration(usize),
-    /// What one of the drops of a box has of its own; drops by their order in the file.
+    /// What one of several drops has of its own; drops by their order in the file.
     Landing(usize, OfLanding),
 }
 
@@ -61,7 +61,7 @@ impl Input {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            Self::First => "first",
+            Self::First | Self::Landing(_, OfLanding::First) => "first",
             Self::Direction | Self::Landing(_, OfLanding::Direction) => "direction",
             Self::Height | Self::Landing(_, OfLanding::Height) => "height",
             Self::Speed | Self::Landing(_, OfLanding::Speed) => "speed",
@@ -78,7 +78,7 @@ impl Input {
             Self::CriticalAcceleration(_) => "critical-acceleration",
         }
     }
-    /// The drop of a box that it belongs to, by its order in the file; none of what all drops share.
+    /// The drop of several that it belongs to, by its order in the file; none of what all drops share.
     #[must_use]
     pub fn landing(&self) -> Option<usize> {
         if let Self::Landing(n, _) = self { Some(*n) } else { None }
@@ -114,6 +114,7 @@ impl Input {
             Self::Limit(i, kind) => column == Column::Limit(i, kind),
             Self::CriticalAcceleration(i) => column == Column::CriticalAccelerationMS2(i),
             Self::Landing(n, of) => match of {
+                OfLanding::First => column == Column::LandingFirst(n),
                 OfLanding::Height | OfLanding::Speed => column == Column::LandingSpeedMS(n),
                 OfLanding::Tilt => column == Column::LandingTiltDeg(n),
                 OfLanding::Spin => column == Column::LandingSpinRadS(n),
@@ -178,11 +179,12 @@ pub(super) struct Inputs {
     pub(super) of_part: Vec<Vec<usize>>,
     /// What is the same in all drops.
     drop: SingleDrop,
-    firsts: &'static [End],
+    /// Whether a sample goes through the drops of a list.
+    has_list: bool,
     restitution: Drawn,
     contact_time: Option<Drawn>,
     gyration: Option<Drawn>,
-    /// One of a bar and of a plate; of a box those that it goes through.
+    /// One, or those that it goes through.
     drops: Vec<DropInputs>,
     parts: Vec<PartInputs>,
 }
@@ -192,6 +194,9 @@ pub(super) struct Inputs {
 struct DropInputs {
     /// Of a box, how it lands but for its tolerance.
     posture: Option<Posture>,
+    /// Ends that may be first, and what either of them is drawn from.
+    firsts: &'static [End],
+    first: Option<usize>,
     fall: Drawn,
     is_height: bool,
     tilt: Drawn,
@@ -216,7 +221,7 @@ struct PartInputs {
 pub(super) struct Sample {
     /// Of each input that varies, the uniform number that it comes from.
     pub(super) uniforms: Vec<f64>,
-    /// One of a bar and of a plate; of a box all that it goes through, one after the other.
+    /// One, or all that it goes through, one after the other.
     pub(super) drops: Vec<SingleDrop>,
     pub(super) parts: Vec<PartSample>,
 }
@@ -297,24 +302,29 @@ impl Finder {
         Ok(PartInputs { position, extent_m, inside: component.inside, mount, limits })
     }
 
-    /// Height or speed, tilt and spin of a drop, of a box of that of its list.
-    fn drop(&mut self, listed: &Listed, landing: Option<usize>) -> Result<DropInputs, Error> {
+    /// Which end is first, height or speed, tilt and spin of a drop, where it is one of several of that.
+    fn drop(&mut self, listed: &Listed, landing: Option<usize>, is_bar: bool) -> Result<DropInputs, Error> {
         let Listed { drop, posture } = listed;
-        let of_box = |of: OfLanding, other: Input| landing.map_or(other, |n| Input::Landing(n, of));
+        let own = |of: OfLanding, other: Input| landing.map_or(other, |n| Input::Landing(n, of));
+        let firsts = drop.first_ends();
+        let first = (is_bar && firsts.len() > 1).then(|| {
+            self.varied.push(own(OfLanding::First, Input::First));
+            self.varied.len() - 1
+        });
         let (fall, is_height) = match &drop.fall {
-            Fall::HeightM(height) => (self.drawn(of_box(OfLanding::Height, Input::Height), height, "")?, true),
-            Fall::SpeedMS(speed) => (self.drawn(of_box(OfLanding::Speed, Input::Speed), speed, "")?, false),
+            Fall::HeightM(height) => (self.drawn(own(OfLanding::Height, Input::Height), height, "")?, true),
+            Fall::SpeedMS(speed) => (self.drawn(own(OfLanding::Speed, Input::Speed), speed, "")?, false),
         };
         let mut tilt_rad = drop.tilt_rad;
         if posture.is_some() && !tilt_rad.is_value() {
             // All attitudes within the tolerance: rings of them grow with the angle.
-            self.assumed_even.push(of_box(OfLanding::Tilt, Input::Tilt));
+            self.assumed_even.push(own(OfLanding::Tilt, Input::Tilt));
             tilt_rad = Spread::new(tilt_rad.lo(), tilt_rad.hi(), Law::Triangular { mode: tilt_rad.hi() })?;
         }
-        let tilt = self.drawn(of_box(OfLanding::Tilt, Input::Tilt), &tilt_rad, "")?;
+        let tilt = self.drawn(own(OfLanding::Tilt, Input::Tilt), &tilt_rad, "")?;
         let spins = drop.may_spin();
-        let spin = spins.then(|| self.drawn(of_box(OfLanding::Spin, Input::Spin), &drop.spin_rad_s, "")).transpose()?;
-        Ok(DropInputs { posture: *posture, fall, is_height, tilt, direction: None, spin })
+        let spin = spins.then(|| self.drawn(own(OfLanding::Spin, Input::Spin), &drop.spin_rad_s, "")).transpose()?;
+        Ok(DropInputs { posture: *posture, firsts, first, fall, is_height, tilt, direction: None, spin })
     }
 }
 
@@ -327,13 +337,11 @@ impl Inputs {
         let (product, drop, listed) = (&file.product, &file.drop, file.listed());
         let mut finder = Finder::default();
         let across = product.width.map(|width| Across { width, direction_rad: 0.0, posture: listed[0].posture });
-        if drop.first == First::Either && across.is_none() {
-            finder.varied.push(Input::First);
-        }
-        let number = |n: usize| (!file.landings.is_empty()).then_some(n);
+        let has_list = !file.landings.is_empty();
+        let number = |n: usize| has_list.then_some(n);
         let mut drops = Vec::with_capacity(listed.len());
         for (n, one) in listed.iter().enumerate() {
-            drops.push(finder.drop(one, number(n))?);
+            drops.push(finder.drop(one, number(n), across.is_none())?);
         }
         let restitution = finder.drawn(Input::Restitution, &product.restitution, "")?;
         let contact_time =
@@ -350,7 +358,7 @@ impl Inputs {
             } else {
                 any
             };
-            one.direction = Some(finder.drawn(input, drop.direction_rad.as_ref().unwrap_or(&any), "")?);
+            one.direction = Some(finder.drawn(input, listed[n].drop.direction_rad.as_ref().unwrap_or(&any), "")?);
         }
         let shared = finder.varied.len();
         let (mut parts, mut of_part) = (Vec::new(), Vec::new());
@@ -375,14 +383,13 @@ impl Inputs {
             own_contacts: product.own_contacts,
         };
         let Finder { varied, assumed_even } = finder;
-        let firsts = drop.first_ends();
         Ok(Self {
             merge_s,
             varied,
             assumed_even,
             of_part,
             drop: same,
-            firsts,
+            has_list,
             restitution,
             contact_time,
             gyration,
@@ -429,9 +436,9 @@ impl Inputs {
         Ok(())
     }
 
-    /// Whether the cheap model is one of the product: of a bar.
+    /// Whether the cheap model is one of the product: of a bar that falls once.
     pub(super) fn has_cheap(&self) -> bool {
-        self.drop.across.is_none()
+        self.drop.across.is_none() && !self.has_list
     }
 
     /// The drops that these uniform numbers give, all of one product.
@@ -442,10 +449,10 @@ impl Inputs {
                 across.direction_rad = direction.at(uniforms);
                 drop.first = across.first();
             } else {
-                drop.first = match *self.firsts {
-                    [end] => end,
-                    _ if uniforms[0] < 0.5 => End::A,
-                    _ => End::B,
+                drop.first = match inputs.first {
+                    None => inputs.firsts[0],
+                    Some(first) if uniforms[first] < 0.5 => End::A,
+                    Some(_) => End::B,
                 };
             }
             let fall = inputs.fall.at(uniforms);
@@ -481,21 +488,20 @@ impl Inputs {
         }
         all
     }
-    /// Whether the drops are those of a box.
-    pub(super) fn is_box(&self) -> bool {
-        self.drops[0].posture.is_some()
-    }
-    /// How many drops of a box a sample goes through; none of a bar and of a plate.
+    /// How many drops of a list a sample goes through; none of a product that falls once.
     pub(super) fn landings(&self) -> usize {
-        if self.is_box() { self.drops.len() } else { 0 }
+        if self.has_list { self.drops.len() } else { 0 }
     }
 
     /// How a sample falls.
     fn falls(&self) -> Vec<Column> {
-        if self.is_box() {
+        if self.has_list {
             let of = |n: usize| {
-                let falls = [Column::LandingSpeedMS(n), Column::LandingTiltDeg(n), Column::LandingDirectionDeg(n)];
-                falls.into_iter().chain(self.drops[n].spin.map(|_| Column::LandingSpinRadS(n)))
+                let falls = [Column::LandingSpeedMS(n), Column::LandingTiltDeg(n)];
+                let towards = self.drops[n].direction.map(|_| Column::LandingDirectionDeg(n));
+                let first = self.drops[n].first.map(|_| Column::LandingFirst(n));
+                let spin = self.drops[n].spin.map(|_| Column::LandingSpinRadS(n));
+                first.into_iter().chain(falls).chain(towards).chain(spin)
             };
             return (0..self.drops.len()).flat_map(of).collect();
         }
@@ -524,7 +530,7 @@ impl Inputs {
         }
         columns.push(Column::Model);
         columns.extend((0..self.parts.len()).map(Column::Utilization));
-        if self.is_box() {
+        if self.has_list {
             let of = |n| (0..self.parts.len()).map(move |i| Column::LandingUtilization(n, i));
             columns.extend((0..self.drops.len()).flat_map(of));
         }
@@ -539,9 +545,11 @@ impl Sample {
         let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
         // What the product has is the same in all of its drops.
         let drop = &self.drops[0];
+        let first = |drop: &SingleDrop| if drop.first == End::A { 0.0 } else { 1.0 };
         let direction = |drop: &SingleDrop| drop.across.map(|across| across.direction_rad.to_degrees());
         let value = match column {
-            Column::First => Some(if drop.first == End::A { 0.0 } else { 1.0 }),
+            Column::First => Some(first(drop)),
+            Column::LandingFirst(n) => Some(first(&self.drops[n])),
             Column::DirectionDeg => direction(drop),
             Column::SpeedMS => Some(drop.speed_m_s),
             Column::TiltDeg => Some(drop.tilt_rad.to_degrees()),

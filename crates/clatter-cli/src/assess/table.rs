@@ -10,6 +10,7 @@ use clatter_assess::{
 };
 
 use crate::columns::{Table, sentence};
+use crate::numbers::given;
 use crate::quantities::neat;
 use crate::text::{path, shown};
 use crate::words::{drop, four, in_words, margin, percent};
@@ -36,7 +37,7 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     }
     writeln!(out)?;
     writeln!(out, "Bound by energy: no drop of the ranges asks for more; parts on a suspension have none.")?;
-    if assessment.landings.is_empty() {
+    if !file.is_box() {
         writeln!(
             out,
             "Flat drop: what the worst drop would ask if both ends landed at once, as drop standards assume."
@@ -113,9 +114,10 @@ fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> i
     Table { keys: 2, headings: 1, texts: 3, last_is_text: false, least: 9, rows }.write(out)
 }
 
-/// Of a box, a row for each drop: the limit that it leaves least room.
+/// Of several drops, a row for each: the limit that it leaves least room.
 fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
-    let heads = ["drop", "off, deg", "verdict", "tightest", "limit", "demand", "margin"];
+    let tilt = if file.is_box() { "off, deg" } else { "tilt, deg" };
+    let heads = ["drop", tilt, "verdict", "tightest", "limit", "demand", "margin"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     let speeds = |landing: &LandingAssessment| {
         (landing.speed_m_s.map(f64::to_bits), landing.spin_rad_s.map(|spins| spins.map(f64::to_bits)))
@@ -138,7 +140,11 @@ fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) ->
                 on if slow == fast => format!("{on}, {slow} m/s{spin}"),
                 on => format!("{on}, {slow} to {fast} m/s{spin}"),
             },
-            format!("{}", neat(landing.tolerance_deg)),
+            match (landing.tilt_deg.map(|tilts| tilts.map(neat)), landing.tolerance_deg) {
+                (Some([least, most]), _) if least < most => format!("{} to {}", given(least), given(most)),
+                (Some([_, most]), _) => given(most),
+                (None, tolerance) => tolerance.map_or("-".to_owned(), |degrees| given(neat(degrees))),
+            },
             verdict(landing.verdict).to_owned(),
             shown(&tightest.component, 24),
             tightest.limit.name().to_owned(),

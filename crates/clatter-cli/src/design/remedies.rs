@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use clatter_answer::design::{Answer, margin};
 use clatter_assess::design::{Change, Lever, Outcome, Remedies, Remedy, Together};
-use clatter_assess::{ComponentAssessment, Drop, ProductFile, Verdict};
+use clatter_assess::{ComponentAssessment, ProductFile, Verdict};
 
 use crate::numbers::{digits, figures, given};
 use crate::text::{field, shown};
@@ -60,11 +60,10 @@ fn cells(outcome: &str, Change { from, to, .. }: &Change, after: &ComponentAsses
     format!("{outcome},{}", numbers.join(","))
 }
 
-/// The highest speed at the first touch, of a box in any of its drops.
+/// The highest speed at the first touch, in any of its drops.
 fn fastest(file: &ProductFile) -> f64 {
-    let of = |fall| Drop { fall, ..file.drop }.speeds_m_s()[1];
-    let of_box = file.landings.iter().map(|landing| of(landing.fall)).reduce(f64::max);
-    of_box.unwrap_or(of(file.drop.fall))
+    let listed = file.landings.iter().map(|landing| landing.drop.speeds_m_s()[1]).reduce(f64::max);
+    listed.unwrap_or(file.drop.speeds_m_s()[1])
 }
 
 impl Found<'_> {
@@ -102,7 +101,7 @@ impl Found<'_> {
         let e = either([product.restitution.lo(), product.restitution.hi()].map(short), "");
         let is = match product.width {
             None => format!("q = {}", figures(product.inertia_ratio())),
-            Some(_) if self.0.file.landings.is_empty() => "a plate".to_owned(),
+            Some(_) if !self.0.file.is_box() => "a plate".to_owned(),
             Some(_) => "a box".to_owned(),
         };
         writeln!(out, "{}: {is}, e = {e}", shown(&product.name, 60))?;

@@ -27,17 +27,17 @@ fn called(input: &Input) -> &'static str {
         Input::Across(_) => "own place across",
         Input::Limit(..) => "own limit",
         Input::CriticalAcceleration(_) => "own critical acceleration",
-        Input::First => "first end",
+        Input::First | Input::Landing(_, OfLanding::First) => "first end",
         Input::ContactTime => "contact time",
         Input::Gyration => "radius of gyration",
         other => other.name(),
     }
 }
 
-/// The same, with the drop of a box that it belongs to.
+/// The same, with the drop of several that it belongs to.
 fn of_drop(file: &ProductFile, input: &Input) -> String {
     let name = called(input);
-    input.landing().map_or_else(|| name.to_owned(), |n| format!("{name} on {}", file.landings[n].attitude))
+    input.landing().map_or_else(|| name.to_owned(), |n| format!("{name} {}", file.drop_names()[n].there()))
 }
 
 /// Which way it goes, where that accounts for at least half of what the input does.
@@ -45,8 +45,8 @@ fn way(driver: &Driver) -> &'static str {
     let share = driver.share;
     match (&driver.input, share.trend * share.trend >= 0.5 * share.variance, share.trend > 0.0) {
         // two values have no way in between
-        (Input::First, _, true) => " (b)",
-        (Input::First, _, false) => " (a)",
+        (Input::First | Input::Landing(_, OfLanding::First), _, true) => " (b)",
+        (Input::First | Input::Landing(_, OfLanding::First), _, false) => " (a)",
         (_, false, _) => "~",
         (_, true, true) => "+",
         (_, true, false) => "-",
@@ -63,8 +63,8 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     let Settings { samples, seed, confidence, .. } = scatter.settings;
     let (product, sure) = (shown(&file.product.name, 60), given(100.0 * confidence));
     let (drawn, followed) = (scatter.drawn, scatter.followed);
-    let is_box = !scatter.landings.is_empty();
-    if is_box {
+    let has_list = !scatter.landings.is_empty();
+    if has_list {
         let drops = match scatter.landings.len() {
             1 => "its drop".to_owned(),
             n => format!("its {n} drops, one after the other"),
@@ -82,7 +82,7 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
         "All parts survive in {} % of them; in at least {} % of all {} ({sure} % confidence)",
         hundredths(estimate),
         hundredths(at_least),
-        if is_box { "products" } else { "drops" }
+        if has_list { "products" } else { "drops" }
     )?;
     if let Some(target) = target {
         let word = if answer.is_met() { "met" } else { "MISSED" };
@@ -90,10 +90,10 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
         writeln!(out, "Target of {wanted} % {word}: the {sure} % interval begins at {low} %")?;
     }
     if let Some(reason) = &scatter.reason {
-        let what = if is_box { "products" } else { "drops" };
+        let what = if has_list { "products" } else { "drops" };
         writeln!(out, "{} {what} are not answered, and counted as failures: {reason}", scatter.unanswered)?;
     }
-    if is_box && scatter.open > 0 {
+    if has_list && scatter.open > 0 {
         let text = format!(
             "{} products are open: how they come down again, by the energy left, may decide. They count by what was followed, as failures \
              for the lower ends of intervals and for what is at least, as none for the upper ends",
@@ -109,10 +109,10 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     }
     writeln!(out)?;
     parts(file, scatter, &sure, out)?;
-    if is_box { landings(file, scatter, &sure, out) } else { Ok(()) }
+    if has_list { landings(file, scatter, &sure, out) } else { Ok(()) }
 }
 
-/// A row for each drop of a box: how many survive it alone, and the part that the fewest do.
+/// A row for each of several drops: how many survive it alone, and the part that the fewest do.
 fn landings(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
     let row = |cells: [&str; 7]| cells.map(str::to_owned).to_vec();
     let interval = format!("{sure} % interval");
@@ -165,7 +165,9 @@ fn models(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
 fn in_full(file: &ProductFile, input: &Input) -> String {
     let name = input.name().replace('-', " ");
     match input.component() {
-        _ if matches!(input, Input::Landing(_, OfLanding::Tilt)) => "attitude within its tolerance".to_owned(),
+        _ if file.is_box() && matches!(input, Input::Landing(_, OfLanding::Tilt)) => {
+            "attitude within its tolerance".to_owned()
+        }
         Some(i) => format!("{name} of {}", shown(name_of(file, i), 24)),
         None => name,
     }
@@ -179,7 +181,7 @@ fn parts(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write)
         row(["part", "survives", "at least", &interval, "", "utilization", "largest", "driven by"]),
         row(["", "%", "%", "from, %", "to, %", "mean", "", ""]),
     ];
-    // Of many inputs of a box some stand out by chance.
+    // Of many inputs of a list some stand out by chance.
     #[expect(clippy::cast_precision_loss, reason = "a share")]
     let by_chance = if scatter.landings.is_empty() { 0.0 } else { 3.0 * NOISE / scatter.followed as f64 };
     let least = NAMED.max(by_chance);

@@ -36,19 +36,16 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
         add("Own contacts", own_contacts(file));
     }
     add("Drop", drop(file));
-    let tilt = degrees(&file.drop.tilt_rad);
-    let first = match (file.drop.first, &file.drop.direction_rad) {
-        (First::End(first), _) => format!("end {} first", end(first)),
-        (First::Either, None) if product.width.is_none() => "either end first".to_owned(),
-        (First::Either, None) => "rising to any direction".to_owned(),
-        (First::Either, Some(given)) => format!("rising to {}", degrees(given)),
-    };
     if file.landings.is_empty() {
-        add("Tilt", format!("{tilt} at the first touch, {first}"));
+        add("Tilt", tilt(&file.drop, product.width.is_some()));
+    } else if !file.is_box() {
+        for (name, landing) in file.drop_names().iter().zip(&file.landings) {
+            add("Tilt", format!("{name}: {}", tilt(&landing.drop, product.width.is_some())));
+        }
     } else {
         let source = file.landings.iter().find_map(|landing| landing.source);
-        let drops = match &file.landings[..] {
-            [one] => one.attitude.to_string(),
+        let drops = match &file.drop_names()[..] {
+            [one] => one.to_string(),
             all => format!("{} of them", all.len()),
         };
         let listed = file.landings.iter().filter(|landing| landing.source.is_some()).count();
@@ -59,16 +56,16 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
         let spin = range(&file.drop.spin_rad_s, 1.0, "rad/s");
         add("Spin", format!("{spin} at the first touch about the axis of the tilt, which grows where positive"));
     }
-    if let Some(landing) =
-        file.landings.iter().find(|landing| landing.spin_rad_s.lo() != 0.0 || landing.spin_rad_s.hi() != 0.0)
+    if let Some((name, landing)) =
+        file.drop_names().iter().zip(&file.landings).find(|(_, landing)| landing.drop.may_spin())
     {
-        let spin = range(&landing.spin_rad_s, 1.0, "rad/s");
-        let others = if file.landings.iter().all(|other| other.spin_rad_s == landing.spin_rad_s) {
+        let spin = range(&landing.drop.spin_rad_s, 1.0, "rad/s");
+        let others = if file.landings.iter().all(|other| other.drop.spin_rad_s == landing.drop.spin_rad_s) {
             ""
         } else {
             "; others otherwise"
         };
-        add("Spin", format!("{spin} at the first touch on {}{others}", landing.attitude));
+        add("Spin", format!("{spin} at the first touch {}{others}", name.there()));
     }
     let gravity = file.drop.gravity_m_s2;
     add(
@@ -77,14 +74,25 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     );
     // It is the same for all limits.
     if let Some(limit) = assessment.components.iter().flat_map(|c| &c.limits).next() {
-        let tilt = match (&product.width, &file.landings[..]) {
+        let tilt = match (&product.width, file.is_box()) {
             (None, _) => "",
-            (Some(_), []) => ", lever arms of a level plate",
-            (Some(_), _) => ", a box with full rotation",
+            (Some(_), false) => ", lever arms of a level plate",
+            (Some(_), true) => ", a box with full rotation",
         };
         rows.push(["Model".to_owned(), format!("{}{tilt}", model(limit.model.bar))]);
     }
     rows
+}
+
+/// At which tilt a bar or a plate lands, and what of it first.
+fn tilt(drop: &Drop, is_plate: bool) -> String {
+    let first = match (drop.first, &drop.direction_rad) {
+        (First::End(first), _) => format!("end {} first", end(first)),
+        (First::Either, None) if is_plate => "rising to any direction".to_owned(),
+        (First::Either, None) => "either end first".to_owned(),
+        (First::Either, Some(given)) => format!("rising to {}", degrees(given)),
+    };
+    format!("{} at the first touch, {first}", degrees(&drop.tilt_rad))
 }
 
 fn degrees(of: &Spread) -> String {
@@ -169,9 +177,8 @@ fn ratio(file: &ProductFile) -> String {
 
 /// The fall.
 fn drop(file: &ProductFile) -> String {
-    let falls = || file.landings.iter().map(|landing| landing.fall);
-    if falls().any(|fall| fall != file.drop.fall) {
-        let speeds = falls().map(|fall| Drop { fall, ..file.drop }.speeds_m_s());
+    if file.landings.iter().any(|landing| landing.drop.fall != file.drop.fall) {
+        let speeds = file.landings.iter().map(|landing| landing.drop.speeds_m_s());
         let widest = speeds.reduce(|[lo, hi], [slow, fast]| [lo.min(slow), hi.max(fast)]).unwrap_or_default();
         return format!("each from its own height, at {}", span(widest, 1.0, "m/s"));
     }

@@ -1,4 +1,4 @@
-//! What the pages say of a box that lands on faces, edges and corners.
+//! What the pages say of several drops, and of a box that lands on faces, edges and corners.
 
 use clatter_assess::{Assessment, LandingAssessment, ProductFile, Spread};
 use clatter_figures::three;
@@ -29,7 +29,7 @@ pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
     ["Ranges", "Values are those of the product file. What is not measured is assumed."],
 ];
 
-/// Of a box, a row for each drop: what it lands on, how far off it may be, verdict, and the limit that it leaves least room.
+/// Of several drops, a row for each: what it is called, its tilt or how far off a box may be, verdict, and the limit that it leaves least room.
 pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
     let speeds = |landing: &LandingAssessment| {
         (landing.speed_m_s.map(f64::to_bits), landing.spin_rad_s.map(|spins| spins.map(f64::to_bits)))
@@ -49,7 +49,10 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
                     .map_or(String::new(), |spins| format!(", turning at {}", span(spins, 1.0, "rad/s")));
                 format!("{}, {}{spin}", landing.landing, span(landing.speed_m_s, 1.0, "m/s"))
             },
-            format!("{}°", three(landing.tolerance_deg)),
+            landing.tilt_deg.map_or_else(
+                || format!("{}°", three(landing.tolerance_deg.unwrap_or_default())),
+                |tilts| span(tilts, 1.0, "°").replace(" °", "°"),
+            ),
             name(&tightest.component),
             tightest.limit.words(),
             of(component.limits.get(tightest.limit).map(Spread::lo)),

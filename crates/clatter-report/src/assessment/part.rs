@@ -1,7 +1,7 @@
 //! What the page says of one part.
 
 use clatter_assess::{
-    Component, ComponentAssessment, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase, repeat,
+    Component, ComponentAssessment, DropName, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase, repeat,
 };
 use clatter_figures::{is_drawn, three};
 use serde_json::{Value, json};
@@ -42,12 +42,13 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
 fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     let or_none = |value: Option<f64>, factor: f64| value.map_or("–".to_owned(), |v| three(factor * v));
     let contact = worst.drop.contact_time_s.filter(|_| of.model.bar == Model::Compliant);
+    let first = match (worst.landing.and_then(DropName::attitude), worst.direction_deg()) {
+        (Some(attitude), _) => attitude.to_string(),
+        (None, Some(to)) => format!("{}°", three(to)),
+        (None, None) => end(worst.drop.first).to_owned(),
+    };
     [
-        match (worst.landing, worst.direction_deg()) {
-            (Some(landing), _) => landing.to_string(),
-            (None, Some(to)) => format!("{}°", three(to)),
-            (None, None) => end(worst.drop.first).to_owned(),
-        },
+        worst.landing.and_then(DropName::number).map_or(first.clone(), |n| format!("drop {n}: {first}")),
         if worst.drop.flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg())) },
         format!("{} m/s{}", three(worst.drop.speed_m_s), turning(worst)),
         three(worst.drop.restitution),
@@ -121,7 +122,7 @@ fn drop(worst: &WorstCase) -> String {
     } else {
         "the peak comes after the first impact".to_owned()
     };
-    let lands = if let Some(landing) = worst.landing {
+    let lands = if let Some(landing) = worst.landing.and_then(DropName::attitude) {
         let peak = peak.as_str();
         let (off, speed, e) = (three(worst.tilt_deg()), three(worst.drop.speed_m_s), three(worst.drop.restitution));
         return format!(
@@ -138,7 +139,8 @@ fn drop(worst: &WorstCase) -> String {
     let tilted = if worst.drop.flat { String::new() } else { format!(", tilted by {}°", three(worst.tilt_deg())) };
     let (speed, e) = (three(worst.drop.speed_m_s), three(worst.drop.restitution));
     let turning = turning(worst);
-    format!("That drop lands {lands} at {speed} m/s{tilted}{turning}, with e = {e}{frequency}; {peak}.")
+    let which = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!(", drop {n} of the file,"));
+    format!("That drop{which} lands {lands} at {speed} m/s{tilted}{turning}, with e = {e}{frequency}; {peak}.")
 }
 
 /// How fast it turns as it lands, where it does.
