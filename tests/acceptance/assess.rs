@@ -338,6 +338,35 @@ fn the_command_below_a_worst_drop_of_a_box_says_the_same() {
     }
 }
 
+/// So it does of a box with a soft corner, and both say so.
+#[test]
+fn the_command_below_a_worst_drop_has_the_contacts_of_a_box() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("box.toml");
+    let text = "product = { name = \"box\", length = \"150 mm\", width = \"70 mm\", thickness = \"14 mm\", \
+                radius_of_gyration = [\"43 mm\", \"20 mm\"], restitution = 0.3, contact_time = \"0.4 ms\", \
+                contact_law = \"hysteretic\", contacts = [{ at = \"b\", contact_time = \"1.2 ms\" }] }\n\
+                drop = { height = \"1 m\", corner = \"bottom front end-b\" }\n\
+                component = [{ name = \"chip\", position = [\"70 mm\", \"-30 mm\"], axis = \"any\", mount = \"hard\", \
+                acceleration_limit = \"9000 gn\" }]\n";
+    fs::write(&path, text).unwrap();
+    let path = path.to_str().unwrap();
+    let json: Value = serde_json::from_str(&clatter(["assess", path, "--format=json"]).stdout).unwrap();
+    let limit = &json["components"][0]["limits"][0];
+    let again = answer(words(limit["worst_case"]["command"].as_str().unwrap()));
+    let off = again["acceleration"]["value_m_s2"].as_f64().unwrap() / limit["demand"].as_f64().unwrap() - 1.0;
+    assert!(off.abs() < 3e-4, "{again}, not {limit}");
+    for of in [&again, &limit["worst_case"]] {
+        assert_eq!(
+            (&of["contacts"][0]["at"], &of["contacts"][0]["contact_time_s"]),
+            (&"b".into(), &1.2e-3.into()),
+            "{of}"
+        );
+    }
+    let table = clatter(["respond", &format!("--product={path}"), "--component=chip", "--worst"]).stdout;
+    assert!(table.contains("Contacts of their own: at b e = 0.3 and 1.2 ms"), "{table}");
+}
+
 /// Drops of a bar beside one another: each has its row, the worst its number and a command that says the same; one drop of a list is not asked for
 /// without saying which.
 #[test]

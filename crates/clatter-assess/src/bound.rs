@@ -141,8 +141,9 @@ fn of_plate(
             let contacts = product.stiffest(law)?;
             let most = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.frequency_rad_s()));
             let of = |q: f64| (1.0 + farthest * q) / (1.0 + q * q).sqrt();
-            // Each corner with its rate over the fastest.
-            let rates = contacts.iter().map(|contact| contact.frequency_rad_s() / most);
+            // Each corner with its rate over the fastest; of a box any four press.
+            let rates =
+                contacts.iter().map(|contact| if posture.is_some() { 1.0 } else { contact.frequency_rad_s() / most });
             let each = corners.into_iter().zip(rates);
             let pressed = each.fold(0.0, |all, (q, rate)| libm::hypot(all, rate * of(norm(q))));
             Some(speed * most * pressed)

@@ -83,9 +83,6 @@ impl ProductFile {
         if is_box && self.product.width.is_none_or(|width| width.thickness_m.is_none()) {
             return Err(DataFault::BoxWithoutThickness);
         }
-        if is_box && !self.product.own_contacts.is_none() {
-            return Err(DataFault::OwnContactsOfBox);
-        }
         for (n, (name, landing)) in self.drop_names().into_iter().zip(&self.landings).enumerate() {
             let Landing { drop, attitude, .. } = landing;
             if attitude.is_some() != is_box {

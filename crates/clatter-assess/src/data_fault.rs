@@ -158,8 +158,6 @@ pub enum DataFault {
     OwnContactsMeasured,
     /// Records of a product that falls several times.
     ListMeasured,
-    /// Contacts of their own of a box that lands on any side.
-    OwnContactsOfBox,
     /// A drop so steep that an edge touches before the foot.
     FeetLow {
         /// The steepest of the drops.
@@ -288,10 +286,6 @@ impl DataFault {
             Self::ListMeasured => [
                 "a fit takes a file with one drop: nothing says which of several a record is of".to_owned(),
                 "leave `record` out, or give one [drop]".to_owned(),
-            ],
-            Self::OwnContactsOfBox => [
-                "`contacts` of their own are those of a bar or a plate in one drop; a box lands on any of its sides".to_owned(),
-                "leave `contacts` out, or give one [drop] with a `tilt`".to_owned(),
             ],
             Self::SpinUp { spin_rad_s, speed_m_s, arm_m, both } => {
                 let most = format!("{} rad/s", (1e3 * speed_m_s / arm_m).floor() / 1e3);

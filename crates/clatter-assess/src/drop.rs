@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::attitude::{turned_off, turns_off};
 use crate::course::Course;
 use crate::engine::Spot;
-use crate::{Axis, DataFault, Error, Feet, OwnContacts, Width};
+use crate::{Axis, Error, Feet, OwnContacts, Width};
 
 pub(crate) use followed::{Followed, PRECISION, Until};
 
@@ -228,11 +228,10 @@ impl SingleDrop {
         let time_s = self.contact_time_s.ok_or(Error::Contact)?;
         self.own_contacts.mirrored(self.is_plate(), sides).contacts(self.contact_law, self.restitution, time_s)
     }
-    /// The same of the corners of a box that stands for a plate, in the order that a box has.
+    /// The same of the corners of a box, in the order that a box has.
     pub(crate) fn contacts_of_block(&self) -> Result<[Contact; 8], Error> {
         let time_s = self.contact_time_s.ok_or(Error::Contact)?;
-        let of: [Contact; 4] = self.own_contacts.contacts(self.contact_law, self.restitution, time_s)?;
-        Ok([0, 1, 3, 2, 0, 1, 3, 2].map(|corner| of[corner]))
+        self.own_contacts.of_box(&Contact::new(self.contact_law, self.restitution, time_s)?)
     }
     /// Checks what no model would refuse: the contact time, which instant impacts do not ask for, the spin of a flat drop, and the place of a
     /// part.
@@ -240,9 +239,6 @@ impl SingleDrop {
     /// # Errors
     /// [`Error::Setting`].
     pub(crate) fn check(&self, [position_m, across_m]: [f64; 2]) -> Result<(), Error> {
-        if self.is_box() && !self.own_contacts.is_none() {
-            return Err(DataFault::OwnContactsOfBox.into());
-        }
         if let Some(value) = self.contact_time_s.filter(|time| !(1e-12..=1e3).contains(time)) {
             return Err(Error::Setting { name: "contact time in s", value, allowed: "in [1e-12, 1000]" });
         }

@@ -149,7 +149,7 @@ pub(crate) static PRODUCT: &[Key] = &[
         false,
         Tables(CONTACT),
         "Ends or corners, or the feet there, with a contact of their own, such as a soft bumper; needs the contact_time of the others and \
-         contact_law = \"hysteretic\". Not of a box.",
+         contact_law = \"hysteretic\". Of a box both corners, of the bottom and of the top, that are seen there from above.",
     ),
 ];
 

@@ -19,7 +19,7 @@ impl OwnContact {
 }
 
 /// Which of the ends a and b of a bar, or of the corners a to d of a plate, have a contact of their own: a (−, −), b (+, −), c (+, +) and
-/// d (−, +).
+/// d (−, +); of a box both corners, of the bottom and of the top, that are seen there from above.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OwnContacts(pub [OwnContact; 4]);
 
@@ -75,6 +75,14 @@ impl OwnContacts {
     /// With all restitutions changed alike.
     pub(crate) fn with_restitutions(self, of: impl Fn(f64) -> f64) -> Self {
         Self(self.0.map(|own| OwnContact { restitution: own.restitution.map(&of), ..own }))
+    }
+    /// The contacts of the corners of a box, in the order that a box has, this one that of the product.
+    ///
+    /// # Errors
+    /// [`Error::Bar`] for contacts that are none.
+    pub fn of_box(&self, of_product: &Contact) -> Result<[Contact; 8], Error> {
+        let of: [Contact; 4] = self.contacts(of_product.law(), of_product.restitution(), of_product.time_s())?;
+        Ok([0, 1, 3, 2, 0, 1, 3, 2].map(|corner| of[corner]))
     }
     /// The contacts of all points, these restitution and contact time those of the product.
     pub(crate) fn contacts<const N: usize>(

@@ -204,6 +204,7 @@ impl WorstCase {
             command.extend([" --contact-time-s=", &format!("{time:?}")]);
         }
         command.extend([" --contact-law=", drop.contact_law.name()]);
+        self.of_contacts([false; 2], &mut command);
         command
     }
 }

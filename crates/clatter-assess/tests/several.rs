@@ -29,10 +29,14 @@ const RISES: [&str; 2] = [
     "height = \"0.8 m\"\ntilt = [\"2 deg\", \"9 deg\"]\ndirection = [\"0 deg\", \"30 deg\"]\n",
 ];
 
+fn listed(falls: &[&str]) -> String {
+    falls.iter().fold(String::new(), |text, fall| text + "[[drop]]\n" + fall)
+}
+
 fn file(product: &str, falls: &[&str]) -> ProductFile {
     let drops = match falls {
         [one] => format!("[drop]\n{one}"),
-        all => all.iter().map(|fall| format!("[[drop]]\n{fall}")).collect(),
+        all => listed(all),
     };
     let text = format!("{product}{drops}");
     ProductFile::read(&text, "several.toml").unwrap_or_else(|faults| panic!("{faults}"))
@@ -99,6 +103,7 @@ fn a_sample_goes_through_all_drops() {
     let (second, third) = (of(Column::LandingFirst(1)), of(Column::LandingFirst(2)));
     let (tilts, spins) = (of(Column::LandingTiltDeg(1)), of(Column::LandingSpinRadS(1)));
     for (a, b) in [(&second, &third), (&tilts, &spins), (&second, &tilts), (&of(Column::LandingTiltDeg(0)), &tilts)] {
+        #[expect(clippy::cast_precision_loss, reason = "a count")]
         let n = a.len() as f64;
         let mean = |x: &[f64]| x.iter().sum::<f64>() / n;
         let (ma, mb) = (mean(a), mean(b));
@@ -106,7 +111,7 @@ fn a_sample_goes_through_all_drops() {
         let correlation = of(a, ma, b, mb) / (of(a, ma, a, ma) * of(b, mb, b, mb)).sqrt();
         assert!(correlation.abs() < 4.0 / n.sqrt(), "{correlation}");
     }
-    assert!(of(Column::LandingSpeedMS(2)).iter().all(|speed| *speed == 3.0));
+    assert!(of(Column::LandingSpeedMS(2)).iter().all(|speed| speed.to_bits() == 3_f64.to_bits()));
 }
 
 /// A drop that another one exceeds everywhere changes nothing that a page shows: safe places, curves and changes are those of the harder one.
@@ -165,18 +170,17 @@ fn changes_hold_in_all_drops() {
 #[test]
 fn what_a_list_is_not_is_told() {
     let faults = |text: &str| ProductFile::read(text, "several.toml").unwrap_err().to_string();
-    let list = |falls: &[&str]| falls.iter().map(|fall| format!("[[drop]]\n{fall}")).collect::<String>();
-    let said = faults(&format!("{BAR}{}", list(&[FALLS[0], FALLS[0]])));
+    let said = faults(&format!("{BAR}{}", listed(&[FALLS[0], FALLS[0]])));
     assert!(said.contains("drop 2 is the same as one before it"), "{said}");
-    let said = faults(&format!("{BAR}{}[[record]]\nfile = \"drop.csv\"\n", list(&FALLS)));
+    let said = faults(&format!("{BAR}{}[[record]]\nfile = \"drop.csv\"\n", listed(&FALLS)));
     assert!(said.contains("a fit takes a file with one drop"), "{said}");
     let moon = format!("{}gravity = \"0.2 gn\"\n", FALLS[1]);
-    let said = faults(&format!("{BAR}{}", list(&[FALLS[0], &moon])));
+    let said = faults(&format!("{BAR}{}", listed(&[FALLS[0], &moon])));
     assert!(said.contains("gravity differs from drop to drop"), "{said}");
-    let said = faults(&format!("{BAR}{}", list(&[FALLS[0], "height = \"1 m\"\n"])));
+    let said = faults(&format!("{BAR}{}", listed(&[FALLS[0], "height = \"1 m\"\n"])));
     assert!(said.contains("has no `tilt`"), "{said}");
     let said =
-        faults(&format!("{BAR}{}", list(&[FALLS[0], "height = \"1 m\"\ntilt = \"1 deg\"\nface = \"bottom\"\n"])));
+        faults(&format!("{BAR}{}", listed(&[FALLS[0], "height = \"1 m\"\ntilt = \"1 deg\"\nface = \"bottom\"\n"])));
     assert!(said.contains("more than one of `tilt`, `face`"), "{said}");
     // Built in code as well.
     let mut both = file(BAR, &FALLS);

@@ -123,7 +123,7 @@ pub(crate) struct Args {
     /// a bar, and how far they stand out; places beyond them are then allowed, and a drop in which an edge touches is not answered
     #[arg(long, value_name = "X,Y,HEIGHT", value_parser = inputs::feet, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
     feet_m: Option<[f64; 3]>,
-    /// A contact of its own at an end of a bar or a corner of a plate, of --model=compliant and --contact-law=hysteretic: a to d, its
+    /// A contact of its own at an end of a bar or a corner of a plate, of a box both corners that are seen there from above, of --model=compliant and --contact-law=hysteretic: a to d, its
     /// restitution and how long a lone one takes in s; once for each
     #[arg(long, value_name = "AT,E,TIME", value_parser = inputs::own_contact, requires = "followed", conflicts_with = "product", help_heading = IN_SI, hide_short_help = true)]
     contact: Vec<(usize, OwnContact)>,

@@ -11,7 +11,7 @@
 //! `compare` what such files make `clatter assess` tell beside what was found. Each drop is integrated in small steps
 //! ([`flight`]): equations of motion at any angle, a law of force at each end, bisection where a phase ends. Parts and
 //! shocks are taken from the stored history ([`part`]). Plates and boxes of all directions and attitudes are followed as boxes in
-//! space ([`solid`]), `--kind=plate`, `--kind=box` and `--kind=plate-own-contacts` ([`spatial`]).
+//! space ([`solid`]), `--kind=plate`, `--kind=box` and the same with own contacts ([`spatial`]).
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 // Numbers are counted, and counts are small.

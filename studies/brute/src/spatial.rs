@@ -20,7 +20,7 @@ const UNTIL: Until = Until { time: 0.3, quiet: 2e-2 };
 /// Restitution, contact time, speed, tilt, direction, natural frequency, damping, spin, from 0 to 1.
 type Sample = [f64; 8];
 /// Kinds of products in space.
-pub const KINDS: [&str; 5] = ["plate", "box", "plate-own-contacts", "spin-plate", "spin-box"];
+pub const KINDS: [&str; 6] = ["plate", "box", "plate-own-contacts", "spin-plate", "spin-box", "box-own-contacts"];
 type Range = [f64; 2];
 
 /// A part: where it is from the center of mass, the axis that it moves along (any of a hard one), and its suspension.
@@ -95,7 +95,7 @@ impl Product {
     fn new(kind: &str, seed: u64) -> Self {
         let number = KINDS.iter().position(|&known| known == kind).unwrap_or(0);
         let r = &mut Random::new(seed.wrapping_mul(64).wrapping_add(number as u64));
-        let (is_box, has_own) = (kind.ends_with("box"), kind == "plate-own-contacts");
+        let (is_box, has_own) = (kind.contains("box"), kind.ends_with("own-contacts"));
         let length = round(r.log(0.08, 0.3));
         let width = round(length * r.within(0.3, 1.0));
         let thickness = round(length * if is_box { r.within(0.06, 0.4) } else { r.within(0.03, 0.1) });
@@ -343,6 +343,10 @@ fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
     if let Some((omega, zeta)) = part.suspension {
         args.extend([format!("--omega={}", at(omega, sample[5])), format!("--damping={}", at(zeta, sample[6]))]);
     }
+    for (k, own) in drop.own.iter().enumerate().filter(|(_, own)| **own != Own::default()) {
+        let (e, time) = (own.e.unwrap_or(drop.e), own.time.unwrap_or(drop.contact.1));
+        args.push(format!("--contact={},{e},{time}", ["a", "b", "c", "d"][k]));
+    }
     args
 }
 
@@ -386,8 +390,7 @@ pub fn compare(
             );
             if is_above || is_broken || found > 1.02 * claimed.demand {
                 let args = repeat(&product, &product.parts[n], &sample);
-                // No box has contacts of their own.
-                let same = if kind == "plate-own-contacts" { None } else { answer(clatter, &args, kind_of) };
+                let same = answer(clatter, &args, kind_of);
                 let _ = write!(
                     line,
                     "{}; the same drop by clatter {}\n  tilt {:.4} deg, direction {:.3} deg\n  clatter {}",

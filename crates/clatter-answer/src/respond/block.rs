@@ -14,13 +14,13 @@
 
 use std::f64::consts::TAU;
 
-use clatter_assess::{Model, Part, SingleDrop};
+use clatter_assess::{Model, OwnContacts, Part, SingleDrop};
 use clatter_flight::{BlockDrop, BlockFlight, Contact, Stop};
 use clatter_shock::{Frequencies, Quantity, Spectrum, Suspension, UnevenFilter};
 use serde::Serialize;
 
 use super::limits::OneDrop;
-use super::{Limit, Position};
+use super::{ContactAt, Limit, Position, contacts};
 use crate::simulate::block::{DropAnswer, StopAnswer};
 use crate::{Error, Json};
 
@@ -70,8 +70,10 @@ impl Axis {
 pub struct Question {
     /// The drop.
     pub drop: BlockDrop,
-    /// Of each corner.
+    /// What the ground does to a corner.
     pub contact: Contact,
+    /// Corners with a contact of their own, as they are seen from above.
+    pub own_contacts: OwnContacts,
     /// Where the part is, from the middle along the axes of the box.
     pub at_m: [f64; 3],
     /// Along which axis it moves.
@@ -99,7 +101,7 @@ impl Question {
     /// Of a place on which a part is mounted rigidly.
     #[must_use]
     pub fn new(drop: BlockDrop, contact: Contact, at_m: [f64; 3], axis: Axis) -> Self {
-        Self { drop, contact, at_m, axis, suspension: None, limits: None }
+        Self { drop, contact, own_contacts: OwnContacts::NONE, at_m, axis, suspension: None, limits: None }
     }
 }
 
@@ -112,6 +114,9 @@ pub struct Answer {
     pub drop: DropAnswer,
     /// What the ground does while a corner touches.
     pub contact_law: &'static str,
+    /// Corners with a contact of their own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<ContactAt>,
     /// The place.
     pub at_m: [Json; 3],
     /// `x`, `y`, `z` or `any`.
@@ -172,7 +177,7 @@ impl PlaceHistory {
     fn new(question: &Question) -> Result<Self, Error> {
         let place = question.drop.block().place(question.at_m);
         let (mut times_s, mut along_m_s2) = (Vec::new(), [const { Vec::new() }; 3]);
-        let flight = question.drop.contacts(&question.contact, |step| {
+        let flight = question.drop.own_contacts(&question.own_contacts.of_box(&question.contact)?, |step| {
             for k in 0..=SAMPLES {
                 let share = f64::from(k) / f64::from(SAMPLES);
                 times_s.push(step.from_s + share * step.length_s);
@@ -230,7 +235,7 @@ impl PlaceHistory {
 /// # Errors
 /// A place beyond the box; a part that would swing along no axis; those of [`BlockDrop::contacts`], and frequencies that no spectrum has.
 pub fn answer(question: &Question) -> Result<Answer, Error> {
-    let Question { drop, contact, at_m, axis, suspension, limits } = question;
+    let Question { drop, contact, own_contacts, at_m, axis, suspension, limits } = question;
     for (&value, size) in at_m.iter().zip(drop.block().size_m()) {
         if value.is_nan() || value.abs() > 0.5 * size * (1.0 + 1e-9) {
             let (name, allowed) = ("position in m", "within the box: from its middle, half of its size at most");
@@ -255,6 +260,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     Ok(Answer {
         drop: DropAnswer::new(drop, contact),
         contact_law: contact.law().name(),
+        contacts: contacts(own_contacts, contact.restitution(), Some(contact.time_s())),
         at_m: at_m.map(Json),
         axis: axis.name(),
         limits,

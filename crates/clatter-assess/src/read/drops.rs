@@ -38,11 +38,6 @@ impl Reader {
             LANDS_ON.iter().chain(&["standard", "attitude_tolerance"]).any(|key| section.table.contains_key(*key))
         };
         self.is_box = sections.iter().any(is_of_box);
-        if let (true, Some(section)) =
-            (self.is_box && product.is_some_and(|product| !product.own_contacts.is_none()), sections.first())
-        {
-            self.data(section.span.clone(), &DataFault::OwnContactsOfBox, "in this drop");
-        }
         let (mut drops, mut all) = (Vec::new(), Vec::<Landing>::new());
         for section in &sections {
             let lands_on = self.lands_on(section, product);

@@ -37,14 +37,12 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     }
     writeln!(out)?;
     writeln!(out, "Bound by energy: no drop of the ranges asks for more; parts on a suspension have none.")?;
-    if !file.is_box() {
-        writeln!(
-            out,
-            "Flat drop: what the worst drop would ask if both ends landed at once, as drop standards assume."
-        )?;
+    let flat = if file.is_box() {
+        "the box were not turned off what it lands on."
     } else {
-        writeln!(out, "Flat drop: what the worst drop would ask if the box were not turned off what it lands on.")?;
-    }
+        "both ends landed at once, as drop standards assume."
+    };
+    writeln!(out, "Flat drop: what the worst drop would ask if {flat}")?;
     let all = assessment.components.iter().flat_map(|component| &component.limits);
     if all.clone().any(|limit| limit.other_law.is_some()) {
         writeln!(out, "Other law: what the worst drop by the other contact law asks for.")?;

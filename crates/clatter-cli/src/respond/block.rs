@@ -40,9 +40,6 @@ impl Args {
         worst: &WorstCase,
         streams: &mut Streams<'_>,
     ) -> Result<(), Failure> {
-        if !self.contact.is_empty() {
-            return Err(Failure::Usage("--contact is that of a bar or a plate: a box lands on any of its sides"));
-        }
         if self.output.is_some() || self.flat || self.equivalent_pulse {
             return Err(Failure::Usage("-o, --flat and --equivalent-pulse do not go with a box"));
         }
@@ -57,6 +54,7 @@ impl Args {
         let at_m = [position_m, across_m, inside.height_m.clamp(-0.5 * z, 0.5 * z)];
         let axis = block::Axis::from(inside.axis);
         let mut question = Question::new(setup.drop, setup.contact, at_m, axis);
+        question.own_contacts = drop.own_contacts;
         question.suspension = self.suspension(part.as_ref().and_then(|part| part.suspension))?;
         question.limits = part.as_ref().map(|part| Limits {
             drop: *drop,
@@ -100,6 +98,7 @@ impl Args {
         let axis = self.axis.unwrap_or(Axis::Z);
         let damping = self.damping.ratio()?;
         let mut question = Question::new(setup.drop, setup.contact, at_m, axis.into());
+        question.own_contacts = self.own_contacts(None, true)?;
         question.suspension = self.omega().map(|omega| Suspension::new(omega, damping)).transpose()?;
         if axis == Axis::Any && question.suspension.is_some() {
             return Err(Failure::Usage("a part that swings does so along one axis: --axis=x, y or z, or no --omega"));
@@ -119,6 +118,11 @@ impl Args {
 
 fn table(answer: &Answer, setup: &Setup, of_file: Option<(&PartSetup, Show)>, out: &mut dyn Write) -> io::Result<()> {
     setup.heading(out)?;
+    let time = of_file.map_or(Show { unit: None, name: "s" }, |(_, time)| time);
+    let own = super::own_contacts(&answer.contacts, time);
+    if !own.is_empty() {
+        writeln!(out, "Contacts of their own{}", own.replacen(';', ":", 1))?;
+    }
     let [x, y, z] = answer.at_m.map(|x| given(neat(1e3 * x.0)));
     let axis = if answer.axis == "any" { "in magnitude".to_owned() } else { format!("along {}", answer.axis) };
     writeln!(out, "Place at {x}, {y}, {z} mm from the middle, {axis}")?;
