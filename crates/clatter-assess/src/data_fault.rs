@@ -249,8 +249,8 @@ impl DataFault {
                 format!("allowed: up to {} mm, 0.4 of it", mm(crate::check::FEET_INSIDE * side_m)),
             ],
             Self::FeetOfBox => [
-                "feet are those of a bar or a plate in one drop; a box lands on any of its sides".to_owned(),
-                "leave `feet_inset` and `feet_height` out, or give one [drop] with a `tilt`".to_owned(),
+                "feet are those of a bar or a plate; a box lands on any of its sides".to_owned(),
+                "leave `feet_inset` and `feet_height` out, or give drops a `tilt` alone".to_owned(),
             ],
             Self::FeetLow { tilt_rad, most_rad } => [
                 format!("at a tilt of {} deg an edge touches before the foot", degrees(*tilt_rad)),

@@ -110,7 +110,9 @@ impl ProductFile {
                 let tightest = assessed.tightest();
                 let ranges = at_worst(tightest);
                 let (history, impacts_s) = Self::history(tightest, &ranges).unwrap_or_default();
-                let plate = plate::portrait(&ranges, component, tightest, until);
+                let given =
+                    |worst: &WorstCase| each[worst.listed].drop.direction_rad.map(|given| [given.lo(), given.hi()]);
+                let plate = plate::portrait(component, assessed, given, until);
                 Portrait { history, impacts_s, plate, over_tilt: Vec::new(), zone_m: None, changes: None }
             };
             return self.components.par_iter().zip(&assessment.components).map(portrait).collect();

@@ -312,7 +312,7 @@ fn a_map_over_the_plate_is_what_drops_ask() {
     for text in [alone.as_str(), HANDHELD, EXAMPLE] {
         for (tightest, limit, drawn) in portraits(text) {
             let worst = tightest.worst_case.expect("a drop");
-            let Some(map) = &drawn.map else {
+            let Some((_, map)) = drawn.maps.iter().find(|(kind, _)| *kind == tightest.limit) else {
                 assert_eq!(tightest.limit, LimitKind::AngularVelocityChange);
                 continue;
             };

@@ -5,7 +5,8 @@
 
 use clatter_assess::design::Lever;
 use clatter_assess::{
-    Accuracy, Assessment, Component, Damping, Law, Limit, Model, Mount, Portrait, ProductFile, Spread, Verdict, answer,
+    Accuracy, Assessment, Component, Damping, Law, Limit, LimitKind, Model, Mount, Portrait, ProductFile, Spread,
+    Verdict, answer,
 };
 
 const EXAMPLES: [&str; 4] = [
@@ -22,6 +23,41 @@ fn drawn() -> impl Iterator<Item = (ProductFile, Assessment, Vec<Portrait>)> {
         let portraits = file.portraits(&assessment);
         (file, assessment, portraits)
     })
+}
+
+/// The map of every limit of a part of a plate is that of the part with this limit alone, around its own worst drop.
+#[test]
+fn each_limit_has_its_own_map() {
+    let text = r#"
+product = { name = "tablet", length = "240 mm", width = "170 mm", radius_of_gyration = ["69 mm", "49 mm"], restitution = 0.3, contact_time = "0.6 ms", contact_law = "hysteretic" }
+drop = { height = "1 m", tilt = "4 deg", direction = ["20 deg", "80 deg"] }
+component = [{ name = "board", position = ["-60 mm", "30 mm"], natural_frequency = "90 Hz", damping_ratio = 0.1, acceleration_limit = "500 gn", rattle_space = "9 mm", angular_velocity_change_limit = "80 rad/s" }]
+"#;
+    let of = |text: &str| {
+        let file = ProductFile::read(text, "plate.toml").unwrap();
+        let assessment = file.assess().unwrap();
+        (assessment.components[0].tightest().limit, file.portraits(&assessment).remove(0).plate.unwrap())
+    };
+    let alone = |keep: &str| {
+        let [acceleration, rattle, turn] = [
+            ", acceleration_limit = \"500 gn\"",
+            ", rattle_space = \"9 mm\"",
+            ", angular_velocity_change_limit = \"80 rad/s\"",
+        ];
+        let left = [acceleration, rattle, turn].into_iter().filter(|limit| !limit.contains(keep));
+        of(&left.fold(text.to_owned(), |text, limit| text.replace(limit, "")))
+    };
+    let (tightest, all) = of(text);
+    assert_eq!(tightest, LimitKind::AngularVelocityChange, "which asks the same everywhere");
+    assert_eq!(all.maps.len(), 2);
+    for (keep, map) in ["rattle", "acceleration"].into_iter().zip(&all.maps) {
+        let (own, one) = alone(keep);
+        assert!(own == map.0 && one.maps == [map.clone()], "{own:?}");
+    }
+    // With room to turn as well.
+    let (tightest, turning) = of(&text.replace("80 rad/s", "800 rad/s"));
+    assert_eq!(tightest, LimitKind::RattleSpace);
+    assert_eq!(turning.maps, all.maps);
 }
 
 /// Each point is answered again by the one engine, from the drop and the part that it names. The curves are followed to 2 %, and each

@@ -294,6 +294,8 @@ pub struct HeatMap<'a> {
     pub sides_m: [f64; 2],
     /// Shares of what is allowed, over the plate.
     pub map: &'a PlaceMap,
+    /// The same of its other limits, whose borders are drawn.
+    pub others: &'a [&'a PlaceMap],
     /// What is allowed, in the unit of the title.
     pub allowed: f64,
     /// What the colors mean.
@@ -330,16 +332,13 @@ pub fn heat_map(of: &HeatMap<'_>) -> Result<String, FigureError> {
     }
     let [x, y] = view.corner;
     paper.image([x, y], [x + wide, y + high], &png(PIXELS.into(), rows.into(), &pixels));
-    let (place, levels) = (|i: usize, j: usize| (of.map.along_m[j], of.map.across_m[i]), axis.ticks().0);
-    let grid = [of.map.across_m.len(), of.map.along_m.len()];
-    let thin = levels.iter().map(|level| (level / of.allowed, Ink::line(INK, 0.3)));
-    for (level, ink) in thin.chain([(1.0, Ink::line(RUST, 1.5))]) {
-        let above = |i: usize, j: usize| Some(of.map.share(j, i) - level).filter(|v| v.is_finite());
-        for line in cells(grid, place, above).lines {
-            let line: Vec<Pt> = line.into_iter().map(|(x, y)| view.at([x, y])).collect();
-            paper.path(&line, false, ink);
-        }
+    for level in axis.ticks().0 {
+        border(&mut paper, &view, of.map, level / of.allowed, Ink::line(INK, 0.3));
     }
+    for map in of.others {
+        border(&mut paper, &view, map, 1.0, Ink { dash: "1.2 1.6", ..Ink::line(RUST, 1.2) });
+    }
+    border(&mut paper, &view, of.map, 1.0, Ink::line(RUST, 1.5));
     view.area(&mut paper, of.reach_m, Ink { stroke: INK, width: 0.8, dash: "2.5 1.5", ..Ink::fill("none") });
     let at = view.at(of.place_m);
     paper.circle(at, 2.2, Ink { stroke: INK, width: 0.7, ..Ink::fill("#ffffff") });
@@ -348,6 +347,16 @@ pub fn heat_map(of: &HeatMap<'_>) -> Result<String, FigureError> {
     bar(&mut paper, of, &axis);
     scale(&mut paper, &view, PAGE[1] - 23.0);
     paper.finish("What the part would be asked anywhere on the plate, from above")
+}
+
+/// Where a share of a map is this one.
+fn border(paper: &mut Paper, view: &View<'_>, map: &PlaceMap, level: f64, ink: Ink<'_>) {
+    let place = |i: usize, j: usize| (map.along_m[j], map.across_m[i]);
+    let above = |i: usize, j: usize| Some(map.share(j, i) - level).filter(|v| v.is_finite());
+    for line in cells([map.across_m.len(), map.along_m.len()], place, above).lines {
+        let line: Vec<Pt> = line.into_iter().map(|(x, y)| view.at([x, y])).collect();
+        paper.path(&line, false, ink);
+    }
 }
 
 /// The colors with their values, what is allowed among them.
@@ -471,9 +480,13 @@ mod tests {
             let line: Vec<f64> = along_m.iter().map(|x| scale * (1.0 + 10.0 * x)).collect();
             let map = PlaceMap { shares: [&line[..]; 3].concat(), along_m, across_m, drops: 1 };
             let (reach_m, place_m) = ([[0.0, 0.01]; 2], [0.01; 2]);
+            // Of another limit, on the other side.
+            let other =
+                PlaceMap { shares: map.shares.iter().map(|share| share - 0.3 * scale).collect(), ..map.clone() };
             heat_map(&HeatMap {
                 plate: &plate,
                 sides_m: plate.sides_m(),
+                others: &[&other],
                 map: &map,
                 allowed: 300.0,
                 title: "g",
@@ -487,8 +500,11 @@ mod tests {
             lines.map(str::to_owned).collect::<Vec<_>>()
         };
         let found = border(&drawn(1.0));
-        // The plan is 138 pt wide from x = 14; the third line is the mark on the bar.
-        assert!(found.len() == 3 && found[..2].iter().all(|line| line.matches("83 ").count() == 2), "{found:?}");
+        // The plan is 138 pt wide from x = 14; the last line is the mark on the bar. The other limit is exceeded from 30 mm on.
+        let along = |line: &String, x: &str| line.matches(x).count() == 2;
+        assert!(found.len() == 5 && found[2..4].iter().all(|line| along(line, "83 ")), "{found:?}");
+        let dotted = |line: &String| along(line, "124.4 ") && line.contains("dasharray");
+        assert!(found[..2].iter().all(dotted), "{found:?}");
         assert_eq!(border(&drawn(0.5)), Vec::<String>::new(), "no border where all holds");
         assert!(!drawn(0.0).contains("NaN"));
     }

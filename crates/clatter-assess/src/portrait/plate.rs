@@ -9,16 +9,16 @@ use crate::course::Course;
 use crate::drop::{Followed, SingleDrop, Until};
 use crate::engine::PlaceHistory;
 use crate::quantity::Source;
-use crate::search::{Ranges, rough_to_rad_s};
-use crate::{Across, Component, Limit, LimitAssessment, Part, Product, WorstCase};
+use crate::search::rough_to_rad_s;
+use crate::{Across, Component, ComponentAssessment, Limit, LimitAssessment, LimitKind, Part, Product, WorstCase};
 
 /// Directions of the curve, and of them one in so many for the map.
 const DIRECTIONS: u32 = 72;
-const OF_MAP: usize = 3;
+const OF_MAP: u32 = 3;
 /// Places of the map, about.
 const PLACES: f64 = 72.0;
 
-/// What is drawn of a part of a plate, of its tightest limit.
+/// What is drawn of a part of a plate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlatePortrait {
     /// The strikes of the worst drop, in order of time.
@@ -28,8 +28,9 @@ pub struct PlatePortrait {
     pub over_direction: Vec<Point>,
     /// The directions that the file gives, from and to, in rad; any if none.
     pub given_rad: Option<[f64; 2]>,
-    /// What it would be asked anywhere; none of a limit that asks the same everywhere.
-    pub map: Option<PlaceMap>,
+    /// What each of its limits would be asked anywhere, around its own worst drop, the tightest first; none of those that ask the same
+    /// everywhere.
+    pub maps: Vec<(LimitKind, PlaceMap)>,
 }
 
 impl PlatePortrait {
@@ -84,7 +85,7 @@ impl Product {
     }
 }
 
-/// What is asked of one limit of a part in its worst drop.
+/// What is asked of one limit of a part around its worst drop.
 struct OneLimit<'a> {
     limit: Limit,
     suspension: Option<Suspension>,
@@ -93,7 +94,28 @@ struct OneLimit<'a> {
     worst: &'a WorstCase,
 }
 
-impl OneLimit<'_> {
+impl<'a> OneLimit<'a> {
+    /// None of one that no drop is answered for.
+    fn of(component: &Component, limit: &'a LimitAssessment) -> Option<Self> {
+        let worst = limit.worst_case.as_ref()?;
+        let asked = Limit::of(component).into_iter().find(|asked| asked.kind == limit.limit)?;
+        let (suspension, rough_to_rad_s) = (worst.part.suspension, rough_to_rad_s(component));
+        Some(Self { limit: asked, suspension, rough_to_rad_s, worst })
+    }
+    /// Off an edge or a corner no direction is that of a plan.
+    fn across(&self) -> Option<Across> {
+        self.worst.drop.across.filter(|across| across.posture.is_none())
+    }
+    /// Whether it asks for more in one place than in another.
+    fn has_map(&self) -> bool {
+        self.limit.kind.source() != Source::Turn
+    }
+    /// The worst drop with other directions all around, every so many of them, with their numbers.
+    fn around(&self, across: &Across, every: u32) -> impl Iterator<Item = (u32, SingleDrop)> {
+        let turned = |k: u32| (k, self.rising_to(across, TAU * f64::from(k) / f64::from(DIRECTIONS)));
+        let all: Vec<_> = (0..=DIRECTIONS).filter(|k| k.is_multiple_of(every)).map(turned).collect();
+        all.into_iter()
+    }
     /// The share that a followed drop asks at a place, where it passes `above`.
     fn share(&self, followed: &Followed, at_m: [f64; 2], above: f64) -> Option<f64> {
         let felt = PlaceHistory::rough(followed, at_m, self.rough_to_rad_s).ok()?;
@@ -116,43 +138,67 @@ impl OneLimit<'_> {
     }
 }
 
-/// The portrait of a part; none where no drop is answered, and of a box that lands on a face, an edge or a corner.
+/// The portrait of a part; none where no drop is answered, and of a box that lands on a face, an edge or a corner. `given`: the directions
+/// that the file gives for the drop of a worst case.
 pub(super) fn portrait(
-    ranges: &Ranges<'_>,
     component: &Component,
-    limit: &LimitAssessment,
+    assessed: &ComponentAssessment,
+    given: impl Fn(&WorstCase) -> Option<[f64; 2]>,
     until: Until,
 ) -> Option<PlatePortrait> {
-    let worst = limit.worst_case.as_ref()?;
-    // Off an edge or a corner no direction is that of a plan.
-    let across = worst.drop.across.filter(|across| across.posture.is_none())?;
-    let asked = Limit::of(component).into_iter().find(|asked| asked.kind == limit.limit)?;
-    let asked =
-        OneLimit { limit: asked, suspension: worst.part.suspension, rough_to_rad_s: rough_to_rad_s(component), worst };
+    let tightest = assessed.tightest();
+    let asked = OneLimit::of(component, tightest)?;
+    let (worst, across) = (asked.worst, asked.across()?);
     let own = Followed::new(&worst.drop, worst.model, worst.tolerance).ok()?;
-    let given_rad = ranges.drop.direction_rad.map(|given| [given.lo(), given.hi()]);
+    let given_rad = given(worst);
     let places = component.places_m();
     let (mut points, mut counted) = (Vec::new(), Vec::new());
-    for k in 0..=DIRECTIONS {
-        let direction = TAU * f64::from(k) / f64::from(DIRECTIONS);
-        let drop = asked.rising_to(&across, direction);
+    for (k, drop) in asked.around(&across, 1) {
         let Ok(followed) = Followed::until(&drop, worst.model, worst.tolerance, until) else { continue };
         let Some((share, part)) = asked.most(&followed, &places) else { continue };
         points.push(Point { tilt_rad: drop.tilt_rad, drop, part, share });
-        if k < DIRECTIONS && (k as usize).is_multiple_of(OF_MAP) && is_given(given_rad, direction) {
+        if k < DIRECTIONS && k.is_multiple_of(OF_MAP) && is_given(given_rad, direction(&drop)) {
             counted.push((share, followed));
         }
     }
-    let share = limit.demand? / limit.allowed;
-    let direction = |drop: &SingleDrop| drop.across.map_or(0.0, |across| across.direction_rad);
+    let share = tightest.demand? / tightest.allowed;
     let here = asked.rising_to(&across, across.direction_rad.rem_euclid(TAU));
     let after = points.partition_point(|point| direction(&point.drop) < direction(&here));
     points.insert(after, Point { tilt_rad: here.tilt_rad, drop: here, part: worst.part, share });
-    // The most demanding ones first, so that the others are soon known to ask for less.
+    let map = if asked.has_map() { map_of(&asked, &own, &in_order(counted)) } else { None };
+    let mut others: Vec<_> = assessed.limits.iter().filter(|limit| limit.limit != tightest.limit).collect();
+    others.sort_by(|a, b| a.room().total_cmp(&b.room()));
+    let other = |limit: &LimitAssessment| {
+        let asked = OneLimit::of(component, limit).filter(OneLimit::has_map)?;
+        let (worst, across) = (asked.worst, asked.across()?);
+        let given_rad = given(worst);
+        let follow = |(k, drop): (u32, SingleDrop)| {
+            let is_counted = k < DIRECTIONS && is_given(given_rad, direction(&drop));
+            let followed = is_counted.then(|| Followed::until(&drop, worst.model, worst.tolerance, until).ok())??;
+            let (share, _) = asked.most(&followed, &places)?;
+            Some((share, followed))
+        };
+        let counted = asked.around(&across, OF_MAP).filter_map(follow).collect();
+        let own = Followed::new(&worst.drop, worst.model, worst.tolerance).ok()?;
+        Some((limit.limit, map_of(&asked, &own, &in_order(counted))?))
+    };
+    Some(PlatePortrait {
+        strikes: strikes(&own, &across),
+        over_direction: points,
+        given_rad,
+        maps: map.map(|map| (tightest.limit, map)).into_iter().chain(others.into_iter().filter_map(other)).collect(),
+    })
+}
+
+/// Where a drop rises to.
+fn direction(drop: &SingleDrop) -> f64 {
+    drop.across.map_or(0.0, |across| across.direction_rad)
+}
+
+/// Drops by what they ask, the most demanding ones first, so that the others are soon known to ask for less.
+fn in_order(mut counted: Vec<(f64, Followed)>) -> Vec<Followed> {
     counted.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let others: Vec<Followed> = counted.into_iter().map(|(_, followed)| followed).collect();
-    let map = (asked.limit.kind.source() != Source::Turn).then(|| map(&asked, &own, &others));
-    Some(PlatePortrait { strikes: strikes(&own, &across), over_direction: points, given_rad, map: map.flatten() })
+    counted.into_iter().map(|(_, followed)| followed).collect()
 }
 
 /// Whether the file gives a direction, in whatever turn; its ends are allowed to be off by roundings.
@@ -182,7 +228,7 @@ fn strikes(own: &Followed, across: &Across) -> Vec<CornerStrike> {
 }
 
 /// The map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.
-fn map(asked: &OneLimit<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
+fn map_of(asked: &OneLimit<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
     let [length, width] = own.drop.sides_m();
     let [x, y] = asked.worst.part.at_m();
     let columns = (PLACES * length / width).sqrt().clamp(5.0, 16.0).round();

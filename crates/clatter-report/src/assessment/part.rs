@@ -109,7 +109,7 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait, is_
             )
         }
         Some(_) => String::new(),
-        None if is_plate => portrait.plate.iter().map(plate::zone).collect(),
+        None if is_plate => portrait.plate.iter().map(|plate| plate::zone(of.limit, plate)).collect(),
         None => " In the drops of the figures it holds nowhere along the product.".to_owned(),
     };
     format!("{} {tightest}{zone}", held(component, is_plate))
@@ -191,7 +191,7 @@ pub(super) fn part(
             seen(over_tilt.fold(0.0, f64::max)),
             flat_until(portrait)
         ),
-        "plate": tightest.worst_case.as_ref().zip(portrait.plate.as_ref()).map(|(worst, of)| plate::captions(tightest, worst, of)),
+        "plate": tightest.worst_case.as_ref().zip(portrait.plate.as_ref()).map(|(worst, of)| plate::captions(assessed, worst, of)),
         "source": component.limit_source.as_deref().map(sure_name),
         "tilt-alt": format!("Curve of the worst {what} over the tilt at the first touch."),
     })

@@ -1,6 +1,8 @@
 //! What the pages show and say of a plate alone.
 
-use clatter_assess::{Component, CornerStrike, LimitAssessment, PlaceMap, PlatePortrait, WorstCase};
+use clatter_assess::{
+    Component, ComponentAssessment, CornerStrike, LimitAssessment, LimitKind, PlaceMap, PlatePortrait, WorstCase,
+};
 use clatter_figures::{
     Area, FigureError, HeatMap, Landing, Place, Strike, heat_map, is_drawn, landing, over_direction, plan as draw,
     reach_m, three,
@@ -30,7 +32,7 @@ pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
         "Places and changes",
         [
             "Places and changes",
-            "Where a part could sit is told of the drops of the figures, for its tightest limit. An assessment of the changed file decides; changes that would make a part safe are not looked for on a plate.",
+            "Where a part could sit is told of the drops of the figures. An assessment of the changed file decides; changes that would make a part safe are not looked for on a plate.",
         ],
     ),
 ];
@@ -96,11 +98,20 @@ pub(super) fn figures(
         (format!("direction-{number}.svg"), over_direction(&curve, allowed, &title)?),
         (format!("landing-{number}.svg"), landing(&lands)?),
     ];
-    if let Some(map) = &of.map {
-        let heat = HeatMap { plate, sides_m, map, allowed, title: &title, reach_m, place_m };
+    if let (Some((limit, map)), [_, others @ ..]) = (mapped(assessed, of), &of.maps[..]) {
+        let others: Vec<&PlaceMap> = others.iter().map(|(_, map)| map).collect();
+        let (allowed, title) = (limit.allowed / customary(limit.unit).0, super::title(limit));
+        let place_m = limit.worst_case.map_or(place_m, |worst| [worst.part.position_m, worst.part.across_m]);
+        let heat = HeatMap { plate, sides_m, map, others: &others, allowed, title: &title, reach_m, place_m };
         files.push((format!("map-{number}.svg"), heat_map(&heat)?));
     }
     Ok(files)
+}
+
+/// The limit whose map is drawn: the tightest one that asks more in one place than in another.
+fn mapped<'a>(assessed: &'a ComponentAssessment, of: &'a PlatePortrait) -> Option<(&'a LimitAssessment, &'a PlaceMap)> {
+    let (kind, map) = of.maps.first()?;
+    assessed.limits.iter().find(|limit| limit.limit == *kind).map(|limit| (limit, map))
 }
 
 /// The strikes up to the one of the peak, and until each corner that strikes has struck: others come far later.
@@ -130,8 +141,9 @@ fn span(map: &PlaceMap) -> [f64; 2] {
 }
 
 /// Where the tightest limit holds, in a sentence.
-pub(super) fn zone(of: &PlatePortrait) -> String {
-    let said = match of.map.as_ref().map(span) {
+pub(super) fn zone(tightest: LimitKind, of: &PlatePortrait) -> String {
+    let own = of.maps.first().filter(|(kind, _)| *kind == tightest);
+    let said = match own.map(|(_, map)| span(map)) {
         Some([least, _]) if least > 1.0 => "that limit holds nowhere on the plate",
         Some([_, most]) if most <= 1.0 => "that limit holds anywhere on the plate",
         Some(_) => "that limit holds where all of the part lies within the border of its map",
@@ -140,28 +152,42 @@ pub(super) fn zone(of: &PlatePortrait) -> String {
     format!(" In the drops of the figures {said}.")
 }
 
+/// Where limits other than the one whose map is drawn hold, each in the drops around its own worst one.
+fn of_others(of: &PlatePortrait) -> String {
+    let one = |(kind, map): &(LimitKind, PlaceMap)| match span(map) {
+        [least, _] if least > 1.0 => format!(" Its {} is exceeded everywhere.", kind.words()),
+        [_, most] if most <= 1.0 => format!(" Its {} is exceeded nowhere.", kind.words()),
+        _ => format!(" Dotted: the same of its {}.", kind.words()),
+    };
+    of.maps.iter().skip(1).map(one).collect::<Vec<_>>().concat()
+}
+
 /// What stands below the figures of a part.
-pub(super) fn captions(of: &LimitAssessment, worst: &WorstCase, portrait: &PlatePortrait) -> Value {
+pub(super) fn captions(assessed: &ComponentAssessment, worst: &WorstCase, portrait: &PlatePortrait) -> Value {
+    let of = assessed.tightest();
     let (what, tilt) = (of.limit.measured(of.unit), three(worst.tilt_deg()));
     let most = portrait.over_direction.iter().map(|point| of.allowed * point.share).fold(0.0, f64::max);
     let allowed = shown(of.unit, of.allowed);
     let seen = if is_drawn(of.allowed, most) { "is" } else { "lies outside the figure, at" };
     let dashed = if portrait.given_rad.is_some() { " Dashed: directions that the file does not give." } else { "" };
-    let part = worst.frequency_hz().map(|hz| format!(" at {} Hz", three(hz))).unwrap_or_default();
-    let map = portrait.map.as_ref().map(|map| {
+    let map = mapped(assessed, portrait).map(|(of, map)| {
+        let (what, allowed) = (of.limit.measured(of.unit), shown(of.unit, of.allowed));
+        let hz = of.worst_case.and_then(|worst| worst.frequency_hz());
+        let part = hz.map(|hz| format!(" at {} Hz", three(hz))).unwrap_or_default();
         let (drops, others) = (map.drops, map.drops - 1);
         let holds = match span(map) {
             [least, _] if least > 1.0 => "It is exceeded everywhere.".to_owned(),
             [_, most] if most <= 1.0 => "It is exceeded nowhere.".to_owned(),
             _ => format!("Bold line: the border of where {allowed} is not exceeded, which is in the lighter part."),
         };
+        let of_others = of_others(portrait);
         let of_drops = if others == 0 {
             "in the worst drop".to_owned()
         } else {
             format!("the most of {drops} drops, the worst one and it with {others} other directions")
         };
         json!({
-            "said": format!("The {what} that this part{part} would be asked for anywhere on the plate: {of_drops}. {holds} Dashed: the part."),
+            "said": format!("The {what} that this part{part} would be asked for anywhere on the plate: {of_drops}. {holds}{of_others} Dashed: the part."),
             "alt": format!("Map over the plan of the plate: the {what} that this part would be asked for at each place."),
         })
     });
