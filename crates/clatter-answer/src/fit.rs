@@ -137,7 +137,7 @@ pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
     }
     let bounces = matches!(&records[..], [Record { data: Data::Bounces(_), .. }]);
     if file.product.width.is_some() && !bounces {
-        return Err(clatter_assess::Error::OfBars("a fit of strikes, heights or accelerations").into());
+        return Err(clatter_assess::Error::FitOfPlate.into());
     }
     if !file.product.own_contacts.is_none() {
         return Err(clatter_assess::Error::AlikeContacts("a fit").into());

@@ -129,7 +129,10 @@ fn records_that_answer_nothing_are_refused() {
     });
     let strikes = fit::Data::Measured(Measured::Strikes { strikes: Vec::new(), deviation_s: None });
     let question = fit::Question::new(&plate, vec![one(strikes)]);
-    says(fit::answer(&question).expect_err("a plate"), "takes a product without `width`");
+    says(
+        fit::answer(&question).expect_err("a plate"),
+        "on one of its edges, so that it moves as one, and give it without `width`",
+    );
     let question = fit::Question::new(&plate, vec![one(fit::Data::Bounces(vec![0.0, 0.4, 0.6, 0.7]))]);
     assert!(fit::answer(&question).is_ok());
 }

@@ -100,6 +100,11 @@ pub enum Error {
     /// What takes no spin.
     #[error("{0} takes a drop without `spin`")]
     NoSpin(&'static str),
+    /// A fit of a plate.
+    #[error(
+        "a fit takes a bar: drop the product on one of its edges, so that it moves as one, and give it without `width`"
+    )]
+    FitOfPlate,
     /// What takes bars alone.
     #[error("{0} takes a product without `width`")]
     OfBars(&'static str),
