@@ -30,6 +30,9 @@ pub enum Error {
     /// A component that is none of the product, or an assessment of another one.
     #[error("{0:?} is no component of this product with these limits")]
     OtherProduct(String),
+    /// An assessment of the same product in other drops.
+    #[error("the assessment is that of other drops than those of the product")]
+    OtherDrops,
     /// A number that is not finite.
     #[error("{0:?} is not a finite number")]
     Number(f64),

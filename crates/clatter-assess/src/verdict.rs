@@ -54,10 +54,10 @@ pub struct Assessment {
 }
 
 impl Assessment {
-    /// Whether it has the components and limits of this product.
+    /// Whether it has the components, limits and drops of this product.
     ///
     /// # Errors
-    /// [`Error::OtherProduct`](crate::Error::OtherProduct) with the first component that differs.
+    /// [`Error::OtherProduct`](crate::Error::OtherProduct) with the first component that differs, [`Error::OtherDrops`](crate::Error::OtherDrops).
     pub(crate) fn is_of(&self, file: &ProductFile) -> Result<(), crate::Error> {
         let differs = |(component, assessed): (&Component, &ComponentAssessment)| {
             let limits = assessed.limits.iter().map(|limit| limit.limit);
@@ -66,10 +66,18 @@ impl Assessment {
         let known = file.components.len().min(self.components.len());
         let mut both = file.components.iter().zip(&self.components);
         let other = both.position(differs).or((file.components.len() != self.components.len()).then_some(known));
-        let Some(k) = other else { return Ok(()) };
+        let Some(k) = other else { return self.drops_are_of(file) };
         let assessed = self.components.get(k).map(|component| &component.name);
         let name = assessed.or(file.components.get(k).map(|component| &component.name));
         Err(crate::Error::OtherProduct(name.cloned().unwrap_or_default()))
+    }
+    /// Whether its worst drops are among those of this product.
+    fn drops_are_of(&self, file: &ProductFile) -> Result<(), crate::Error> {
+        let (names, limits) = (file.drop_names(), self.components.iter().flat_map(|component| &component.limits));
+        let mut worst = limits.filter_map(|limit| limit.worst_case.as_ref());
+        let is_of =
+            |worst: &WorstCase| worst.listed < names.len().max(1) && worst.landing == names.get(worst.listed).copied();
+        if worst.all(is_of) { Ok(()) } else { Err(crate::Error::OtherDrops) }
     }
 }
 

@@ -182,6 +182,11 @@ fn what_a_list_is_not_is_told() {
     let said =
         faults(&format!("{BAR}{}", listed(&[FALLS[0], "height = \"1 m\"\ntilt = \"1 deg\"\nface = \"bottom\"\n"])));
     assert!(said.contains("more than one of `tilt`, `face`"), "{said}");
+    // An assessment of other drops.
+    let list = file(BAR, &FALLS);
+    let (all, one) = (list.assess().unwrap(), file(BAR, &FALLS[..1]));
+    assert!(one.portraits(&all).is_empty() && list.portraits(&one.assess().unwrap()).is_empty());
+    assert_eq!(one.remedies(&all, &Bounds::default(), 0.1).unwrap_err(), Error::OtherDrops);
     // Built in code as well.
     let mut both = file(BAR, &FALLS);
     both.landings[1].drop.gravity_m_s2 = 1.0;
