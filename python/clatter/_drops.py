@@ -59,7 +59,7 @@ def simulate(
     Parameters
     ----------
     model : {'map', 'ballistic', 'finite-tilt', 'compliant'}
-        What is kept of the drop. Plates are followed by map and compliant, boxes by compliant.
+        What is kept of the drop. Plates are followed by map, ballistic and compliant, boxes by compliant.
     length_m, width_m, thickness_m : float
         Size of the body in m. The thickness of a bar is for finite-tilt.
     gyration_m : float, (float, float) or (float, float, float)

@@ -163,13 +163,16 @@ pub(crate) fn simulate_plate(
     let scene = scene.and_then(|scene| time_limit_s.map_or(Ok(scene), |limit| scene.with_time_limit_s(limit)));
     let model = match (model_name, contact_time_s) {
         ("map", None) if contact_law.is_none() => simulate_of::plate::Model::Map { e },
-        ("map", _) => return Err(refused("contact_time_s and contact_law go with model='compliant' alone")),
+        ("ballistic", None) if contact_law.is_none() => simulate_of::plate::Model::Ballistic { e },
+        ("map" | "ballistic", _) => {
+            return Err(refused("contact_time_s and contact_law go with model='compliant' alone"));
+        }
         ("compliant", Some(time)) => {
             let law = contact_law.map_or(Ok(clatter_flight::ContactLaw::default()), law)?;
             simulate_of::plate::Model::Contacts(Contact::new(law, e, time).map_err(refused)?)
         }
         ("compliant", None) => return Err(refused("the drop is not whole: give contact_time_s")),
-        _ => return Err(refused("a plate is followed by model='map', without gravity, or 'compliant'")),
+        _ => return Err(refused("a plate is followed by model='map', without gravity, 'ballistic' or 'compliant'")),
     };
     let mut question = simulate_of::plate::Question::new(scene.map_err(refused)?, model);
     (question.at, question.height_m, question.center_of_mass) = (at, height_m, center_of_mass);

@@ -105,6 +105,41 @@ fn short_contacts_without_gravity_are_the_map() {
     assert_eq!(map["stop"]["reason"], "bounced-clear");
 }
 
+/// With little gravity it begins as the map and comes back; with gravity it lies still in the end, having felt as many shocks as it has
+/// strikes, with mass that lies askew or not.
+#[test]
+fn a_plate_falls_and_bounces_without_a_contact_time() {
+    let drop = |model: &str, gravity: &str| {
+        let gravity = format!("--gravity-m-s2={gravity}");
+        answer(with("simulate", &[&format!("--model={model}"), &gravity, "--speed-m-s=3", GAPS, "--at=0,0"]))
+    };
+    let [map, low] = [drop("map", "9.8"), drop("ballistic", "1e-6")];
+    let [train, impacts] = [&map, &low].map(|of| of["impacts"].as_array().unwrap());
+    assert!(train.len() >= 3 && impacts.len() > train.len(), "{low}");
+    for (one, two) in train.iter().zip(impacts) {
+        assert_eq!(one["corner"], two["corner"]);
+        // Over the time of the train gravity gives some 1e-8 m/s.
+        assert!((number(one, "approach_m_s") - number(two, "approach_m_s")).abs() < 1e-7, "{one} {two}");
+    }
+    let got = drop("ballistic", "9.8");
+    assert_eq!((names(&got), &got["model"]), (names(&map), &json!("ballistic")));
+    assert_eq!((&got["stop"]["reason"], &got["stop"]["time_bound_s"]), (&json!("at-rest"), &Value::Null));
+    assert!(number(&got["stop"], "shock_bound_m_s") < 1e-14, "{}", got["stop"]);
+    // The ground gives the center of mass, in the middle, what the fall has brought, but for what it gives to corners that lie.
+    let taken: f64 = got["impacts"].as_array().unwrap().iter().map(|s| s["delta_v_at_m_s"][0].as_f64().unwrap()).sum();
+    let fallen = 3.0 + 9.8 * number(&got["stop"], "time_s");
+    assert!(taken > 3.0 && taken < fallen, "{taken} of {fallen}");
+    let more = ["--model=ballistic", "--product-of-inertia-m2=2e-4", "--speed-m-s=3", GAPS];
+    let table = clatter(with("simulate", &more));
+    assert_eq!((table.exit, table.stderr.as_str()), (Exit::Done, ""), "{}", table.stdout);
+    for word in ["Small tilt, gravity 9.80665 m/s², instant impacts", "At rest at", "--all lists every one"] {
+        assert!(table.stdout.contains(word), "{word}: {}", table.stdout);
+    }
+    let csv = clatter(with("simulate", &[&more[..], &["--format=csv"]].concat()));
+    let heading = "number,corner,time_s,approach_m_s,delta_v_a_m_s,delta_v_b_m_s,delta_v_c_m_s,delta_v_d_m_s";
+    assert_eq!(csv.stdout.lines().next(), Some(heading));
+}
+
 /// A place feels at a corner what its strike gives it, and a stiff part there the acceleration of the place.
 #[test]
 fn a_part_on_a_plate_is_answered() {
@@ -189,8 +224,10 @@ fn a_dead_plate_comes_to_rest() {
 #[test]
 fn what_a_plate_has_not_is_refused() {
     let refused: &[(&str, &[&str], &[&str])] = &[
-        ("simulate", &["--model=ballistic", GAPS], &["--model=ballistic", "map", "compliant"]),
-        ("simulate", &["--model=finite-tilt", GAPS], &["--model=finite-tilt", "compliant"]),
+        ("simulate", &["--model=finite-tilt", GAPS], &["--model=finite-tilt", "map", "ballistic", "compliant"]),
+        ("simulate", &["--model=ballistic", "--contact-time-s=1e-3", GAPS], &["--contact-time", "compliant"]),
+        ("simulate", &["--model=map", "--product-of-inertia-m2=1e-4", GAPS], &["--product-of-inertia-m2", "ballistic"]),
+        ("respond", &["--model=ballistic", GAPS, "--at=0,0"], &["--model=compliant alone"]),
         ("simulate", &["--model=compliant", GAPS], &["--contact-time=TIME"]),
         ("simulate", &["--model=map", "--contact-time-s=1e-3", GAPS], &["--contact-time", "compliant"]),
         ("simulate", &["--model=map"], &["--tilt=ANGLE and --direction=ANGLE, or --gaps=HX,HY"]),

@@ -70,7 +70,11 @@ fn in_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
     }
     let phone = clatter_flight::Plate::new([0.08, 0.07, 0.035, 0.035], [0.0433, 0.0202])?;
     let scene = PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?;
-    for model in [simulate::plate::Model::Map { e: 0.6 }, simulate::plate::Model::Contacts(hysteretic)] {
+    for (model, scene) in [
+        (simulate::plate::Model::Map { e: 0.6 }, scene),
+        (simulate::plate::Model::Ballistic { e: 0.6 }, scene.with_impact_limit(100)),
+        (simulate::plate::Model::Contacts(hysteretic), scene),
+    ] {
         lines.push(serde_json::to_string(&simulate::plate::answer(&simulate::plate::Question::new(scene, model))?)?);
     }
     let handheld = Block::new([0.15, 0.07, 0.015], [0.002, 0.0, 0.001], [0.0207, 0.0435, 0.0478])?;

@@ -35,8 +35,8 @@ pub(crate) use plate::turning;
 /// higher then. Quantities are numbers with their unit; heights and velocities are vertical, upward
 /// positive, and positions run from -1 (end a) to 1 (end b).
 ///
-/// With --width the body is a plate, followed by map or compliant at small tilt: corner a touches first, b
-/// is the one along its length, d along its width, c opposite. Its mass, center and places take two values,
+/// With --width the body is a plate, followed by map, ballistic or compliant at small tilt: corner a touches
+/// first, b is the one along its length, d along its width, c opposite. Its mass, center and places take two values,
 /// along the length and along the width. A product file with a width is such a plate.
 ///
 /// The table lists the strikes that matter, whose largest shock is at least 1 % of the largest of all,

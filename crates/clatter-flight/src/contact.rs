@@ -46,7 +46,7 @@ use phase::Phase;
 pub(crate) use eigen::eigen;
 pub(crate) use level::Level;
 pub(crate) use planar::Planar;
-pub(crate) use pose::Pose;
+pub(crate) use pose::{Pose, solve};
 pub(crate) use run::Run;
 
 /// How long a strike presses.
@@ -121,10 +121,13 @@ impl<const N: usize, P: Pose<N>> Phases<N, P> {
 
 impl<const N: usize, P: Pose<N>> Motion<N, P> {
     /// The body at a time since the first touch; beyond the end of the motion it stays at rest, or goes on as it was. None of instant
-    /// impacts.
+    /// impacts of a bar.
     #[must_use]
     pub fn sample(&self, time_s: f64) -> Option<Sample<N>> {
-        self.phases().map(|phases| phases.sample(time_s))
+        match &self.course {
+            Course::Impacts(impacts) => P::sample_of(impacts, time_s),
+            Course::Contacts(phases) => Some(phases.sample(time_s)),
+        }
     }
     /// When each phase of contacts that take time begins, in order from 0. Within a phase every force is smooth.
     pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {

@@ -102,12 +102,12 @@ pub struct LiftOff {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Stop {
-    /// Both ends lie still.
+    /// All contact points lie still.
     AtRest {
         /// When the last listed strike happened, or the limit that strikes summed in closed form tend to.
         time_s: f64,
-        /// The motion ends at most this much later: proven, and below an ulp of the time. Infinite of contacts that take time, which die
-        /// away and never end.
+        /// The motion ends at most this much later: proven, and below an ulp of the time. Infinite where nothing bounds it: of contacts
+        /// that take time, which die away and never end, and of instant impacts of a plate, which its energy alone says not to matter.
         time_bound_s: f64,
         /// No shock left out of the list is larger: proven, and at most [`SHARE`] of the largest.
         shock_bound_m_s: f64,

@@ -10,6 +10,8 @@
 //! | [`Model::FiniteTilt`] | parabola of the center, uniform rotation, any angle | impulse, lever arm L cos φ, of corners where the body has a thickness |
 //! | [`Model::Contacts`] | as `FiniteTilt` | contacts that take time, by one of two [laws](ContactLaw) |
 //!
+//! A [`Plate`] at small tilt goes by [`PlateScene::impacts_until`], which is `Ballistic`, and by [`PlateScene::contacts_until`].
+//!
 //! # The picture
 //!
 //! A body with ends `a` and `b` at distances `L_a`, `L_b` from its center of mass and radius of gyration `ρ`

@@ -15,7 +15,7 @@ pub struct Motion<const N: usize = 2, P: Pose<N> = Planar<N>> {
     /// time a strike is one press, from touch to parting; its time is that of the touch, its Δv what the force of that contact does in
     /// all, its velocities are those as it parts.
     pub strikes: Vec<Strike<N>>,
-    /// The times in which one end of a bar lay on the ground; none with contacts that take time.
+    /// The times in which one end of a bar lay on the ground; none of a plate, nor with contacts that take time.
     pub pivots: Vec<Pivot>,
     /// Beginning and end of each strike's contact; none of instant impacts.
     pub presses: Vec<Press>,
@@ -31,13 +31,13 @@ pub struct Motion<const N: usize = 2, P: Pose<N> = Planar<N>> {
     pub(crate) course: Course<N, P>,
 }
 
-/// A motion of a plate, with contacts that take time at its four corners.
+/// A motion of a plate, by instant impacts at its four corners or with contacts that take time.
 pub type PlateMotion = Motion<4, crate::contact::Level>;
 
 /// What is between the strikes.
 #[derive(Debug, Clone)]
 pub(crate) enum Course<const N: usize, P: Pose<N>> {
-    Impacts(Scene),
+    Impacts(P::Impacts),
     Contacts(Phases<N, P>),
 }
 
@@ -200,8 +200,8 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
     #[must_use]
     pub fn gravity_m_s2(&self) -> f64 {
         match &self.course {
-            Course::Impacts(scene) if self.model != Model::Map => scene.gravity_m_s2(),
-            Course::Impacts(_) => 0.0,
+            Course::Impacts(_) if self.model == Model::Map => 0.0,
+            Course::Impacts(impacts) => P::gravity_of(impacts),
             Course::Contacts(phases) => phases.end.gravity(),
         }
     }

@@ -1,4 +1,4 @@
-//! A plate that falls almost level, with contacts that take time at its four corners.
+//! A plate that falls almost level on its four corners: by instant impacts, or with contacts that take time.
 
 use clatter::Error as Given;
 

@@ -4,6 +4,7 @@ mod ballistic;
 mod finite_tilt;
 mod map;
 mod pivot;
+mod plate;
 mod settling;
 
 use crate::flight::{Flight, Log, Model, State, Stop, Strike};
@@ -11,6 +12,7 @@ use crate::motion::{Ahead, Motion};
 use crate::scene::Scene;
 
 pub(crate) use ballistic::Clock;
+pub(crate) use plate::Falls;
 
 /// The strikes by a model of instant impacts, as far as they are needed: before each but the first `enough` is asked. `ends`: the
 /// restitution of each end at real tilt, where it is not that of the scene.

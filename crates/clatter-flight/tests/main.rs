@@ -20,5 +20,6 @@ mod extremes;
 mod independent;
 mod own_contacts;
 mod plain;
+mod plate_impacts;
 mod reference;
 mod rest;

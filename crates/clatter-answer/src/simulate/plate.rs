@@ -1,4 +1,4 @@
-//! One drop of a plate in time: with contacts that take time, or by the map, without gravity.
+//! One drop of a plate in time: by instant impacts, without gravity or with it, or with contacts that take time.
 //!
 //! ```
 //! use clatter_answer::simulate::plate;
@@ -13,7 +13,7 @@
 //! ```
 
 use clatter::{Corner, PlateStart};
-use clatter_flight::{Contact, Error, PlateScene, Stop};
+use clatter_flight::{Contact, Error, PlateMotion, PlateScene, Stop};
 use serde::{Serialize, Serializer};
 
 use super::{ContactAnswer, is_cut};
@@ -27,6 +27,11 @@ pub enum Model {
         /// Coefficient of restitution.
         e: f64,
     },
+    /// Instant impacts with a restitution, and gravity.
+    Ballistic {
+        /// Coefficient of restitution.
+        e: f64,
+    },
     /// Gravity, and contacts that take time.
     Contacts(Contact),
 }
@@ -36,15 +41,16 @@ impl Model {
     #[must_use]
     pub fn e(&self) -> f64 {
         match self {
-            Self::Map { e } => *e,
+            Self::Map { e } | Self::Ballistic { e } => *e,
             Self::Contacts(contact) => contact.restitution(),
         }
     }
-    /// `map` or `compliant`.
+    /// `map`, `ballistic` or `compliant`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Map { .. } => "map",
+            Self::Ballistic { .. } => "ballistic",
             Self::Contacts(_) => "compliant",
         }
     }
@@ -251,7 +257,8 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     on_plate(at)?;
     let Followed { strikes, stop, contact } = match model {
         Model::Map { e } => by_map(question, e)?,
-        Model::Contacts(contact) => by_contacts(&scene, &contact)?,
+        Model::Ballistic { e } => followed(&scene.impacts_until(e, |_| false)?),
+        Model::Contacts(contact) => followed(&scene.contacts_until(&contact, 1e-4, |_| false)?),
     };
     let impacts = Impacts { strikes, at: at.clone(), cut: is_cut(&stop) };
     let ([length, width], limit_s) = (scene.plate().sides_m(), scene.time_limit_s());
@@ -282,18 +289,16 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     })
 }
 
-fn by_contacts(scene: &PlateScene, contact: &Contact) -> Result<Followed, Error> {
-    let motion = scene.contacts_until(contact, 1e-4, |_| false)?;
-    let pressed = motion.strikes.iter().zip(&motion.presses);
-    let strikes = pressed.map(|(strike, press)| Strike {
+fn followed(motion: &PlateMotion) -> Followed {
+    let strikes = motion.strikes.iter().enumerate().map(|(k, strike)| Strike {
         corner: strike.point,
         time_s: strike.time_s,
         approach_m_s: strike.approach_m_s,
         delta_v_m_s: strike.delta_v_m_s,
-        until_s: Some(press.until_s),
+        until_s: motion.presses.get(k).map(|press| press.until_s),
     });
-    let contact = Some(ContactAnswer::new(contact, motion.energy_error));
-    Ok(Followed { strikes: strikes.collect(), stop: motion.stop, contact })
+    let contact = motion.contact().map(|contact| ContactAnswer::new(&contact, motion.energy_error));
+    Followed { strikes: strikes.collect(), stop: motion.stop, contact }
 }
 
 /// Without gravity: straight lines and impulses.

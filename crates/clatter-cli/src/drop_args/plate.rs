@@ -16,7 +16,7 @@ use crate::quantities::{self, PerAxis, Place, Show, Shown, neat};
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlateArgs {
     /// Width of a plate, across its length; --gyration=KX,KY, --center-of-mass=SX,SY and --at=X,Y then take two values, along the
-    /// length and along the width; for map and compliant. With --thickness it is that of a box, with three values
+    /// length and along the width; for map, ballistic and compliant. With --thickness it is that of a box, with three values
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::length, requires = "followed", conflicts_with_all = ["width_m", "product"])]
     width: Option<Quantity>,
     /// Where a tilted plate rises from corner a: 0deg along its length, 90deg along its width, to b and d by the sines of the tilt;
@@ -36,7 +36,7 @@ pub(crate) struct PlateArgs {
     /// --gaps in m
     #[arg(long, value_name = "HX,HY", allow_hyphen_values = true, value_parser = quantities::gaps_m, conflicts_with_all = ["tilt", "tilt_deg", "direction", "direction_deg", "product"], help_heading = IN_SI, hide_short_help = true)]
     gaps_m: Option<[f64; 2]>,
-    /// Of a plate or a box whose contacts take time: ∫x y dm over its mass, about the center of mass, of a box ∫x z dm and ∫y z dm as
+    /// Of a plate or a box, by all models but map: ∫x y dm over its mass, about the center of mass, of a box ∫x z dm and ∫y z dm as
     /// well; 0 unless given
     #[arg(long, value_name = "XY[,XZ,YZ]", allow_hyphen_values = true, value_parser = inputs::products, help_heading = IN_SI, hide_short_help = true)]
     pub(super) product_of_inertia_m2: Option<[f64; 3]>,
@@ -63,6 +63,8 @@ impl PlateArgs {
 pub(crate) struct PlateSetup {
     pub(crate) scene: PlateScene,
     pub(crate) e: f64,
+    /// Whether its model has gravity: map has none.
+    pub(crate) has_gravity: bool,
     /// Of contacts that take time.
     pub(crate) contact: Option<Contact>,
     /// On the product, as places are.
@@ -141,7 +143,7 @@ impl DropArgs {
     pub(crate) fn plate_setup(&self, beside: ExtraArgs) -> Result<PlateSetup, Failure> {
         let ExtraArgs { model, e, gyration, gyration_flag, spin_rad_s, mut file } = beside;
         let model = self.plate_model(model, file.is_some())?;
-        let compliant = model == Model::Compliant;
+        let (compliant, has_gravity) = (model == Model::Compliant, model != Model::Map);
         let width = self.plate.width().map(|width| width.si).or(file.as_ref().and_then(OneDrop::width).map(|w| w.m()));
         let length = either(self.length, self.length_m);
         let length_m = match (length, &file) {
@@ -183,7 +185,7 @@ impl DropArgs {
         let (center_of_mass, plate) = self.plate_of(
             halves,
             mirrored,
-            compliant,
+            has_gravity,
             gyration.map(|k| k.of_plate(gyration_flag)).transpose()?,
             gyration_flag,
             file.as_mut(),
@@ -215,6 +217,7 @@ impl DropArgs {
         Ok(PlateSetup {
             scene,
             e,
+            has_gravity,
             contact,
             center_of_mass,
             mirrored,
@@ -234,15 +237,14 @@ impl DropArgs {
         }
         match model {
             None if of_file => Ok(Model::Compliant),
-            Some(model @ Model::Compliant) => Ok(model),
-            Some(Model::Map) if self.contact_time().is_some() || self.contact_law.is_some() => {
+            Some(Model::Map | Model::Ballistic) if self.contact_time().is_some() || self.contact_law.is_some() => {
                 Err(Failure::Usage("--contact-time and --contact-law go with --model=compliant alone"))
             }
-            Some(Model::Map) => Ok(Model::Map),
+            Some(model @ (Model::Map | Model::Ballistic | Model::Compliant)) => Ok(model),
             Some(_) => Err(Failure::Usage(
-                "--model=ballistic and --model=finite-tilt follow bars: a plate is followed by map, without gravity, or by compliant",
+                "--model=finite-tilt follows bars: a plate is followed by map, without gravity, by ballistic or by compliant",
             )),
-            None => Err(Failure::Usage("a plate needs a --model: map or compliant")),
+            None => Err(Failure::Usage("a plate needs a --model: map, ballistic or compliant")),
         }
     }
 
@@ -288,7 +290,7 @@ impl DropArgs {
         &self,
         halves: [f64; 2],
         mirrored: [bool; 2],
-        compliant: bool,
+        has_gravity: bool,
         gyration: Option<[Quantity; 2]>,
         flag: &'static str,
         file: Option<&mut OneDrop>,
@@ -321,9 +323,9 @@ impl DropArgs {
             return Err(Failure::Usage("--product-of-inertia-m2 of a plate is one value"));
         }
         let product = self.plate.product_of_inertia_m2.map_or(own_product, |[xy, ..]| xy);
-        if !compliant && (product != 0.0 || self.plate.product_of_inertia_m2.is_some()) {
+        if !has_gravity && (product != 0.0 || self.plate.product_of_inertia_m2.is_some()) {
             return Err(Failure::Usage(
-                "--product-of-inertia-m2 and masses that lie askew are followed by --model=compliant alone",
+                "--product-of-inertia-m2 and masses that lie askew are followed by --model=ballistic and --model=compliant alone",
             ));
         }
         let flag = "--product-of-inertia-m2";

@@ -1,4 +1,4 @@
-//! One drop of a plate in time: with contacts that take time, or by the map, without gravity.
+//! One drop of a plate in time: by instant impacts, without gravity or with it, or with contacts that take time.
 
 use std::io::{self, Write};
 
@@ -76,8 +76,10 @@ impl Args {
         let at: Vec<_> = self.at.iter().copied().chain(of_part).collect();
         let signs = setup.signs();
         let at: Vec<_> = setup.places(&at, [0.0; 2])?.into_iter().map(|[x, y]| [signs[0] * x, signs[1] * y]).collect();
-        let model = setup.contact.map_or(plate::Model::Map { e: setup.e }, plate::Model::Contacts);
-        let by_map = setup.contact.is_none() && self.impact_limit == IMPACTS;
+        let e = setup.e;
+        let instant = if setup.has_gravity { plate::Model::Ballistic { e } } else { plate::Model::Map { e } };
+        let model = setup.contact.map_or(instant, plate::Model::Contacts);
+        let by_map = !setup.has_gravity && self.impact_limit == IMPACTS;
         let mut scene = setup.scene.with_impact_limit(if by_map { OF_MAP } else { self.impact_limit });
         if let Some(limit) = self.time_limit_s() {
             scene = scene.with_time_limit_s(limit)?;
@@ -113,6 +115,7 @@ impl Drop<'_> {
         let (setup, scene, shown) = (&self.setup, &self.setup.scene, &self.setup.shown);
         let gravity = shown.acceleration.given(scene.gravity_m_s2());
         match &setup.contact {
+            None if setup.has_gravity => writeln!(out, "Small tilt, gravity {gravity}, instant impacts")?,
             None => writeln!(out, "Small tilt, no gravity, instant impacts")?,
             Some(contact) => {
                 let (law, time) = (contact.law().name(), shown.time.given(contact.time_s()));

@@ -5,7 +5,7 @@ use clatter::{Excitation, Section, Sine};
 use super::mode::{Mode, Motion};
 use super::phase::Phase;
 use super::{Level, Phases, Planar, Pose};
-use crate::motion::PlateMotion;
+use crate::motion::{Course, PlateMotion};
 
 /// Over a contact, what is so short that nothing is spread over it.
 const SHORT: f64 = 0.1;
@@ -84,16 +84,23 @@ impl<const N: usize> Phases<N, Planar<N>> {
 
 impl PlateMotion {
     /// What a place x, y feels, in m from the center of mass: its acceleration above free fall, as [`Motion::felt`](crate::Motion::felt).
+    /// Of instant impacts exact, corners that lie included.
     #[must_use]
     pub fn felt(&self, place: [f64; 2]) -> Excitation {
-        self.phases().map_or_else(Excitation::default, |phases| phases.felt(place))
+        match &self.course {
+            Course::Impacts(falls) => falls.felt(self, falls.place(place), self.gravity_m_s2()),
+            Course::Contacts(phases) => phases.felt(place),
+        }
     }
     /// The acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
     #[must_use]
     pub fn turned(&self, direction: [f64; 2]) -> Excitation {
         let by = |phase: &Phase<Level, 4>| phase.start.slope_by(direction);
         let turned = |phases: &Phases<4, Level>| phases.turned_by(|pose| pose.rate_along(direction), by);
-        self.phases().map_or_else(Excitation::default, turned)
+        match &self.course {
+            Course::Impacts(falls) => falls.felt(self, falls.slope(direction), 0.0),
+            Course::Contacts(phases) => turned(phases),
+        }
     }
 }
 

@@ -3,8 +3,10 @@
 //! With the positions x, y of the corners about the center of mass and the radii of gyration k_x, k_y,
 //! M_ij = 1 + x_i x_j/k_x² + y_i y_j/k_y²; with a product of inertia 1 + r_i·C⁻¹ r_j, C the second moments of the mass.
 
+use super::Sample;
 use super::pose::{Borne, Extent, Pose, Pushes};
 use crate::plate::{Plate, PlateScene};
+use crate::rigid::Falls;
 
 /// A [`Plate`] in motion.
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +35,14 @@ impl Level {
         level.y = -level.points().0.into_iter().fold(f64::INFINITY, f64::min);
         level
     }
+    /// With its corners at these heights and velocities.
+    pub(crate) fn of(scene: &PlateScene, height: [f64; 4], velocity: [f64; 4]) -> Self {
+        let level = Self::start(scene);
+        let [length, width] = level.plate.sides_m();
+        let along = |[a, b, _, d]: [f64; 4]| [(b - a) / length, (d - a) / width];
+        let mean = |of: [f64; 4]| level.even().iter().zip(of).map(|(share, x)| share * x).sum();
+        Self { y: mean(height), v: mean(velocity), slopes: along(height), rates: along(velocity), ..level }
+    }
     /// What grows along x and y like this, at a place.
     fn along(of: [f64; 2], [x, y]: [f64; 2]) -> f64 {
         x * of[0] + y * of[1]
@@ -59,6 +69,14 @@ impl Level {
 
 impl Pose<4> for Level {
     type Arms = ();
+    type Impacts = Falls;
+
+    fn gravity_of(falls: &Falls) -> f64 {
+        falls.gravity_m_s2()
+    }
+    fn sample_of(falls: &Falls, time_s: f64) -> Option<Sample<4>> {
+        Some(falls.sample(time_s))
+    }
 
     fn extent(&self) -> Extent {
         let corners = self.plate.corners_m();

@@ -77,6 +77,11 @@ impl<const N: usize> Planar<N> {
 
 impl<const N: usize> Pose<N> for Planar<N> {
     type Arms = Levers<N>;
+    type Impacts = Scene;
+
+    fn gravity_of(scene: &Scene) -> f64 {
+        scene.gravity_m_s2()
+    }
 
     fn extent(&self) -> Extent {
         let reach = self.body.reach();

@@ -4,6 +4,8 @@ use std::fmt::Debug;
 
 use clatter::Sine;
 
+use super::Sample;
+
 /// A body in motion. All that the engine knows of its shape it knows from here, the coupling
 ///
 /// ```text
@@ -16,6 +18,15 @@ use clatter::Sine;
 pub trait Pose<const N: usize>: Copy + Debug {
     /// Lever arms of one position, which a phase keeps.
     type Arms: Copy + Debug;
+    /// What a motion by instant impacts is known by, between them.
+    type Impacts: Clone + Debug;
+
+    /// Acceleration of gravity in a motion by instant impacts.
+    fn gravity_of(impacts: &Self::Impacts) -> f64;
+    /// The body at one time of a motion by instant impacts, where they have forces in between.
+    fn sample_of(_impacts: &Self::Impacts, _time_s: f64) -> Option<Sample<N>> {
+        None
+    }
 
     /// How large it is.
     fn extent(&self) -> Extent;
@@ -129,7 +140,7 @@ pub struct Extent {
     /// From the center of mass to the farthest point.
     pub(super) reach: f64,
     /// The largest M_ii at any angle.
-    pub(super) coupling: f64,
+    pub(crate) coupling: f64,
 }
 
 /// What the ground has done since a phase began: ∫F dt and ∬F dt² of each point, per mass.
@@ -142,7 +153,7 @@ pub struct Pushes<const N: usize> {
 /// What pushes at some points are worth to move these points so: x of M x = b, of as many of them as move independently.
 ///
 /// Corners of a plate are four, and have three ways to move: what is no more than a rounding is left out.
-pub(super) fn solve<const N: usize>(
+pub(crate) fn solve<const N: usize>(
     coupling: impl Fn(usize, usize) -> f64,
     points: &[bool; N],
     mut b: [f64; N],

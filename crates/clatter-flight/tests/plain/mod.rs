@@ -3,6 +3,7 @@
 
 #![allow(dead_code, reason = "each test program uses its part")]
 
+pub(crate) mod jumps;
 pub(crate) mod plate;
 
 use clatter_flight::ContactLaw;
