@@ -87,11 +87,11 @@ def test_a_box_falls_in_one_drop_after_the_other(command, tmp_path):
     box.add("chip", position=["10 mm", "5 mm"], mount="hard", acceleration_limit="9000 gn")
     answer = clatter.assess(box)
     assert [landing.landing for landing in answer.landings] == [
-        "face bottom", "corner top back end-a", "tilt 60 deg to 30 deg",
+        "face bottom", "corner top back end-a", "tilt 60 deg towards 30 deg",
     ]
     file = tmp_path / "box.toml"
     file.write_text(box.text)
-    assert command("assess", file, "--format=json", code=[0, 1]).stdout.count('"landing":"tilt 60 deg to 30 deg"') >= 1
+    assert command("assess", file, "--format=json", code=[0, 1]).stdout.count('"landing":"tilt 60 deg towards 30 deg"') >= 1
 
 
 def test_further_keys_go_by_their_names():

@@ -194,18 +194,26 @@ impl ProductFile {
         let mut landings: Vec<LandingAssessment> =
             names.iter().zip(&self.landings).map(|(name, landing)| LandingAssessment::new(*name, landing)).collect();
         for component in these {
-            let mut limits = Vec::new();
+            // Of each limit what every drop says, and then of each drop what stops make of that.
+            let mut of_limits = Vec::new();
             for (n, task) in all.by_ref().take(component.limits.kinds().len()) {
                 let said = |drop: usize| Ok(self.limit(&searched[drop][0], task, judged(n, task, drop)?));
                 let of_drops: Vec<Result<LimitAssessment, Error>> =
                     (0..listed.len()).into_par_iter().map(said).collect();
                 // The first of all errors, not the fastest.
-                let of_drops = of_drops.into_iter().collect::<Result<Vec<_>, _>>()?;
-                for (landing, limit) in landings.iter_mut().zip(&of_drops) {
-                    landing.take(component, limit);
-                }
-                limits.push(governing(of_drops, &names));
+                of_limits.push(of_drops.into_iter().collect::<Result<Vec<_>, _>>()?);
             }
+            for drop in 0..listed.len() {
+                let mut of_drop: Vec<&mut LimitAssessment> =
+                    of_limits.iter_mut().map(|of_drops| &mut of_drops[drop]).collect();
+                stopped(&mut of_drop);
+                if let Some(landing) = landings.get_mut(drop) {
+                    for limit in of_drop {
+                        landing.take(component, limit);
+                    }
+                }
+            }
+            let limits = of_limits.into_iter().map(|of_drops| governing(of_drops, &names)).collect();
             components.push(verdict(component, self.product.width.is_some(), limits));
         }
         Ok(Ok(Found { components, landings }))
@@ -417,8 +425,19 @@ pub(crate) struct Listed {
     pub(crate) posture: Option<Posture>,
 }
 
-/// What the drops that are listed say of a limit together: the one that leaves least, by its verdict and then by its margin.
+/// What the drops that are listed say of a limit together: the one that leaves least, by its verdict and then by its margin. Its bound and what
+/// others may ask beyond its demand are those of all.
 fn governing(of_drops: Vec<LimitAssessment>, names: &[DropName]) -> LimitAssessment {
+    let most = of_drops.iter().map(|limit| limit.demand.unwrap_or(f64::INFINITY) * (1.0 + limit.uncertainty));
+    let most = most.fold(0.0, f64::max);
+    let units = of_drops.iter().map(|limit| limit.unit);
+    // A damage boundary is told in either of two.
+    let has_one_unit = units.clone().eq(units.cycle().skip(1).take(of_drops.len()));
+    let all = |of: fn(&LimitAssessment) -> Option<f64>| {
+        of_drops.iter().map(of).reduce(|one, other| one.zip(other).map(|(one, other)| one.max(other))).flatten()
+    };
+    let (bound, other_law) = (all(|limit| limit.bound), all(|limit| limit.other_law));
+    let is_list = of_drops.len() > 1;
     let order = |limit: &LimitAssessment| (limit.verdict, -limit.room());
     let numbered = of_drops.into_iter().enumerate();
     let least = numbered.max_by(|(_, a), (_, b)| {
@@ -426,6 +445,12 @@ fn governing(of_drops: Vec<LimitAssessment>, names: &[DropName]) -> LimitAssessm
         verdict.cmp(&other).then(room.total_cmp(&other_room))
     });
     let Some((n, mut limit)) = least else { unreachable!("a drop is listed") };
+    if is_list && has_one_unit {
+        (limit.bound, limit.other_law) = (bound, other_law);
+        if let Some(demand) = limit.demand.filter(|demand| most > demand * (1.0 + limit.uncertainty)) {
+            limit.uncertainty = most / demand - 1.0;
+        }
+    }
     if let Some(worst) = &mut limit.worst_case {
         (worst.listed, worst.landing) = (n, names.get(n).copied());
     }
@@ -524,16 +549,18 @@ fn worst_case(asked: &Candidate, ranges: &Ranges<'_>, component: &Component) -> 
     }
 }
 
-fn verdict(component: &Component, is_plate: bool, mut limits: Vec<LimitAssessment>) -> ComponentAssessment {
-    // A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration.
+/// A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration.
+fn stopped(limits: &mut [&mut LimitAssessment]) {
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
-    if let Some(stop) = stop.map(|l| (l.verdict, l.margin)) {
-        for limit in limits.iter_mut().filter(|l| l.limit.is_changed_by_stop()) {
-            let margin = stop.1.filter(|margin| margin.is_finite());
-            limit.verdict = Verdict::Undecided;
-            limit.undecided = vec![Doubt::Stop { hits: stop.0 == Verdict::Unsafe, margin }];
-        }
+    let Some((verdict, margin)) = stop.map(|l| (l.verdict, l.margin)) else { return };
+    for limit in limits.iter_mut().filter(|l| l.limit.is_changed_by_stop()) {
+        let margin = margin.filter(|margin| margin.is_finite());
+        limit.verdict = Verdict::Undecided;
+        limit.undecided = vec![Doubt::Stop { hits: verdict == Verdict::Unsafe, margin }];
     }
+}
+
+fn verdict(component: &Component, is_plate: bool, limits: Vec<LimitAssessment>) -> ComponentAssessment {
     let tightest = limits.iter().min_by(|a, b| a.room().total_cmp(&b.room()));
     let Some(tightest) = tightest else { unreachable!("a component has a limit") };
     let (worst_case, model) = (tightest.worst_case, tightest.model.clone());

@@ -46,7 +46,7 @@ impl Attitude {
     /// ```
     /// use clatter_assess::Attitude;
     /// let tilted = Attitude::tilted(45_f64.to_radians(), 30_f64.to_radians()).unwrap();
-    /// assert_eq!(tilted.to_string(), "tilt 45 deg to 30 deg");
+    /// assert_eq!(tilted.to_string(), "tilt 45 deg towards 30 deg");
     /// ```
     #[must_use]
     pub fn tilted(tilt_rad: f64, direction_rad: f64) -> Option<Self> {
@@ -103,7 +103,7 @@ impl std::fmt::Display for Attitude {
             Lands::On(sides) => sides,
             Lands::Tilted { tilt_rad, direction_rad } => {
                 let [tilt, direction] = [tilt_rad, direction_rad].map(|angle| (1e6 * angle.to_degrees()).round() / 1e6);
-                return write!(f, "tilt {tilt} deg to {direction} deg");
+                return write!(f, "tilt {tilt} deg towards {direction} deg");
             }
         };
         f.write_str(["", "face", "edge", "corner"][self.faces()])?;

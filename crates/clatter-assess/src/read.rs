@@ -226,10 +226,12 @@ impl Reader {
     }
 
     fn tables<'a>(&mut self, section: &Section<'a>, name: &str) -> Vec<Section<'a>> {
-        let Some((Key { kind: Kind::Tables(keys) | Kind::OneOrMore(keys), .. }, value)) = Self::get(section, name)
+        let Some((Key { kind: kind @ (Kind::Tables(keys) | Kind::OneOrMore(keys)), .. }, value)) =
+            Self::get(section, name)
         else {
             return Vec::new();
         };
+        let most = if matches!(kind, Kind::Tables(_)) { MOST_COMPONENTS } else { drops::MOST_DROPS };
         // Of the product it stands within its table.
         let of = section.title.strip_prefix('[').and_then(|title| title.strip_suffix(']'));
         let path = of.map_or(name.to_owned(), |of| format!("{of}.{name}"));
@@ -237,9 +239,9 @@ impl Reader {
             self.wrong_type(value, name, &format!("one table [[{path}]] each"));
             return Vec::new();
         };
-        if items.is_empty() || items.len() > MOST_COMPONENTS {
+        if items.is_empty() || items.len() > most {
             let message = format!("`{name}` has {} entries", items.len());
-            self.fault(value.span(), message, format!("expected 1 to {MOST_COMPONENTS}"), "");
+            self.fault(value.span(), message, format!("expected 1 to {most}"), "");
             return Vec::new();
         }
         let mut sections = Vec::with_capacity(items.len());

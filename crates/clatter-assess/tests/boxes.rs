@@ -129,7 +129,7 @@ fn drops_of_a_file_have_their_own_heights() {
         let limits = alone.components.iter().flat_map(|component| &component.limits);
         limits.zip(&listed.1).for_each(|(alone, listed)| holds(*listed, alone, drop));
     }
-    assert_eq!(all[2].0, "tilt 90 deg to 0 deg");
+    assert_eq!(all[2].0, "tilt 90 deg towards 0 deg");
     let [standing, tilted] = [on("face", "end-a").replace("0.4\n", "0.25\n"), of(tilted)].map(|text| demands(&text));
     assert_eq!((&tilted[0].1, standing.len()), (&standing[0].1, 1));
     // The same from another height is another drop.

@@ -294,7 +294,7 @@ pub struct HeatMap<'a> {
     pub sides_m: [f64; 2],
     /// Shares of what is allowed, over the plate.
     pub map: &'a PlaceMap,
-    /// The same of its other limits, whose borders are drawn.
+    /// The same of its other limits, four at most, whose borders are dotted, dash-dotted, in thin and in long dashes.
     pub others: &'a [&'a PlaceMap],
     /// What is allowed, in the unit of the title.
     pub allowed: f64,
@@ -335,8 +335,8 @@ pub fn heat_map(of: &HeatMap<'_>) -> Result<String, FigureError> {
     for level in axis.ticks().0 {
         border(&mut paper, &view, of.map, level / of.allowed, Ink::line(INK, 0.3));
     }
-    for map in of.others {
-        border(&mut paper, &view, map, 1.0, Ink { dash: "1.2 1.6", ..Ink::line(RUST, 1.2) });
+    for (map, dash) in of.others.iter().zip(["1.2 1.6", "4 1.5 1 1.5", "2.5 1.5", "6 2"]) {
+        border(&mut paper, &view, map, 1.0, Ink { dash, ..Ink::line(RUST, 1.2) });
     }
     border(&mut paper, &view, of.map, 1.0, Ink::line(RUST, 1.5));
     view.area(&mut paper, of.reach_m, Ink { stroke: INK, width: 0.8, dash: "2.5 1.5", ..Ink::fill("none") });

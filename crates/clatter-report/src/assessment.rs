@@ -254,7 +254,7 @@ mod tests {
         let page = said(&pages(&text, &dir.path().join("page.pdf")), 1);
         let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
         for words in
-            ["Each drop of the file", "drop 1, 2 m/s", "drop 1: 3° at the first touch, end b first", "drop 2: 1 to 10°"]
+            ["Each drop of the file", "drop 1, end b first, 2 m/s 3°", "drop 2, either end first, 4.85 m/s 1 to 10°"]
         {
             assert!(page.contains(words), "{words}: {page}");
         }

@@ -21,7 +21,7 @@ pub struct LandingLadder {
     /// How much later than the first of these corners the last one comes down, if the first did nothing, at least and at most over the
     /// tolerance, the speeds and the spins: the gap over the speed of that corner.
     pub last_corner_s: [f64; 2],
-    /// How long a lone contact takes, at least and at most.
+    /// How long a lone contact of any corner takes, at least and at most.
     pub contact_time_s: [f64; 2],
     /// So far it may be turned off, whatever the direction, that the last corner comes within the shortest contact; none where the
     /// tolerance allows no more, so that it always lands as one.
@@ -41,7 +41,8 @@ impl LandingLadder {
 impl ProductFile {
     /// What the tolerance leaves open of each drop of a box.
     pub(super) fn landing_ladders(&self, assessment: &Assessment) -> Vec<LandingLadder> {
-        let Some(((faces_m, _), contact)) = self.product.faces_m().zip(self.product.contact_time_s) else {
+        let Some(((faces_m, _), [shortest, longest])) = self.product.faces_m().zip(self.product.contact_times_s())
+        else {
             return Vec::new();
         };
         let sides = faces_m.map(|[low, high]| low + high);
@@ -57,13 +58,13 @@ impl ProductFile {
             let far_m = faces_m.iter().fold(0.0, |all, [low, high]| libm::hypot(all, low.max(*high)));
             let slow = slow - drop.fastest_rad_s() * far_m;
             let tolerance = drop.tilt_rad.hi();
-            let as_one = libm::asin((contact.lo() * slow / reach_m).min(1.0));
+            let as_one = libm::asin((shortest * slow / reach_m).min(1.0));
             LandingLadder {
                 landing: assessed.landing,
                 corners: 1 << level.len(),
                 tolerance_deg: tolerance.to_degrees(),
                 last_corner_s: [0.0, reach_m * libm::sin(tolerance) / slow],
-                contact_time_s: [contact.lo(), contact.hi()],
+                contact_time_s: [shortest, longest],
                 as_one_to_deg: (as_one < tolerance).then(|| as_one.to_degrees()),
                 tightest: assessed.tightest().cloned(),
             }

@@ -16,7 +16,7 @@ use crate::{Across, Component, ComponentAssessment, Limit, LimitAssessment, Limi
 const DIRECTIONS: u32 = 72;
 const OF_MAP: u32 = 3;
 /// Places of the map, about.
-const PLACES: f64 = 72.0;
+const PLACES: f64 = 150.0;
 
 /// What is drawn of a part of a plate.
 #[derive(Debug, Clone, PartialEq)]
@@ -230,9 +230,12 @@ fn strikes(own: &Followed, across: &Across) -> Vec<CornerStrike> {
 /// The map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.
 fn map_of(asked: &OneLimit<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
     let [length, width] = own.drop.sides_m();
-    let [x, y] = asked.worst.part.at_m();
-    let columns = (PLACES * length / width).sqrt().clamp(5.0, 16.0).round();
-    let (along_m, across_m) = (lines(length, columns, x), lines(width, (PLACES / columns).max(5.0).round(), y));
+    let ([x, y], [a, b]) = (asked.worst.part.at_m(), own.drop.body.arms_m());
+    // The least is asked near the center of mass.
+    let center = [0.5 * (a - b), own.drop.across.map_or(0.0, |across| across.width.center_m())];
+    let columns = (PLACES * length / width).sqrt().clamp(7.0, 24.0).round();
+    let rows = (PLACES / columns).max(7.0).round();
+    let (along_m, across_m) = (lines(length, columns, [center[0], x]), lines(width, rows, [center[1], y]));
     let mut shares = Vec::with_capacity(along_m.len() * across_m.len());
     for &y in &across_m {
         for &x in &along_m {
@@ -245,13 +248,15 @@ fn map_of(asked: &OneLimit<'_>, own: &Followed, others: &[Followed]) -> Option<P
     Some(PlaceMap { along_m, across_m, shares, drops: 1 + others.len() })
 }
 
-/// Lines from edge to edge of a side, evenly but for one more through a place.
-fn lines(side_m: f64, count: f64, through_m: f64) -> Vec<f64> {
+/// Lines from edge to edge of a side, evenly but for those through two places.
+fn lines(side_m: f64, count: f64, through_m: [f64; 2]) -> Vec<f64> {
     let last = (count - 1.0).max(1.0);
     let mut lines: Vec<f64> =
         (0..32).map(f64::from).take_while(|k| *k <= last).map(|k| side_m * (k / last - 0.5)).collect();
-    lines.retain(|line| (line - through_m).abs() > 1e-3 * side_m);
-    lines.push(through_m);
+    for through_m in through_m {
+        lines.retain(|line| (line - through_m).abs() > 1e-3 * side_m);
+        lines.push(through_m);
+    }
     lines.sort_by(f64::total_cmp);
     lines
 }

@@ -13,7 +13,7 @@ use crate::{Attitude, DataFault, Drop, DropName, Fall, Feet, First, Landing, Law
 const LANDS_ON: [&str; 3] = ["face", "edge", "corner"];
 
 /// Drops of a file that are listed by hand: each takes a tenth of a second.
-const MOST_DROPS: usize = 100;
+pub(super) const MOST_DROPS: usize = 100;
 
 /// What a box lands on in one drop.
 struct LandsOn {
@@ -40,6 +40,7 @@ impl Reader {
         self.is_box = sections.iter().any(is_of_box);
         let (mut drops, mut all) = (Vec::new(), Vec::<Landing>::new());
         for section in &sections {
+            let faults = self.faults.len();
             let lands_on = self.lands_on(section, product);
             let drop = self.drop(section);
             if let (Some(feet), Some(drop)) = (product.and_then(|product| product.feet), &drop) {
@@ -48,7 +49,8 @@ impl Reader {
             if let (Some(product), Some(drop)) = (product, &drop) {
                 self.spins(section, drop, product);
             }
-            let Some(drop) = drop else { continue };
+            // What is at fault is compared with nothing.
+            let Some(drop) = drop.filter(|_| self.faults.len() == faults) else { continue };
             let own = if several && !self.is_box { vec![Landing::tilted(drop)] } else { Vec::new() };
             let is_listed = section.table.contains_key("standard");
             let of_box = lands_on.into_iter().map(|LandsOn { attitude, height_m, tolerance_rad, source }| {
@@ -110,9 +112,17 @@ impl Reader {
     /// Of a box whose bottom is off level by an angle, to one direction.
     fn tilted(&mut self, section: &Section<'_>) -> Option<Attitude> {
         let [tilt, direction] = ["tilt", "direction"].map(|name| self.spread(section, name));
-        if !section.table.contains_key("direction") {
-            let help = "add direction = \"30 deg\": where it rises to, from the length towards end b to the width";
-            self.fault(section.span.clone(), format!("{} has no `direction`", section.title), "in this table", help);
+        for (key, help) in [
+            ("direction", "add direction = \"30 deg\": where it rises to, from the length towards end b to the width"),
+            (
+                "attitude_tolerance",
+                "add attitude_tolerance = \"2 deg\": beside what a box lands on it is the tilt of one",
+            ),
+        ] {
+            // What is no plate is told to be no box.
+            if self.is_plate && !section.table.contains_key(key) {
+                self.fault(section.span.clone(), format!("{} has no `{key}`", section.title), "in this table", help);
+            }
         }
         for angle in [&tilt, &direction].into_iter().flatten().filter(|angle| !angle.value.is_value()) {
             let help = "give one angle; `attitude_tolerance` says how far off it may be";
@@ -138,7 +148,8 @@ impl Reader {
                 landings.extend(these.into_iter().map(|attitude| (attitude, 1.0, None)));
             }
         }
-        if section.table.contains_key("tilt") {
+        // Beside a standard it is told as one too many.
+        if section.table.contains_key("tilt") && !section.table.contains_key("standard") {
             landings.extend(self.tilted(section).map(|attitude| (attitude, 1.0, None)));
         }
         if let (Some(keyword), Some(product)) = (self.text(section, "standard"), product) {

@@ -288,6 +288,17 @@ impl Reader {
                     keys = below;
                     inner
                 }
+                (Kind::OneOrMore(_), DeValue::Array(items)) => {
+                    let message =
+                        format!("the product file has {} of `{step}`: `{}` is none of one", items.len(), shown(&name));
+                    self.fault(
+                        axis.span.clone(),
+                        message,
+                        "which of them?",
+                        "vary what all of them share, or give one",
+                    );
+                    return None;
+                }
                 (Kind::Tables(below), DeValue::Array(items)) => {
                     keys = below;
                     let part = path.next().map(String::as_str);

@@ -102,9 +102,13 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
         sentence(out, "", &text)?;
     }
     if !scatter.assumed_even.is_empty() {
-        let mut names: Vec<_> = scatter.assumed_even.iter().map(|input| in_full(file, input)).collect();
-        // Of all drops alike.
-        names.dedup();
+        let mut names: Vec<String> = Vec::new();
+        for name in scatter.assumed_even.iter().map(|input| in_full(file, input)) {
+            // Of all drops alike.
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
         writeln!(out, "Taken as equally likely all over the range: {}", names.join(", "))?;
     }
     writeln!(out)?;

@@ -39,9 +39,7 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     if file.landings.is_empty() {
         add("Tilt", tilt(&file.drop, product.width.is_some()));
     } else if !file.is_box() {
-        for (name, landing) in file.drop_names().iter().zip(&file.landings) {
-            add("Tilt", format!("{name}: {}", tilt(&landing.drop, product.width.is_some())));
-        }
+        add("Drops", format!("{}, each told below", file.landings.len()));
     } else {
         let source = file.landings.iter().find_map(|landing| landing.source);
         let drops = match &file.drop_names()[..] {
@@ -60,12 +58,9 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
         file.drop_names().iter().zip(&file.landings).find(|(_, landing)| landing.drop.may_spin())
     {
         let spin = range(&landing.drop.spin_rad_s, 1.0, "rad/s");
-        let others = if file.landings.iter().all(|other| other.drop.spin_rad_s == landing.drop.spin_rad_s) {
-            ""
-        } else {
-            "; others otherwise"
-        };
-        add("Spin", format!("{spin} at the first touch {}{others}", name.there()));
+        let alike = file.landings.iter().all(|other| other.drop.spin_rad_s == landing.drop.spin_rad_s);
+        let of = if alike { String::new() } else { format!(" {}; others otherwise", name.there()) };
+        add("Spin", format!("{spin} at the first touch{of}"));
     }
     let gravity = file.drop.gravity_m_s2;
     add(
@@ -86,13 +81,17 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
 
 /// At which tilt a bar or a plate lands, and what of it first.
 fn tilt(drop: &Drop, is_plate: bool) -> String {
-    let first = match (drop.first, &drop.direction_rad) {
+    format!("{} at the first touch, {}", degrees(&drop.tilt_rad), first(drop, is_plate))
+}
+
+/// What of a bar or a plate lands first.
+pub(super) fn first(drop: &Drop, is_plate: bool) -> String {
+    match (drop.first, &drop.direction_rad) {
         (First::End(first), _) => format!("end {} first", end(first)),
         (First::Either, None) if is_plate => "rising to any direction".to_owned(),
         (First::Either, None) => "either end first".to_owned(),
         (First::Either, Some(given)) => format!("rising to {}", degrees(given)),
-    };
-    format!("{} at the first touch, {first}", degrees(&drop.tilt_rad))
+    }
 }
 
 fn degrees(of: &Spread) -> String {
@@ -180,7 +179,9 @@ fn drop(file: &ProductFile) -> String {
     if file.landings.iter().any(|landing| landing.drop.fall != file.drop.fall) {
         let speeds = file.landings.iter().map(|landing| landing.drop.speeds_m_s());
         let widest = speeds.reduce(|[lo, hi], [slow, fast]| [lo.min(slow), hi.max(fast)]).unwrap_or_default();
-        return format!("each from its own height, at {}", span(widest, 1.0, "m/s"));
+        let is_high = |landing: &clatter_assess::Landing| matches!(landing.drop.fall, Fall::HeightM(_));
+        let each = if file.landings.iter().all(is_high) { "each from its own height" } else { "each for itself" };
+        return format!("{each}, at {}", span(widest, 1.0, "m/s"));
     }
     match file.drop.fall {
         Fall::HeightM(height) => {

@@ -1,9 +1,10 @@
 //! What the pages say of several drops, and of a box that lands on faces, edges and corners.
 
-use clatter_assess::{Assessment, LandingAssessment, ProductFile, Spread};
+use clatter_assess::{Assessment, Landing, LandingAssessment, ProductFile, Spread};
 use clatter_figures::three;
 use serde_json::{Value, json};
 
+use super::inputs::first;
 use crate::words::{name, percent, shown, span};
 
 /// What the pages of a box leave out.
@@ -35,20 +36,20 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
         (landing.speed_m_s.map(f64::to_bits), landing.spin_rad_s.map(|spins| spins.map(f64::to_bits)))
     };
     let alike = assessment.landings.windows(2).all(|two| speeds(&two[0]) == speeds(&two[1]));
-    let row = |landing: &LandingAssessment| {
+    let is_plate = file.product.width.is_some();
+    let row = |(landing, listed): (&LandingAssessment, &Landing)| {
         let tightest = landing.tightest()?;
         let component = file.components.iter().find(|component| component.name == tightest.component)?;
         let unit = tightest.limit.unit();
         let of = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(unit, value));
+        let mut called = vec![landing.landing.to_string()];
+        called.extend(listed.attitude.is_none().then(|| first(&listed.drop, is_plate)));
+        if !alike {
+            called.push(span(landing.speed_m_s, 1.0, "m/s"));
+            called.extend(landing.spin_rad_s.map(|spins| format!("turning at {}", span(spins, 1.0, "rad/s"))));
+        }
         Some(json!([
-            if alike {
-                landing.landing.to_string()
-            } else {
-                let spin = landing
-                    .spin_rad_s
-                    .map_or(String::new(), |spins| format!(", turning at {}", span(spins, 1.0, "rad/s")));
-                format!("{}, {}{spin}", landing.landing, span(landing.speed_m_s, 1.0, "m/s"))
-            },
+            called.join(", "),
             landing.tilt_deg.map_or_else(
                 || format!("{}°", three(landing.tolerance_deg.unwrap_or_default())),
                 |tilts| span(tilts, 1.0, "°").replace(" °", "°"),
@@ -61,5 +62,5 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
             landing.verdict.name(),
         ]))
     };
-    assessment.landings.iter().filter_map(row).collect()
+    assessment.landings.iter().zip(&file.landings).filter_map(row).collect()
 }

@@ -191,7 +191,7 @@ pub(super) fn part(
             seen(over_tilt.fold(0.0, f64::max)),
             flat_until(portrait)
         ),
-        "plate": tightest.worst_case.as_ref().zip(portrait.plate.as_ref()).map(|(worst, of)| plate::captions(assessed, worst, of)),
+        "plate": tightest.worst_case.as_ref().zip(portrait.plate.as_ref()).map(|(worst, of)| plate::captions(component, assessed, worst, of)),
         "source": component.limit_source.as_deref().map(sure_name),
         "tilt-alt": format!("Curve of the worst {what} over the tilt at the first touch."),
     })

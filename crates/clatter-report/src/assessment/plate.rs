@@ -144,8 +144,8 @@ fn span(map: &PlaceMap) -> [f64; 2] {
 pub(super) fn zone(tightest: LimitKind, of: &PlatePortrait) -> String {
     let own = of.maps.first().filter(|(kind, _)| *kind == tightest);
     let said = match own.map(|(_, map)| span(map)) {
-        Some([least, _]) if least > 1.0 => "that limit holds nowhere on the plate",
-        Some([_, most]) if most <= 1.0 => "that limit holds anywhere on the plate",
+        Some([least, _]) if least > 1.0 => "that limit holds at no place of its map",
+        Some([_, most]) if most <= 1.0 => "that limit holds at every place of its map",
         Some(_) => "that limit holds where all of the part lies within the border of its map",
         None => return " That limit is asked for the same anywhere on the plate.".to_owned(),
     };
@@ -154,16 +154,28 @@ pub(super) fn zone(tightest: LimitKind, of: &PlatePortrait) -> String {
 
 /// Where limits other than the one whose map is drawn hold, each in the drops around its own worst one.
 fn of_others(of: &PlatePortrait) -> String {
-    let one = |(kind, map): &(LimitKind, PlaceMap)| match span(map) {
+    let one = |((kind, map), line): (&(LimitKind, PlaceMap), &str)| match span(map) {
         [least, _] if least > 1.0 => format!(" Its {} is exceeded everywhere.", kind.words()),
         [_, most] if most <= 1.0 => format!(" Its {} is exceeded nowhere.", kind.words()),
-        _ => format!(" Dotted: the same of its {}.", kind.words()),
+        _ => format!(" {line}: the border of its {}.", kind.words()),
     };
-    of.maps.iter().skip(1).map(one).collect::<Vec<_>>().concat()
+    of.maps
+        .iter()
+        .skip(1)
+        .zip(["Dotted", "Dash-dotted", "Thin dashes", "Long dashes"])
+        .map(one)
+        .collect::<Vec<_>>()
+        .concat()
 }
 
 /// What stands below the figures of a part.
-pub(super) fn captions(assessed: &ComponentAssessment, worst: &WorstCase, portrait: &PlatePortrait) -> Value {
+pub(super) fn captions(
+    component: &Component,
+    assessed: &ComponentAssessment,
+    worst: &WorstCase,
+    portrait: &PlatePortrait,
+) -> Value {
+    let has_extent = component.extent_m > 0.0 || component.extent_across_m > 0.0;
     let of = assessed.tightest();
     let (what, tilt) = (of.limit.measured(of.unit), three(worst.tilt_deg()));
     let most = portrait.over_direction.iter().map(|point| of.allowed * point.share).fold(0.0, f64::max);
@@ -176,18 +188,19 @@ pub(super) fn captions(assessed: &ComponentAssessment, worst: &WorstCase, portra
         let part = hz.map(|hz| format!(" at {} Hz", three(hz))).unwrap_or_default();
         let (drops, others) = (map.drops, map.drops - 1);
         let holds = match span(map) {
-            [least, _] if least > 1.0 => "It is exceeded everywhere.".to_owned(),
-            [_, most] if most <= 1.0 => "It is exceeded nowhere.".to_owned(),
+            [least, _] if least > 1.0 => format!("Everywhere it is above {allowed}."),
+            [_, most] if most <= 1.0 => format!("Nowhere it is above {allowed}."),
             _ => format!("Bold line: the border of where {allowed} is not exceeded, which is in the lighter part."),
         };
         let of_others = of_others(portrait);
+        let outline = if has_extent { " Dashed: the part." } else { "" };
         let of_drops = if others == 0 {
             "in the worst drop".to_owned()
         } else {
             format!("the most of {drops} drops, the worst one and it with {others} other directions")
         };
         json!({
-            "said": format!("The {what} that this part{part} would be asked for anywhere on the plate: {of_drops}. {holds}{of_others} Dashed: the part."),
+            "said": format!("The {what} that this part{part} would be asked for anywhere on the plate: {of_drops}. {holds}{of_others}{outline}"),
             "alt": format!("Map over the plan of the plate: the {what} that this part would be asked for at each place."),
         })
     });
@@ -199,8 +212,9 @@ pub(super) fn captions(assessed: &ComponentAssessment, worst: &WorstCase, portra
         ),
         "direction-alt": format!("Curve of the {what} over the direction in which the plate is tilted."),
         "landing": format!(
-            "The worst drop from above. At each corner its first strikes: number, time, change of velocity; the peak comes after number {}. Arrow: where the plate rises to. Dashed: the part; dot: its place that is asked most.",
-            worst.impact
+            "The worst drop from above. At each corner its first strikes: number, time, change of velocity; the peak comes after number {}. Arrow: where the plate rises to.{} Dot: the place of the part that is asked most.",
+            worst.impact,
+            if has_extent { " Dashed: the part." } else { "" },
         ),
         "landing-alt": format!("Plan of the plate as it lands, its corners numbered in the order of their strikes: {order}."),
         "map": map,
