@@ -39,9 +39,11 @@ pub(super) struct Step {
 }
 
 fn combined(from: &Vector, h: f64, weights: &[f64], slopes: &[Vector]) -> Vector {
-    std::array::from_fn(|i| {
-        from[i] + h * weights.iter().zip(slopes).map(|(weight, slope)| weight * slope[i]).sum::<f64>()
-    })
+    let mut sum = [0.0; SIZE];
+    for (weight, slope) in weights.iter().zip(slopes) {
+        sum = std::array::from_fn(|i| sum[i] + weight * slope[i]);
+    }
+    std::array::from_fn(|i| from[i] + h * sum[i])
 }
 
 impl Step {
@@ -59,6 +61,12 @@ impl Step {
         let end: Vector = std::array::from_fn(|i| change[i] - h * slopes[6][i] - begin[i]);
         let powers = [change, begin, end, combined(&zero, h, &DENSE, &slopes)];
         Self { from: *from, powers, error: combined(&zero, h, &ERROR, &slopes) }
+    }
+
+    /// How far each number may come from where it begins, by the largest values of those powers.
+    pub(super) fn reach(&self) -> Vector {
+        let [p0, p1, p2, p3] = &self.powers;
+        std::array::from_fn(|i| p0[i].abs() + 0.25 * p1[i].abs() + 0.15 * p2[i].abs() + 0.0625 * p3[i].abs())
     }
 
     /// At a share of it.

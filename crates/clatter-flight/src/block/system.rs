@@ -46,6 +46,19 @@ pub(super) struct System {
     pub(super) holds: [Corner; 8],
 }
 
+/// Of a force of 1 on each corner its moment, and the angular acceleration by that.
+pub(super) struct Turns {
+    arms: [[f64; 3]; 8],
+    turned: [[f64; 3]; 8],
+}
+
+impl Turns {
+    /// What a force on a corner over the mass accelerates another corner by.
+    pub(super) fn coupling(&self, i: usize, j: usize) -> f64 {
+        1.0 + dot(self.arms[i], self.turned[j])
+    }
+}
+
 pub(super) fn parts(y: &Vector) -> (f64, f64, [f64; 3], [f64; 3]) {
     (y[0], y[1], [y[2], y[3], y[4]], [y[5], y[6], y[7]])
 }
@@ -95,10 +108,10 @@ impl System {
         let (turn, spun) = (cross(n, spin), self.turning(spin, moment));
         [v, force - self.gravity, turn[0], turn[1], turn[2], spun[0], spun[1], spun[2]]
     }
-    /// What a force on a corner over the mass accelerates another corner by.
-    pub(super) fn coupling(&self, n: [f64; 3], i: usize, j: usize) -> f64 {
-        let [a, b] = [i, j].map(|k| cross(self.corners[k], n));
-        1.0 + dot(a, times(&self.block.inverse, b))
+    /// How a vertical force on each corner turns the box.
+    pub(super) fn turns(&self, n: [f64; 3]) -> Turns {
+        let arms = self.corners.map(|corner| cross(corner, n));
+        Turns { arms, turned: arms.map(|arm| times(&self.block.inverse, arm)) }
     }
     /// Height at which a corner parts from the ground, as far as it is pressed in now.
     pub(super) fn dent(&self, i: usize, y: &Vector) -> f64 {
@@ -128,10 +141,16 @@ impl System {
         };
         (0..8).map(one).sum()
     }
+    /// Whether a corner is up all along a step from y on which the state comes so far, also but for roundings.
+    pub(super) fn stays_up(&self, i: usize, y: &Vector, reach: &Vector) -> bool {
+        let (Corner { hold, ground, .. }, corner) = (self.holds[i], self.corners[i]);
+        let falls = reach[0] + dot([reach[2], reach[3], reach[4]], corner.map(f64::abs));
+        hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], corner) > falls * (1.0 + 1e-6)
+    }
     /// Whether a corner has come to its next event.
     pub(super) fn has_happened(&self, i: usize, y: &Vector) -> bool {
         let Corner { hold, ground, .. } = self.holds[i];
-        // Most corners are up, most of the time.
+        // Most corners that are looked at are up, most of the time.
         if hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], self.corners[i]) >= 0.0 {
             return false;
         }
