@@ -191,12 +191,15 @@ impl Answer {
                 Followed::until(other, model, tolerance, until).and_then(|other| of_followed(&other, part, limit));
             other.map_or(f64::INFINITY, |other| (other.value - self.value).abs())
         };
-        let mut most = off(drop, FINER * tolerance);
+        // A box is followed as exactly for any tolerance.
+        let mut most = if drop.is_box() { 0.0 } else { off(drop, FINER * tolerance) };
         for off_by in [-KEPT_ARMS, KEPT_ARMS].map(|arms| arms * PRECISION * tolerance) {
             let bounces = drop.with_restitutions(|e| (e + off_by * (1.0 + e)).clamp(0.0, 1.0));
+            most = most.max(off(&bounces, tolerance));
             let tilt_rad = (drop.tilt_rad * (1.0 + off_by)).min(UPRIGHT);
-            let steeper = SingleDrop { tilt_rad, ..*drop };
-            most = most.max(off(&bounces, tolerance)).max(off(&steeper, tolerance));
+            if tilt_rad.to_bits() != drop.tilt_rad.to_bits() {
+                most = most.max(off(&SingleDrop { tilt_rad, ..*drop }, tolerance));
+            }
         }
         Self { off_by: self.off_by.max(SAFETY * most), ..self }
     }

@@ -364,7 +364,8 @@ impl<'a> Run<'a> {
         let step = loop {
             let step = Step::new(&self.y, h, |y| self.system.slope(y));
             let over = (0..SIZE).map(|i| step.error[i].abs() / (TOLERANCE * self.scales[i])).fold(0.0, f64::max);
-            let factor = 0.9 * libm::pow(over.max(1e-10), -0.2);
+            // Below that it is more than the stride may grow by.
+            let factor = if over < 1e-4 { 5.0 } else { 0.9 * libm::pow(over, -0.2) };
             if over <= 1.0 {
                 self.stride = h * factor.clamp(0.2, 5.0);
                 break step;
