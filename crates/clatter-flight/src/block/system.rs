@@ -33,6 +33,13 @@ pub(super) struct Corner {
     pub(super) strike: usize,
 }
 
+impl Corner {
+    /// Whether the ground presses on it.
+    fn bears(&self) -> bool {
+        !matches!(self.hold, Hold::Up | Hold::Slack)
+    }
+}
+
 /// A box and what presses on it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct System {
@@ -65,16 +72,15 @@ pub(super) fn parts(y: &Vector) -> (f64, f64, [f64; 3], [f64; 3]) {
 
 impl System {
     /// Height and vertical velocity of a place from the center of mass.
+    #[inline]
     pub(super) fn place(y: &Vector, place: [f64; 3]) -> (f64, f64) {
         let (z, v, n, spin) = parts(y);
         (z + dot(n, place), v + dot(n, cross(spin, place)))
     }
     pub(super) fn force(&self, corner: usize, y: &Vector) -> f64 {
-        if matches!(self.holds[corner].hold, Hold::Up | Hold::Slack) {
-            return 0.0;
-        }
-        self.press(corner, Self::place(y, self.corners[corner]))
+        if self.holds[corner].bears() { self.press(corner, Self::place(y, self.corners[corner])) } else { 0.0 }
     }
+    #[inline]
     pub(super) fn press(&self, corner: usize, (height, velocity): (f64, f64)) -> f64 {
         let (Corner { hold, ground, stiffness, .. }, loss) = (self.holds[corner], self.loss[corner]);
         let depth = ground - height;
@@ -87,10 +93,10 @@ impl System {
     pub(super) fn load(&self, y: &Vector) -> (f64, [f64; 3]) {
         let (_, _, n, _) = parts(y);
         let (mut force, mut moment) = (0.0, [0.0; 3]);
-        for i in 0..8 {
-            let own = self.force(i, y);
+        for (i, corner) in self.corners.iter().enumerate().filter(|(i, _)| self.holds[*i].bears()) {
+            let own = self.press(i, Self::place(y, *corner));
             if own != 0.0 {
-                let arm = cross(self.corners[i], n);
+                let arm = cross(*corner, n);
                 force += own;
                 (0..3).for_each(|axis| moment[axis] += own * arm[axis]);
             }
