@@ -26,8 +26,8 @@ use crate::drop::{Followed, SingleDrop, Until};
 use crate::engine::{Part, PlaceHistory, Spot, once};
 use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
-use edges::Order;
 use climb::{BOX_REACH, BOX_TRIES, CLIMBS, EDGES_REACH, EDGES_TRIES, FACE_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
+use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
 use ranges::{DAMPING, FREQUENCY};
@@ -120,10 +120,10 @@ impl Ranges<'_> {
             let mut orders = Vec::with_capacity(drops.len());
             for wave in drops.chunks(WAVE) {
                 let best = all.best();
-                let of_one = |(k, drop): &(u32, Place)| {
-                    let early = work.go_on(1).and_then(|()| self.follow(drop, Until::Lands));
+                let of_one = |drop: &(u32, Place)| {
+                    let early = work.go_on(1).and_then(|()| self.follow(&drop.1, Until::Lands));
                     let order = early.as_ref().ok().map(Order::of);
-                    (order, early.and_then(|early| self.ask(tasks, *k, drop, &early, best.clone(), only, to_rest)))
+                    (order, early.and_then(|early| self.ask(tasks, drop, &early, best.clone(), only, to_rest)))
                 };
                 let (of_wave, asked): (Vec<_>, Vec<_>) = wave.par_iter().map(of_one).unzip();
                 orders.extend(of_wave);
@@ -222,8 +222,7 @@ impl Ranges<'_> {
     fn ask(
         &self,
         tasks: &[Task<'_>],
-        k: u32,
-        drop: &Place,
+        (k, drop): &(u32, Place),
         early: &Followed,
         mut best: Vec<f64>,
         only: Option<&[bool]>,
@@ -270,7 +269,7 @@ impl Ranges<'_> {
                     let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
                     let frequencies = Self::frequencies(task, &early.drop);
                     let late = frequencies.max(FREQUENCIES_LATE);
-                    let mut asked = self.most(task, &place, felt, k, frequencies, near)?;
+                    let mut asked = self.most(task, &place, felt, *k, frequencies, near)?;
                     let reached =
                         |asked: Option<Candidate>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
                     let parts = Self::softest_and_stiffest(task, &place)?;
@@ -282,10 +281,10 @@ impl Ranges<'_> {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
                         let longer = felt.longer(rebounded)?;
                         let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());
-                        asked = self.most(task, &place, &longer, k, late, above(asked))?.or(asked);
+                        asked = self.most(task, &place, &longer, *k, late, above(asked))?.or(asked);
                         if longer.later_most(&task.limit, &parts, reached(asked)) > 0.0 {
                             let longest = longer.longer(self.followed(drop, Until::Over, &mut over)?)?;
-                            asked = self.most(task, &place, &longest, k, late, above(asked))?.or(asked);
+                            asked = self.most(task, &place, &longest, *k, late, above(asked))?.or(asked);
                         }
                     }
                     if let Some(mut asked) = asked {
