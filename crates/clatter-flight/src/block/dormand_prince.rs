@@ -93,4 +93,15 @@ mod tests {
         assert!(gain(1.0) > 5.7 && gain(0.37) > 4.7, "{} {}", gain(1.0), gain(0.37));
         assert!(off(0.2, 1.0) < 1e-7, "{}", off(0.2, 1.0));
     }
+
+    /// Of each power alone the state comes as far from where it begins as is said, or nearly: 4/27 of the third at two thirds.
+    #[test]
+    fn a_step_reaches_no_further_than_said() {
+        let powers = std::array::from_fn(|k| std::array::from_fn(|i| if i == k { -3.0 } else { 0.0 }));
+        let step = Step { from: [0.5; SIZE], powers, error: [0.0; SIZE] };
+        for (i, reach) in step.reach().into_iter().enumerate().take(4) {
+            let most = (0..=300).map(|k| (step.at(f64::from(k) / 300.0)[i] - 0.5).abs()).fold(0.0, f64::max);
+            assert!(most <= reach && most > 0.98 * reach, "power {i}: {most} of {reach}");
+        }
+    }
 }
