@@ -6,10 +6,10 @@
 mod later;
 
 use std::f64::consts::FRAC_PI_2;
-use std::sync::OnceLock;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use clatter::{Bar, End, EndPeaks, Excitation, Start};
-use clatter_shock::{Pulses, Response, Suspension};
+use clatter_shock::{Pulses, Response, State, Suspension};
 
 use crate::drop::{Followed, Model, PRECISION, SingleDrop, Until};
 use crate::history::{SHORT, pulses};
@@ -191,12 +191,15 @@ impl Answer {
                 Followed::until(other, model, tolerance, until).and_then(|other| of_followed(&other, part, limit));
             other.map_or(f64::INFINITY, |other| (other.value - self.value).abs())
         };
-        let mut most = off(drop, FINER * tolerance);
+        // A box is followed as exactly for any tolerance.
+        let mut most = if drop.is_box() { 0.0 } else { off(drop, FINER * tolerance) };
         for off_by in [-KEPT_ARMS, KEPT_ARMS].map(|arms| arms * PRECISION * tolerance) {
             let bounces = drop.with_restitutions(|e| (e + off_by * (1.0 + e)).clamp(0.0, 1.0));
+            most = most.max(off(&bounces, tolerance));
             let tilt_rad = (drop.tilt_rad * (1.0 + off_by)).min(UPRIGHT);
-            let steeper = SingleDrop { tilt_rad, ..*drop };
-            most = most.max(off(&bounces, tolerance)).max(off(&steeper, tolerance));
+            if tilt_rad.to_bits() != drop.tilt_rad.to_bits() {
+                most = most.max(off(&SingleDrop { tilt_rad, ..*drop }, tolerance));
+            }
         }
         Self { off_by: self.off_by.max(SAFETY * most), ..self }
     }
@@ -287,6 +290,8 @@ pub(crate) struct PlaceHistory<'a> {
     fastest_rad_s: f64,
     /// Its velocity shocks, as they are asked for.
     shocks: OnceLock<Vec<Shock>>,
+    /// How parts move as it ends, of those that were asked for.
+    ends: Mutex<Vec<(Suspension, State)>>,
     /// The same until earlier, of which all answers are known.
     known: Option<&'a PlaceHistory<'a>>,
 }
@@ -305,7 +310,8 @@ impl<'a> PlaceHistory<'a> {
         let spot = spot.into();
         let history = followed.drop.felt(&followed.motion, &spot);
         let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2(&spot))?;
-        Ok(Self { followed, history, pulses, spot, fastest_rad_s, shocks: OnceLock::new(), known: None })
+        let (shocks, ends) = (OnceLock::new(), Mutex::default());
+        Ok(Self { followed, history, pulses, spot, fastest_rad_s, shocks, ends, known: None })
     }
 
     /// The same place in the same drop, followed for longer.
@@ -407,16 +413,13 @@ impl<'a> PlaceHistory<'a> {
         let (omega, peaked) = (part.omega(), of.peaked);
         let unit = of.of_velocity(1.0, omega);
         // What comes after a motion that was left early is no ring-down.
-        let peak = if self.followed.is_early() {
-            self.pulses.peak_within(part, peaked, above / unit)?
-        } else {
-            self.pulses.peak_above(part, peaked, above / unit)?
-        };
+        let (peak, end) = self.pulses.peak_and_end(part, peaked, above / unit, !self.followed.is_early());
+        self.ends().push((*part, end));
+        let peak = peak?;
         let velocity = peak.value.abs();
         // What rings on as the motion is left, and the later shocks, as if all came at its crest.
         let doubt = if self.followed.motion.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
-            let rest = self.pulses.state_at_end(part);
-            let most = libm::hypot(omega * rest.displacement, rest.velocity) + self.later().shock_of(part);
+            let most = libm::hypot(omega * end.displacement, end.velocity) + self.later().shock_of(part);
             most * libm::hypot(of.of_damper(part.damping()), 1.0) - velocity
         } else {
             0.0
@@ -425,6 +428,19 @@ impl<'a> PlaceHistory<'a> {
         let follows = (omega / self.peak_per_change()).max(1.0);
         let off = self.followed.kept_arms() * self.followed.largest_m_s / follows;
         Some((unit * velocity, peak.time, unit * (off + doubt.max(0.0))))
+    }
+
+    /// How a part moves as the history ends.
+    fn end_of(&self, part: &Suspension) -> State {
+        let known = self.ends().iter().find(|(other, _)| other == part).map(|(_, end)| *end);
+        known.unwrap_or_else(|| {
+            let end = self.pulses.state_at_end(part);
+            self.ends().push((*part, end));
+            end
+        })
+    }
+    fn ends(&self) -> MutexGuard<'_, Vec<(Suspension, State)>> {
+        self.ends.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Largest acceleration in a lone contact over its change of velocity; infinite where no contact time is known.

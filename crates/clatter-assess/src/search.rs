@@ -27,6 +27,7 @@ use crate::engine::{Part, PlaceHistory, Spot, once};
 use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
 use climb::{BOX_REACH, BOX_TRIES, CLIMBS, EDGES_REACH, EDGES_TRIES, FACE_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
+use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
 use ranges::{DAMPING, FREQUENCY};
@@ -116,21 +117,26 @@ impl Ranges<'_> {
         // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
         // any number of threads.
         let ask = |all: &mut Candidates, drops: &[(u32, Place)], only: Option<&[bool]>, to_rest: bool| {
+            let mut orders = Vec::with_capacity(drops.len());
             for wave in drops.chunks(WAVE) {
                 let best = all.best();
-                let of_one = |(k, drop): &(u32, Place)| {
-                    work.go_on(1).and_then(|()| self.ask(tasks, *k, drop, best.clone(), only, to_rest))
+                let of_one = |drop: &(u32, Place)| {
+                    let early = work.go_on(1).and_then(|()| self.follow(&drop.1, Until::Lands));
+                    let order = early.as_ref().ok().map(Order::of);
+                    (order, early.and_then(|early| self.ask(tasks, drop, &early, best.clone(), only, to_rest)))
                 };
-                all.take(wave.par_iter().map(of_one).collect());
+                let (of_wave, asked): (Vec<_>, Vec<_>) = wave.par_iter().map(of_one).unzip();
+                orders.extend(of_wave);
+                all.take(asked);
                 self.passes(tasks, all, &best, most).map_or(Ok(()), Err)?;
             }
-            Ok(())
+            Ok(orders)
         };
-        ask(&mut all, &grid, None, of_all)?;
+        let orders = ask(&mut all, &grid, None, of_all)?;
         ask(&mut all, &overlaps, Some(&shocks), of_all)?;
         let edged: Vec<bool> = tasks.iter().map(|task| self.has_edges(task)).collect();
         if edged.contains(&true) {
-            ask(&mut all, &self.edges(&grid, &work), Some(&edged), of_all)?;
+            ask(&mut all, &self.edges(&grid, &orders, &work), Some(&edged), of_all)?;
         }
         // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
@@ -212,18 +218,17 @@ impl Ranges<'_> {
         tasks.iter().enumerate().find_map(of_one)
     }
 
-    /// What drop k asks of each task, or of those marked in `only`, where that comes near the worst.
+    /// What drop k, which was followed until it lands, asks of each task, or of those marked in `only`, where that comes near the worst.
     fn ask(
         &self,
         tasks: &[Task<'_>],
-        k: u32,
-        drop: &Place,
+        (k, drop): &(u32, Place),
+        early: &Followed,
         mut best: Vec<f64>,
         only: Option<&[bool]>,
         to_rest: bool,
     ) -> Result<OfDrop, Error> {
         let (mut of_drop, is_plate) = (OfDrop::default(), self.product.width.is_some());
-        let early = self.follow(drop, Until::Lands)?;
         let (mut rebounded, mut over) = (None, None);
         let mut first = 0;
         for of_one in tasks.chunk_by(|a, b| std::ptr::eq(a.component, b.component)) {
@@ -255,7 +260,7 @@ impl Ranges<'_> {
                     let felt = match &mut felt {
                         Some(felt) => felt,
                         none => {
-                            none.insert(PlaceHistory::rough(&early, task.spot(at_m), rough_to_rad_s(task.component))?)
+                            none.insert(PlaceHistory::rough(early, task.spot(at_m), rough_to_rad_s(task.component))?)
                         }
                     };
                     let worst = best[number];
@@ -264,7 +269,7 @@ impl Ranges<'_> {
                     let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
                     let frequencies = Self::frequencies(task, &early.drop);
                     let late = frequencies.max(FREQUENCIES_LATE);
-                    let mut asked = self.most(task, &place, felt, k, frequencies, near)?;
+                    let mut asked = self.most(task, &place, felt, *k, frequencies, near)?;
                     let reached =
                         |asked: Option<Candidate>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
                     let parts = Self::softest_and_stiffest(task, &place)?;
@@ -276,10 +281,10 @@ impl Ranges<'_> {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
                         let longer = felt.longer(rebounded)?;
                         let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());
-                        asked = self.most(task, &place, &longer, k, late, above(asked))?.or(asked);
+                        asked = self.most(task, &place, &longer, *k, late, above(asked))?.or(asked);
                         if longer.later_most(&task.limit, &parts, reached(asked)) > 0.0 {
                             let longest = longer.longer(self.followed(drop, Until::Over, &mut over)?)?;
-                            asked = self.most(task, &place, &longest, k, late, above(asked))?.or(asked);
+                            asked = self.most(task, &place, &longest, *k, late, above(asked))?.or(asked);
                         }
                     }
                     if let Some(mut asked) = asked {

@@ -126,13 +126,13 @@ fn at_instants(changes: impl Iterator<Item = (f64, f64)>) -> Vec<Shock> {
     all.into_iter().map(shock).collect()
 }
 
-/// A sample of what is felt: its section, time, acceleration, and the change of velocity until then.
+/// A sample of what is felt: its section, when in it, its time and acceleration.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
     section: usize,
+    t: f64,
     time_s: f64,
     felt: f64,
-    velocity: f64,
 }
 
 /// A felt acceleration in sections, with the change of velocity of the place until each begins.
@@ -169,7 +169,7 @@ pub(crate) fn shocks(felt: &Excitation, gravity: f64) -> Vec<Shock> {
         let end = history.end_of(&samples, &taken, last, [on(last), back(last).filter(|k| *k >= first)]);
         taken[first..=last].fill(true);
         let (peak, time_s) = history.crest(&samples, peak);
-        let change = (end.velocity - begin.velocity).abs();
+        let change = (history.velocity_at(&end) - history.velocity_at(&begin)).abs();
         found.push(Shock { span_s: [begin.time_s, end.time_s], change, peak, time_s });
     }
     found.sort_by(|a, b| a.span_s[0].total_cmp(&b.span_s[0]));
@@ -208,8 +208,11 @@ impl<'a> History<'a> {
     fn at(&self, section: usize, t: f64) -> Sample {
         let of = self.felt.section(section);
         let felt = if of.free { 0.0 } else { of.acceleration_at(t) };
-        let velocity = self.velocity[section] + of.velocity_after(t) - self.gravity * t;
-        Sample { section, time_s: of.from + t, felt, velocity }
+        Sample { section, t, time_s: of.from + t, felt }
+    }
+    /// The change of velocity until a sample.
+    fn velocity_at(&self, &Sample { section, t, .. }: &Sample) -> f64 {
+        self.velocity[section] + self.felt.section(section).velocity_after(t) - self.gravity * t
     }
     fn sampled(&self) -> Vec<Sample> {
         let mut all: Vec<Sample> = Vec::with_capacity(8 * self.velocity.len());

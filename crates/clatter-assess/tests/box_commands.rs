@@ -354,7 +354,9 @@ fn changes_of_boxes_hold_when_assessed() {
     let text =
         on("face", "bottom").replace("axis = \"x\"\n", "").replace("= 0.4", "= 0.3").replace("5000 gn", "2700 gn");
     let text = text.replace("\"14 mm\"", "\"40 mm\"").replace("extent = [\"20 mm\", \"10 mm\"]\n", "");
-    let text = text.replace("\"10 mm\", \"5 mm\"]", "\"30 mm\", \"15 mm\"]").replace("9 mm\"", "7.2 mm\"");
+    let text = text.replace("\"10 mm\", \"5 mm\"]", "\"30 mm\", \"15 mm\"]").replace("9 mm\"", "5.2 mm\"");
+    // So damped that its rebounds seldom count, which drops would be followed for longer for.
+    let text = text.replace("damping_ratio = 0.1", "damping_ratio = 0.35");
     let file = file(&text);
     let before = file.assess().unwrap();
     assert!(before.components.iter().all(|component| component.verdict != Verdict::Safe), "{before:?}");

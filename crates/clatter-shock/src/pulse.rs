@@ -362,14 +362,22 @@ impl Pulses {
     /// ```
     #[must_use]
     pub fn peak_above(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
-        self.peak(suspension, peaked, above, true)
+        self.peak_and_end(suspension, peaked, above, true).0
     }
     /// The same until the end of the history, without the ring-down after it: of a history that is known only so far.
     #[must_use]
     pub fn peak_within(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
-        self.peak(suspension, peaked, above, false)
+        self.peak_and_end(suspension, peaked, above, false).0
     }
-    fn peak(&self, suspension: &Suspension, peaked: Peaked, above: f64, rings_down: bool) -> Option<Extreme> {
+    /// One of both, as `rings_down` says, with the [state at the end](Self::state_at_end), which takes no longer.
+    #[must_use]
+    pub fn peak_and_end(
+        &self,
+        suspension: &Suspension,
+        peaked: Peaked,
+        above: f64,
+        rings_down: bool,
+    ) -> (Option<Extreme>, State) {
         let modes = Modes::new(suspension.damping());
         let (omega, row) = (suspension.omega(), peaked.row());
         let mut range = [Range::beyond(above)];
@@ -378,7 +386,7 @@ impl Pulses {
         if rings_down {
             range.note_carried(&modes, row, last, -self.carried / omega, self.pieces.len());
         }
-        range.peak_above(above, omega, |i| self.begin(i))
+        (range.peak_above(above, omega, |i| self.begin(i)), modes.state(omega, last))
     }
     /// Number of the interval after the last pulse.
     pub(crate) fn end_interval(&self) -> usize {
@@ -393,8 +401,7 @@ impl Pulses {
     pub fn state_at_end(&self, suspension: &Suspension) -> State {
         let modes = Modes::new(suspension.damping());
         let omega = suspension.omega();
-        let m = self.drive(&modes, omega, &[], &mut []);
-        State { displacement: m.x / omega, velocity: modes.quantity(Modes::VELOCITY, m) }
+        modes.state(omega, self.drive(&modes, omega, &[], &mut []))
     }
     /// The motion at the end of the last pulse; extremes until then of the quantities asked go into `ranges`.
     pub(crate) fn drive(&self, modes: &Modes, omega: f64, quantities: &[usize], ranges: &mut [Range]) -> Motion {

@@ -139,8 +139,7 @@ impl Suspension {
     pub fn free(&self, state: State, t: f64) -> State {
         let modes = Modes::new(self.damping);
         let step = modes.propagator(Phase::product(self.omega, t));
-        let m = step.apply(modes.p, modes.motion(self.omega, state));
-        State { displacement: m.x / self.omega, velocity: modes.quantity(Modes::VELOCITY, m) }
+        modes.state(self.omega, step.apply(modes.p, modes.motion(self.omega, state)))
     }
 }
 
@@ -286,6 +285,9 @@ impl Modes {
     pub(crate) fn motion(&self, omega: f64, state: State) -> Motion {
         let x = omega * state.displacement;
         Motion { x, w: state.velocity + self.sigma * x }
+    }
+    pub(crate) fn state(&self, omega: f64, m: Motion) -> State {
+        State { displacement: m.x / omega, velocity: self.quantity(Self::VELOCITY, m) }
     }
     /// Row k of the motion.
     #[inline]

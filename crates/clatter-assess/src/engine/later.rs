@@ -144,7 +144,7 @@ impl PlaceHistory<'_> {
         if shock * per_velocity <= above * -libm::expm1(-slowest(part) * omega * self.followed.quiet_s()) {
             return 0.0;
         }
-        let rest = self.pulses.state_at_end(part);
+        let rest = self.end_of(part);
         per_velocity * (libm::hypot(omega * rest.displacement, rest.velocity) + shock)
     }
     /// What a shock of this size may be off by: the share of the largest shock that lever arms get wrong, and what later ones

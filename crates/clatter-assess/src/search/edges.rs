@@ -12,7 +12,19 @@ const HALVINGS: u32 = 8;
 const EVENTS: usize = 6;
 
 /// The first touches and partings of a drop in their order: which end, and whether it parts.
-type Order = Vec<(usize, bool)>;
+#[derive(PartialEq, Clone)]
+pub(super) struct Order(Vec<(usize, bool)>);
+
+impl Order {
+    /// Of a drop that was followed until it lands.
+    pub(super) fn of(followed: &Followed) -> Self {
+        let pressed = followed.motion.presses().into_iter();
+        let mut events: Vec<(f64, usize, bool)> =
+            pressed.flat_map(|(point, [from_s, until_s])| [(from_s, point, false), (until_s, point, true)]).collect();
+        events.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self(events.into_iter().take(EVENTS).map(|(_, point, parts)| (point, parts)).collect())
+    }
+}
 
 /// Two neighboring drops between which the order changes, and that of the first.
 struct Edge {
@@ -22,9 +34,9 @@ struct Edge {
 }
 
 impl Ranges<'_> {
-    /// Drops on both sides of each edge between neighbors of the grid, as close to it as the space between them over 2⁸.
-    pub(super) fn edges(&self, grid: &[(u32, Place)], work: &Work<'_>) -> Vec<(u32, Place)> {
-        let orders: Vec<Option<Order>> = grid.par_iter().map(|(_, place)| self.order(place, work)).collect();
+    /// Drops on both sides of each edge between neighbors of the grid, of which these are the orders, as close to it as the space between
+    /// them over 2⁸.
+    pub(super) fn edges(&self, grid: &[(u32, Place)], orders: &[Option<Order>], work: &Work<'_>) -> Vec<(u32, Place)> {
         let pairs = grid.windows(2).zip(orders.windows(2));
         let edges: Vec<Edge> = pairs
             .filter_map(|(places, orders)| {
@@ -49,12 +61,7 @@ impl Ranges<'_> {
     /// None of a drop that is not answered, or where no more are wanted.
     fn order(&self, place: &Place, work: &Work<'_>) -> Option<Order> {
         work.go_on(0).ok()?;
-        let Followed { motion, .. } = self.follow(place, Until::Lands).ok()?;
-        let pressed = motion.presses().into_iter();
-        let mut events: Vec<(f64, usize, bool)> =
-            pressed.flat_map(|(point, [from_s, until_s])| [(from_s, point, false), (until_s, point, true)]).collect();
-        events.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Some(events.into_iter().take(EVENTS).map(|(_, point, parts)| (point, parts)).collect())
+        self.follow(place, Until::Lands).ok().as_ref().map(Order::of)
     }
 }
 

@@ -3,7 +3,7 @@
 use clatter::Error as Wrong;
 
 use super::dormand_prince::{SIZE, Step, Vector};
-use super::system::{Corner, Hold, System, cross, dot, parts};
+use super::system::{Corner, Hold, System, Turns, cross, dot, parts};
 use super::{Block, BlockDrop, times};
 use crate::Error;
 use crate::contact::{Contact, alike};
@@ -364,18 +364,22 @@ impl<'a> Run<'a> {
         let step = loop {
             let step = Step::new(&self.y, h, |y| self.system.slope(y));
             let over = (0..SIZE).map(|i| step.error[i].abs() / (TOLERANCE * self.scales[i])).fold(0.0, f64::max);
-            let factor = 0.9 * libm::pow(over.max(1e-10), -0.2);
+            // Below that it is more than the stride may grow by.
+            let factor = if over < 1e-4 { 5.0 } else { 0.9 * libm::pow(over, -0.2) };
             if over <= 1.0 {
                 self.stride = h * factor.clamp(0.2, 5.0);
                 break step;
             }
             h *= factor.clamp(0.1, 0.9);
         };
+        let reach = step.reach();
+        let is_watched: [bool; 8] = std::array::from_fn(|i| !self.system.stays_up(i, &self.y, &reach));
         let happened = |share: f64| {
             let y = step.at(share);
-            (0..8).any(|i| self.system.has_happened(i, &y))
+            (0..8).any(|i| is_watched[i] && self.system.has_happened(i, &y))
         };
-        let samples = (1..=SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES));
+        let samples = if is_watched == [false; 8] { 0 } else { SAMPLES };
+        let samples = (1..=samples).map(|k| f64::from(k) / f64::from(SAMPLES));
         let event = samples.into_iter().find(|share| happened(*share)).map(|until| {
             let (mut before, mut after) = (until - 1.0 / f64::from(SAMPLES), until);
             for _ in 0..HALVINGS {
@@ -407,15 +411,17 @@ impl<'a> Run<'a> {
         let mut work = 0.0;
         for (y, weight) in states.iter().zip([1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0]) {
             let (_, _, n, _) = parts(y);
+            let mut turns: Option<Turns> = None;
             for i in 0..8 {
                 let impulse = weight * h * share * self.system.force(i, y);
                 if impulse == 0.0 {
                     continue;
                 }
                 work += impulse * System::place(y, self.system.corners[i]).1;
+                let turns = turns.get_or_insert_with(|| self.system.turns(n));
                 let strike = self.system.holds[i].strike;
-                for j in 0..8 {
-                    self.strikes[strike].delta_v_m_s[j] += impulse * self.system.coupling(n, i, j);
+                for (j, delta_v) in self.strikes[strike].delta_v_m_s.iter_mut().enumerate() {
+                    *delta_v += impulse * turns.coupling(i, j);
                 }
             }
         }
@@ -433,7 +439,7 @@ impl<'a> Run<'a> {
 
     fn touch(&mut self, i: usize, velocity: f64) {
         let (_, _, n, _) = parts(&self.y);
-        let own = self.system.coupling(n, i, i);
+        let own = self.system.turns(n).coupling(i, i);
         let corner = &mut self.system.holds[i];
         corner.stiffness = self.contacts[i].frequency_rad_s().powi(2) / own;
         (corner.hold, corner.strike) = (Hold::Loads, self.strikes.len());

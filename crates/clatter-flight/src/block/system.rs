@@ -33,6 +33,13 @@ pub(super) struct Corner {
     pub(super) strike: usize,
 }
 
+impl Corner {
+    /// Whether the ground presses on it.
+    fn bears(&self) -> bool {
+        !matches!(self.hold, Hold::Up | Hold::Slack)
+    }
+}
+
 /// A box and what presses on it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct System {
@@ -46,22 +53,34 @@ pub(super) struct System {
     pub(super) holds: [Corner; 8],
 }
 
+/// Of a force of 1 on each corner its moment, and the angular acceleration by that.
+pub(super) struct Turns {
+    arms: [[f64; 3]; 8],
+    turned: [[f64; 3]; 8],
+}
+
+impl Turns {
+    /// What a force on a corner over the mass accelerates another corner by.
+    pub(super) fn coupling(&self, i: usize, j: usize) -> f64 {
+        1.0 + dot(self.arms[i], self.turned[j])
+    }
+}
+
 pub(super) fn parts(y: &Vector) -> (f64, f64, [f64; 3], [f64; 3]) {
     (y[0], y[1], [y[2], y[3], y[4]], [y[5], y[6], y[7]])
 }
 
 impl System {
     /// Height and vertical velocity of a place from the center of mass.
+    #[inline]
     pub(super) fn place(y: &Vector, place: [f64; 3]) -> (f64, f64) {
         let (z, v, n, spin) = parts(y);
         (z + dot(n, place), v + dot(n, cross(spin, place)))
     }
     pub(super) fn force(&self, corner: usize, y: &Vector) -> f64 {
-        if matches!(self.holds[corner].hold, Hold::Up | Hold::Slack) {
-            return 0.0;
-        }
-        self.press(corner, Self::place(y, self.corners[corner]))
+        if self.holds[corner].bears() { self.press(corner, Self::place(y, self.corners[corner])) } else { 0.0 }
     }
+    #[inline]
     pub(super) fn press(&self, corner: usize, (height, velocity): (f64, f64)) -> f64 {
         let (Corner { hold, ground, stiffness, .. }, loss) = (self.holds[corner], self.loss[corner]);
         let depth = ground - height;
@@ -74,10 +93,10 @@ impl System {
     pub(super) fn load(&self, y: &Vector) -> (f64, [f64; 3]) {
         let (_, _, n, _) = parts(y);
         let (mut force, mut moment) = (0.0, [0.0; 3]);
-        for i in 0..8 {
-            let own = self.force(i, y);
+        for (i, corner) in self.corners.iter().enumerate().filter(|(i, _)| self.holds[*i].bears()) {
+            let own = self.press(i, Self::place(y, *corner));
             if own != 0.0 {
-                let arm = cross(self.corners[i], n);
+                let arm = cross(*corner, n);
                 force += own;
                 (0..3).for_each(|axis| moment[axis] += own * arm[axis]);
             }
@@ -95,10 +114,10 @@ impl System {
         let (turn, spun) = (cross(n, spin), self.turning(spin, moment));
         [v, force - self.gravity, turn[0], turn[1], turn[2], spun[0], spun[1], spun[2]]
     }
-    /// What a force on a corner over the mass accelerates another corner by.
-    pub(super) fn coupling(&self, n: [f64; 3], i: usize, j: usize) -> f64 {
-        let [a, b] = [i, j].map(|k| cross(self.corners[k], n));
-        1.0 + dot(a, times(&self.block.inverse, b))
+    /// How a vertical force on each corner turns the box.
+    pub(super) fn turns(&self, n: [f64; 3]) -> Turns {
+        let arms = self.corners.map(|corner| cross(corner, n));
+        Turns { arms, turned: arms.map(|arm| times(&self.block.inverse, arm)) }
     }
     /// Height at which a corner parts from the ground, as far as it is pressed in now.
     pub(super) fn dent(&self, i: usize, y: &Vector) -> f64 {
@@ -128,10 +147,16 @@ impl System {
         };
         (0..8).map(one).sum()
     }
+    /// Whether a corner is up all along a step from y on which the state comes so far, also but for roundings.
+    pub(super) fn stays_up(&self, i: usize, y: &Vector, reach: &Vector) -> bool {
+        let (Corner { hold, ground, .. }, corner) = (self.holds[i], self.corners[i]);
+        let falls = reach[0] + dot([reach[2], reach[3], reach[4]], corner.map(f64::abs));
+        hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], corner) > falls * (1.0 + 1e-6)
+    }
     /// Whether a corner has come to its next event.
     pub(super) fn has_happened(&self, i: usize, y: &Vector) -> bool {
         let Corner { hold, ground, .. } = self.holds[i];
-        // Most corners are up, most of the time.
+        // Most corners that are looked at are up, most of the time.
         if hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], self.corners[i]) >= 0.0 {
             return false;
         }

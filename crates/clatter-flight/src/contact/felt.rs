@@ -148,9 +148,9 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             };
             self.modes().iter().zip(motions).zip(by_mode).map(one).sum::<f64>()
         };
-        let three = [0.0, 0.5, 1.0].map(|share| at(&self.motions(share * whole.length)).abs());
-        lines.most = three.into_iter().fold(lines.most, f64::max);
-        let (mut t, mut motions, mut sum) = (0.0, self.motions(0.0), 0.0);
+        let three = [0.0, 0.5, 1.0].map(|share| self.motions(share * whole.length));
+        lines.most = three.iter().map(|motions| at(motions).abs()).fold(lines.most, f64::max);
+        let ([mut motions, _, last], mut t, mut sum) = (three, 0.0, 0.0);
         let (mut bend, mut begin) = (bends(&motions), at(&motions));
         let least = whole.length / MOST_LINES;
         while t < whole.length || t == 0.0 {
@@ -158,7 +158,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             let most = (8.0 * lines.straight * lines.most / bend).sqrt().max(least);
             let step = if bend > 0.0 { most } else { whole.length };
             let then = if t + step < whole.length { t + step } else { whole.length };
-            motions = self.motions(then);
+            motions = if then < whole.length { self.motions(then) } else { last };
             let end = at(&motions);
             let line = Section::shock(whole.from + t, then - t, 0.0);
             felt.push(Section { acceleration: [begin, end], ..line });

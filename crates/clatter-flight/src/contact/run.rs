@@ -301,14 +301,14 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             let pushes = phase.pushes(t, motions);
             (phase.forces(motions).iter().sum::<f64>(), phase.pose(t, &pushes), pushes)
         };
-        let (half, end) = (phase.motions(0.5 * dt), phase.motions(dt));
+        let [first, half, last] = [0.0, 0.5 * dt, dt].map(|t| phase.motions(t));
         let (begins, (middles, middle, _), (ends, end, pushes)) =
-            (phase.forces(&phase.motions(0.0)).iter().sum::<f64>(), at(0.5 * dt, &half), at(dt, &end));
+            (phase.forces(&first).iter().sum::<f64>(), at(0.5 * dt, &half), at(dt, &last));
         let sum = begins + 4.0 * middles + ends;
         let weigh = |[a, b, c]: [f64; 3]| (begins * a + 4.0 * middles * b + ends * c) / sum;
         let pose = if sum > 0.0 { P::mean(&self.pose, &middle, &end, weigh) } else { middle };
         let turn = end.turned_from(&self.pose).max(middle.turned_from(&self.pose));
-        let off = phase.mismatch(dt, &phase.motions(dt), &end, self.margins.height);
+        let off = phase.mismatch(dt, &last, &end, self.margins.height);
         Mean { pose, turn, pushed: phase.pushed(&pushes), off, end }
     }
 
