@@ -173,7 +173,7 @@ fn feet_that_cannot_be_are_refused() {
         "{apart}"
     );
     let of_box = said("tilt = [\"1 deg\", \"8 deg\"]", "face = \"bottom\"");
-    assert!(of_box.contains("feet are those of a bar or a plate in one drop"), "{of_box}");
+    assert!(of_box.contains("feet are those of a bar or a plate; a box"), "{of_box}");
     assert!(
         said("\"-100 mm\", \"70 mm\"", "\"-160 mm\", \"70 mm\"").contains("up to 150 mm, half of the product's length")
     );
