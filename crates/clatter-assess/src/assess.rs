@@ -428,16 +428,18 @@ pub(crate) struct Listed {
 /// What the drops that are listed say of a limit together: the one that leaves least, by its verdict and then by its margin. Its bound and what
 /// others may ask beyond its demand are those of all.
 fn governing(of_drops: Vec<LimitAssessment>, names: &[DropName]) -> LimitAssessment {
-    let most = of_drops.iter().map(|limit| limit.demand.unwrap_or(f64::INFINITY) * (1.0 + limit.uncertainty));
-    let most = most.fold(0.0, f64::max);
-    let units = of_drops.iter().map(|limit| limit.unit);
-    // A damage boundary is told in either of two.
-    let has_one_unit = units.clone().eq(units.cycle().skip(1).take(of_drops.len()));
-    let all = |of: fn(&LimitAssessment) -> Option<f64>| {
-        of_drops.iter().map(of).reduce(|one, other| one.zip(other).map(|(one, other)| one.max(other))).flatten()
+    // As shares of what is allowed: a damage boundary is told in either of two units.
+    let share = |limit: &LimitAssessment, value: f64| value / limit.allowed;
+    let most = |limit: &LimitAssessment| {
+        limit.demand.map_or(f64::INFINITY, |demand| share(limit, demand) * (1.0 + limit.uncertainty))
     };
-    let (bound, other_law) = (all(|limit| limit.bound), all(|limit| limit.other_law));
-    let is_list = of_drops.len() > 1;
+    let all = |of: &dyn Fn(&LimitAssessment) -> Option<f64>| {
+        of_drops.iter().map(of).reduce(|one, other| Some(one?.max(other?))).flatten()
+    };
+    let unit = of_drops.first().map(|limit| limit.unit);
+    let bound = all(&|limit| limit.bound.filter(|_| Some(limit.unit) == unit));
+    let other_law = all(&|limit| limit.other_law.map(|other| share(limit, other)));
+    let (most_of_all, is_list) = (of_drops.iter().map(most).fold(0.0, f64::max), of_drops.len() > 1);
     let order = |limit: &LimitAssessment| (limit.verdict, -limit.room());
     let numbered = of_drops.into_iter().enumerate();
     let least = numbered.max_by(|(_, a), (_, b)| {
@@ -445,10 +447,10 @@ fn governing(of_drops: Vec<LimitAssessment>, names: &[DropName]) -> LimitAssessm
         verdict.cmp(&other).then(room.total_cmp(&other_room))
     });
     let Some((n, mut limit)) = least else { unreachable!("a drop is listed") };
-    if is_list && has_one_unit {
-        (limit.bound, limit.other_law) = (bound, other_law);
-        if let Some(demand) = limit.demand.filter(|demand| most > demand * (1.0 + limit.uncertainty)) {
-            limit.uncertainty = most / demand - 1.0;
+    if is_list {
+        (limit.bound, limit.other_law) = (bound, other_law.map(|share| share * limit.allowed));
+        if let Some(demand) = limit.demand.filter(|_| most_of_all > most(&limit)) {
+            limit.uncertainty = most_of_all / share(&limit, demand) - 1.0;
         }
     }
     if let Some(worst) = &mut limit.worst_case {
@@ -590,6 +592,32 @@ mod tests {
         assert_eq!(governing(vec![loose.clone(), tight.clone()], &[]).margin, Some(0.05));
         assert_eq!(governing(vec![open.clone(), tight.clone()], &[]).verdict, Verdict::Undecided);
         assert_eq!(governing(vec![worse, open, over, loose, tight], &[]).margin, Some(-0.4));
+    }
+
+    /// A damage boundary that one drop uses up by its velocity change and another by its acceleration has no bound in one unit; what others may
+    /// ask is told by shares: 0.5 of 8 m/s within 60 %, beside 0.4 of 5000 m/s² within 150 %, is all of it, twice what is shown.
+    #[test]
+    fn drops_in_two_units_are_told_by_shares() {
+        let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
+        let limit = file.assess().unwrap().components[2].limits[0].clone();
+        let of = |unit, allowed: f64, share: f64, uncertainty| LimitAssessment {
+            unit,
+            allowed,
+            demand: Some(share * allowed),
+            margin: Some(1.0 / share - 1.0),
+            uncertainty,
+            bound: (unit == Unit::MeterPerSecond).then_some(7.0),
+            other_law: Some(0.6 * allowed),
+            verdict: Verdict::Safe,
+            ..limit.clone()
+        };
+        let changes = of(Unit::MeterPerSecond, 8.0, 0.5, 0.6);
+        let peaks = of(Unit::MeterPerSecondSquared, 5000.0, 0.4, 1.5);
+        for drops in [vec![changes.clone(), peaks.clone()], vec![peaks, changes]] {
+            let all = governing(drops, &[]);
+            assert_eq!((all.unit, all.demand, all.bound), (Unit::MeterPerSecond, Some(4.0), None));
+            assert!((all.uncertainty - 1.0).abs() < 1e-12 && (all.other_law.unwrap() - 4.8).abs() < 1e-12, "{all:?}");
+        }
     }
 
     /// One law uses up a damage boundary by its velocity change, the other by its acceleration: they are told beside one another by what
