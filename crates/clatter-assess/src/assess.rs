@@ -8,7 +8,7 @@ use crate::bound::bound;
 use crate::drop::{Model, Posture, SingleDrop};
 use crate::engine::answer;
 use crate::quantity::Source;
-use crate::reason::{Doubt, Note, Reason};
+use crate::reason::{Contradiction, Doubt, Note, Reason};
 use crate::search::{Candidate, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, Drop, DropName, Error, Landing, LandingAssessment, Limit,
@@ -213,7 +213,7 @@ impl ProductFile {
                     }
                 }
             }
-            let limits = of_limits.into_iter().map(|of_drops| governing(of_drops, &names)).collect();
+            let limits = of_limits.into_iter().map(|of_drops| governing(&of_drops, &names)).collect();
             components.push(verdict(component, self.product.width.is_some(), limits));
         }
         Ok(Ok(Found { components, landings }))
@@ -249,8 +249,8 @@ impl ProductFile {
     /// What the worst drop by one contact law says of a limit.
     fn judge(&self, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst) -> Result<Judged, Error> {
         let bound = bound(&self.product, ranges.drop, ranges.posture, task.component, &task.limit, ranges.law);
-        let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
-        let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound, held)) };
+        let bound = bound.filter(|bound| bound.is_finite());
+        let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound)) };
         // What takes further drops is left where the time is over.
         let flat = if worst.stopped { None } else { Self::flat(ranges, task, &asked)? };
         if let Some(flat) = flat.filter(|flat| ranges.hold(flat) && flat.exceeds(&asked)) {
@@ -302,22 +302,32 @@ impl ProductFile {
                 Err(error) => of.doubts.push(Doubt::NoTilt(error)),
             }
         }
+        let frictionless = of.most;
+        if worst.with_friction > 0.0 {
+            of.most += (worst.with_friction - utilization).max(0.0);
+            of.notes.push(Note::Friction(worst.with_friction));
+        }
         if let Some((count, error)) = worst.refused.clone() {
             of.doubts.push(Doubt::Refused { count, drops: worst.drops, error });
         }
         if worst.stopped {
-            of.doubts.push(Doubt::Stopped);
+            let refused = worst.refused.as_ref().map_or(0, |(count, _)| *count);
+            of.doubts.push(Doubt::Stopped { answered: worst.drops.saturating_sub(refused) });
         }
         // What is not known of some drops may be any number that energy allows; a damage boundary has two.
-        let is_known = of.doubts.iter().all(|doubt| matches!(doubt, Doubt::Stopped));
+        let is_known = of.doubts.iter().all(|doubt| matches!(doubt, Doubt::Stopped { .. }));
         if !is_known {
             let by_energy = bound.filter(|_| task.limit.kind.source() != Source::Boundary);
             of.most = by_energy.map_or(f64::INFINITY, |bound| bound / task.limit.allowed);
         } else if utilization <= 1.0 && !of.most.is_finite() {
             of.doubts.push(Doubt::NoBound);
         } else if utilization <= 1.0 && of.most > 1.0 {
-            of.doubts.push(Doubt::Others { found: utilization, most: of.most });
+            let (found, most) = (utilization, of.most);
+            let others = if frictionless > 1.0 { Doubt::Others { found, most } } else { Doubt::Friction { found, most } };
+            of.doubts.push(others);
         }
+        of.most = of.most.max(utilization);
+        let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
         of.verdict = if utilization > 1.0 {
             Verdict::Unsafe
         } else if held || of.doubts.is_empty() {
@@ -325,6 +335,9 @@ impl ProductFile {
         } else {
             Verdict::Undecided
         };
+        if of.verdict == Verdict::Unsafe && of.most.is_infinite() && !of.doubts.is_empty() {
+            of.notes.push(Note::Open(of.doubts.clone()));
+        }
         of.flat = flat.map(|flat| flat.answer.value);
         of.asked = Some(asked);
         Ok(of)
@@ -367,9 +380,10 @@ impl ProductFile {
         }
         let (demand, unit) = (asked.map(|asked| asked.answer), task.limit.kind.unit());
         let utilization = demand.map_or(0.0, |answer| answer.utilization());
-        let uncertainty = if demand.is_some() { most / utilization - 1.0 } else { f64::INFINITY };
+        // Of nothing asked and nothing to come it is 0.
+        let uncertainty = if demand.is_none() { f64::INFINITY } else { (most / utilization - 1.0).max(0.0) };
         let shown = asked.map_or_else(|| ranges.middle(task.component), |asked| asked.place);
-        LimitAssessment {
+        let mut limit = LimitAssessment {
             limit: task.limit.kind,
             unit: demand.map_or(unit, |answer| answer.unit),
             allowed: demand.map_or(task.limit.allowed, |answer| answer.allowed),
@@ -377,13 +391,34 @@ impl ProductFile {
             margin: demand.map(|answer| answer.allowed / answer.value - 1.0),
             verdict,
             bound: bound.filter(|_| demand.is_none_or(|answer| answer.unit == unit)),
-            uncertainty: if uncertainty.is_nan() { 0.0 } else { uncertainty },
+            uncertainty,
+            governs: None,
             clatter_free: flat,
             other_law,
             worst_case: asked.map(|asked| worst_case(&asked, ranges, task.component)),
             model: model(ranges, task, accuracy_reason(ranges, &ranges.single(&shown))),
             undecided: if verdict == Verdict::Undecided { doubts } else { Vec::new() },
             notes,
+        };
+        limit.hold_to_bound(ranges.tolerance);
+        limit
+    }
+}
+
+impl LimitAssessment {
+    /// Checks that the demand is within the bound, but for what its answer may be off by.
+    fn hold_to_bound(&mut self, tolerance: f64) {
+        if let Some((demand, bound)) = self.demand.zip(self.bound).filter(|(demand, bound)| *demand > bound * (1.0 + tolerance)) {
+            self.contradicted(Contradiction::AboveBound { demand, bound });
+        }
+    }
+    /// An assessment that contradicts itself has no bound, and says nothing is safe.
+    fn contradicted(&mut self, contradiction: Contradiction) {
+        self.bound = None;
+        self.notes.push(Note::Contradiction(contradiction));
+        if self.verdict != Verdict::Unsafe {
+            self.verdict = Verdict::Undecided;
+            self.undecided = vec![Doubt::Contradiction(contradiction)];
         }
     }
 }
@@ -425,9 +460,10 @@ pub(crate) struct Listed {
     pub(crate) posture: Option<Posture>,
 }
 
-/// What the drops that are listed say of a limit together: the one that leaves least, by its verdict and then by its margin. Its bound and what
-/// others may ask beyond its demand are those of all.
-fn governing(of_drops: Vec<LimitAssessment>, names: &[DropName]) -> LimitAssessment {
+/// What the drops that are listed say of a limit together. The demand is the largest of all drops that were answered, with the drop that
+/// asks for it; the verdict is the worst of all. Where another drop decides that, it is named, and the reasons are its own. The bound and
+/// what others may ask beyond the demand are those of all.
+fn governing(of_drops: &[LimitAssessment], names: &[DropName]) -> LimitAssessment {
     // As shares of what is allowed: a damage boundary is told in either of two units.
     let share = |limit: &LimitAssessment, value: f64| value / limit.allowed;
     let most = |limit: &LimitAssessment| {
@@ -439,22 +475,39 @@ fn governing(of_drops: Vec<LimitAssessment>, names: &[DropName]) -> LimitAssessm
     let unit = of_drops.first().map(|limit| limit.unit);
     let bound = all(&|limit| limit.bound.filter(|_| Some(limit.unit) == unit));
     let other_law = all(&|limit| limit.other_law.map(|other| share(limit, other)));
-    let (most_of_all, is_list) = (of_drops.iter().map(most).fold(0.0, f64::max), of_drops.len() > 1);
-    let order = |limit: &LimitAssessment| (limit.verdict, -limit.room());
-    let numbered = of_drops.into_iter().enumerate();
-    let least = numbered.max_by(|(_, a), (_, b)| {
-        let ((verdict, room), (other, other_room)) = (order(a), order(b));
-        verdict.cmp(&other).then(room.total_cmp(&other_room))
-    });
-    let Some((n, mut limit)) = least else { unreachable!("a drop is listed") };
-    if is_list {
+    let asked = |limit: &LimitAssessment| limit.demand.map_or(-1.0, |demand| share(limit, demand));
+    // Of several that are alike the first.
+    let first_of = |order: &dyn Fn(&LimitAssessment, &LimitAssessment) -> std::cmp::Ordering| {
+        let numbered = of_drops.iter().enumerate().rev();
+        numbered.max_by(|(_, a), (_, b)| order(a, b)).map_or(0, |(n, _)| n)
+    };
+    let top = first_of(&|a, b| asked(a).total_cmp(&asked(b)));
+    let governs = first_of(&|a, b| a.verdict.cmp(&b.verdict).then(asked(a).total_cmp(&asked(b))));
+    let widest = first_of(&|a, b| most(a).total_cmp(&most(b)));
+    let most_of_all = most(&of_drops[widest]);
+    let governor = of_drops[governs].clone();
+    let mut limit = of_drops[top].clone();
+    if of_drops.len() > 1 {
         (limit.bound, limit.other_law) = (bound, other_law.map(|share| share * limit.allowed));
-        if let Some(demand) = limit.demand.filter(|_| most_of_all > most(&limit)) {
-            limit.uncertainty = most_of_all / share(&limit, demand) - 1.0;
+        if let Some(demand) = limit.demand {
+            limit.uncertainty = (most_of_all / share(&limit, demand) - 1.0).max(0.0);
+        }
+        if governor.verdict != limit.verdict {
+            (limit.verdict, limit.undecided) = (governor.verdict, governor.undecided);
+            limit.governs = names.get(governs).copied();
+        }
+        let open = &of_drops[widest].undecided;
+        if most_of_all.is_infinite() && widest != governs && !open.is_empty() {
+            limit.notes.push(Note::OpenIn(names.get(widest).copied(), open.clone()));
+        }
+        let told = asked(&limit);
+        let above = of_drops.iter().map(asked).find(|found| *found > told);
+        if let Some(found) = above {
+            limit.contradicted(Contradiction::AboveWorst { found, told });
         }
     }
     if let Some(worst) = &mut limit.worst_case {
-        (worst.listed, worst.landing) = (n, names.get(n).copied());
+        (worst.listed, worst.landing) = (top, names.get(top).copied());
     }
     limit
 }
@@ -485,15 +538,14 @@ impl Judged {
         let (doubts, notes) = (Vec::new(), Vec::new());
         Self { asked: None, verdict: Verdict::Undecided, doubts, notes, most: f64::INFINITY, bound, flat: None }
     }
-    /// No drop was answered.
-    fn unanswered(worst: &Worst, bound: Option<f64>, held: bool) -> Self {
+    /// No drop was answered: a bound alone makes nothing safe.
+    fn unanswered(worst: &Worst, bound: Option<f64>) -> Self {
         let why = match worst.refused.clone() {
             _ if worst.stopped => Error::Stopped,
             Some((_, error)) => error,
             None => Error::Unfinished,
         };
-        let verdict = if held { Verdict::Safe } else { Verdict::Undecided };
-        Self { verdict, doubts: vec![Doubt::Unanswered(why)], ..Self::new(bound) }
+        Self { doubts: vec![Doubt::Unanswered(why)], ..Self::new(bound) }
     }
 }
 
@@ -585,13 +637,50 @@ mod tests {
     fn the_governing_drop_is_the_one_of_the_worst_verdict() {
         let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
         let limit = file.assess().unwrap().components[0].limits[0].clone();
-        let of = |verdict, margin| LimitAssessment { margin, verdict, ..limit.clone() };
+        let of = |verdict, share: Option<f64>| LimitAssessment {
+            demand: share.map(|share| share * limit.allowed),
+            margin: share.map(|share| 1.0 / share - 1.0),
+            bound: Some(3.0 * limit.allowed),
+            verdict,
+            ..limit.clone()
+        };
         let (tight, open, over) =
-            (of(Verdict::Safe, Some(0.05)), of(Verdict::Undecided, None), of(Verdict::Unsafe, Some(-0.2)));
-        let (loose, worse) = (of(Verdict::Safe, Some(0.5)), of(Verdict::Unsafe, Some(-0.4)));
-        assert_eq!(governing(vec![loose.clone(), tight.clone()], &[]).margin, Some(0.05));
-        assert_eq!(governing(vec![open.clone(), tight.clone()], &[]).verdict, Verdict::Undecided);
-        assert_eq!(governing(vec![worse, open, over, loose, tight], &[]).margin, Some(-0.4));
+            (of(Verdict::Safe, Some(0.95)), of(Verdict::Undecided, None), of(Verdict::Unsafe, Some(1.2)));
+        let (loose, worse) = (of(Verdict::Safe, Some(0.6)), of(Verdict::Unsafe, Some(1.7)));
+        let names: Vec<DropName> = (1..=5).map(DropName::Number).collect();
+        let told = |drops: &[&LimitAssessment]| {
+            let drops: Vec<LimitAssessment> = drops.iter().map(|drop| (*drop).clone()).collect();
+            let limit = governing(&drops, &names);
+            (limit.demand.map(|demand| (1e9 * demand / limit.allowed).round() / 1e9), limit.verdict, limit.governs)
+        };
+        assert_eq!(told(&[&loose, &tight]), (Some(0.95), Verdict::Safe, None));
+        assert_eq!(told(&[&worse, &open, &over, &loose, &tight]), (Some(1.7), Verdict::Unsafe, None));
+        // The demand is the largest of those that were answered; the drop that is open decides.
+        assert_eq!(told(&[&loose, &open, &tight]), (Some(0.95), Verdict::Undecided, Some(names[1])));
+        let doubtful = of(Verdict::Undecided, Some(0.7));
+        assert_eq!(told(&[&tight, &loose, &doubtful]), (Some(0.95), Verdict::Undecided, Some(names[2])));
+        assert_eq!(told(&[&open, &open]), (None, Verdict::Undecided, None));
+    }
+
+    /// An assessment that says more of a drop than its energy allows is an error of the program: it has no bound, and is not safe.
+    #[test]
+    fn a_demand_above_its_bound_is_told_as_an_error() {
+        let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
+        let mut limit = file.assess().unwrap().components[0].limits[0].clone();
+        assert_eq!(limit.verdict, Verdict::Safe);
+        limit.bound = limit.demand.map(|demand| demand / 1.005);
+        let mut near = limit.clone();
+        near.hold_to_bound(0.01);
+        assert_eq!(near, limit, "within what the answer may be off by");
+        limit.bound = limit.demand.map(|demand| demand / 1.02);
+        let mut over = limit.clone();
+        over.hold_to_bound(0.01);
+        assert_eq!((over.verdict, over.bound), (Verdict::Undecided, None));
+        assert!(over.why_undecided().unwrap().contains("please report it"), "{over:?}");
+        let mut fails = LimitAssessment { verdict: Verdict::Unsafe, ..limit };
+        fails.hold_to_bound(0.01);
+        assert_eq!((fails.verdict, fails.bound), (Verdict::Unsafe, None));
+        assert!(fails.notes.iter().any(|note| note.to_string().contains("please report it")), "{:?}", fails.notes);
     }
 
     /// A damage boundary that one drop uses up by its velocity change and another by its acceleration has no bound in one unit; what others may
@@ -614,7 +703,7 @@ mod tests {
         let changes = of(Unit::MeterPerSecond, 8.0, 0.5, 0.6);
         let peaks = of(Unit::MeterPerSecondSquared, 5000.0, 0.4, 1.5);
         for drops in [vec![changes.clone(), peaks.clone()], vec![peaks, changes]] {
-            let all = governing(drops, &[]);
+            let all = governing(&drops, &[]);
             assert_eq!((all.unit, all.demand, all.bound), (Unit::MeterPerSecond, Some(4.0), None));
             assert!((all.uncertainty - 1.0).abs() < 1e-12 && (all.other_law.unwrap() - 4.8).abs() < 1e-12, "{all:?}");
         }

@@ -7,10 +7,14 @@
 use clatter_flight::{Contact, ContactLaw};
 
 use crate::assess::THIN;
-use crate::drop::{Across, Posture, SingleDrop};
+use crate::drop::{Across, Levers, Posture, SingleDrop};
 use crate::engine::Spot;
 use crate::quantity::Source;
-use crate::{Component, Drop, Limit, Mount, Product};
+use crate::{Axis, Component, Drop, Limit, Mount, Product};
+
+/// Drops are followed without friction. Parts of a box that move along the ground are judged with what so much friction may add: steel,
+/// glass and hard plastics on concrete and wood have less, rubber may have more.
+pub(crate) const FRICTION: f64 = 0.6;
 
 /// The largest value of a limited quantity that the energy of the drops allows; none for the response of a suspended part and for
 /// contacts without a bound.
@@ -86,12 +90,13 @@ pub(crate) fn bound(
     }
 }
 
-/// The same of a plate, whose contacts take time.
+/// The same of a plate or a box, whose contacts take time.
 ///
 /// # Formula
-/// With places p and corners q in radii of gyration, an impulse J over the mass at q gives p `J (1 + p·q)`, at real tilt at most
-/// `J (1 + |p||q|)`, and speeds at p are at most √(2E (1 + p²)). Contacts that hold E_i on their lines of first loading press with
-/// √(2E_i) ω₁/√μ_i, μ_i = 1 + q_i²; all of them hold E at most, so that together they do the root of the sum of the squares.
+/// Speeds at a place p are at most √(2E (1 + p²)), p in radii of gyration, and may turn around. A corner that holds E_i on its line of
+/// first loading presses with √(2E_i) ω₁/√μ_i, μ_i = 1 + q_i² as it touched; all of them hold E at most. Of a plate a push J over the mass
+/// at q gives p at most J (1 + |p||q|), with arms that real tilt shortens, so that all corners together do at most the root of the sum of
+/// their squares. A box may land on any face: [`box_acceleration`].
 fn of_plate(
     product: &Product,
     drop: &Drop,
@@ -118,18 +123,24 @@ fn of_plate(
         own_contacts: product.own_contacts,
     };
     let norm = |[x, y]: [f64; 2]| libm::hypot(x, y);
-    let spot = |at_m: [f64; 2]| Spot { at_m, inside: component.inside };
-    let corners = one.in_radii(&spot([0.0; 2])).0;
-    let farthest = component.ends_m().into_iter().map(|at| norm(one.in_radii(&spot(at)).1)).fold(0.0, f64::max);
+    let spots = || component.ends_m().into_iter().map(|at_m| Spot { at_m, inside: component.inside });
+    let corners = one.in_radii(&Spot::from([0.0; 2])).0;
+    let farthest = spots().map(|spot| norm(one.in_radii(&spot).1)).fold(0.0, f64::max);
     let ([a, b], [front, back]) = (product.body.arms_m(), product.width?.edges_m);
     let reach = libm::hypot(a.max(b), front.max(back));
     // A box may come to lie on another face.
     let height = posture.map_or(reach * libm::sin(drop.tilt_rad.hi()), |of| libm::hypot(reach, of.thickness_m));
     let turns = drop.fastest_rad_s() * most_gyration_m(product, posture.is_some());
-    let speed = (fastest * fastest + turns * turns + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
+    let squared = fastest * fastest + turns * turns;
+    // Corners sink in by no more than the fastest of them goes while a contact lasts.
+    let lever = corners.iter().fold(1.0_f64, |most, &q| most.max(libm::hypot(1.0, norm(q))));
+    let sinks = (squared + 2.0 * drop.gravity_m_s2 * height).sqrt() * lever * longest_s;
+    let speed = (squared + 2.0 * drop.gravity_m_s2 * (height + sinks)).sqrt(); // √(2E)
     match limit.kind.source() {
         Source::Shock | Source::Boundary => {
-            Some(2.0 * speed * (1.0 + farthest * farthest).sqrt() + drop.gravity_m_s2 * longest_s)
+            // The axis of the part turns with a box while it is pushed.
+            let turned = if posture.is_some() { speed * longest_s / one.least_gyration_m() } else { 0.0 };
+            Some((2.0 + turned) * speed * libm::hypot(1.0, farthest) + drop.gravity_m_s2 * longest_s)
         }
         Source::Turn => Some(2.0 * speed / one.least_gyration_m()),
         Source::Response(peak)
@@ -140,16 +151,40 @@ fn of_plate(
         {
             let contacts = product.stiffest(law)?;
             let most = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.frequency_rad_s()));
-            let of = |q: f64| (1.0 + farthest * q) / (1.0 + q * q).sqrt();
-            // Each corner with its rate over the fastest; of a box any four press.
-            let rates =
-                contacts.iter().map(|contact| if posture.is_some() { 1.0 } else { contact.frequency_rad_s() / most });
-            let each = corners.into_iter().zip(rates);
-            let pressed = each.fold(0.0, |all, (q, rate)| libm::hypot(all, rate * of(norm(q))));
+            if posture.is_some() {
+                let of = |spot: Spot| box_acceleration(&one, &spot, speed, speed * most, longest_s);
+                return Some(spots().map(of).fold(0.0, f64::max));
+            }
+            // Each corner with its rate over the fastest.
+            let rates = contacts.iter().map(|contact| contact.frequency_rad_s() / most);
+            let pressed = corners.into_iter().zip(rates).fold(0.0, |all, (q, rate)| {
+                let arm = farthest.min(norm(q));
+                libm::hypot(all, rate * (1.0 + farthest * arm) / libm::hypot(1.0, arm))
+            });
             Some(speed * most * pressed)
         }
         Source::Response(_) => None,
     }
+}
+
+/// The largest acceleration that the ground gives a place of a box, whatever it lands on, with `speed` = √(2E) and a contact that stops the
+/// center of mass alone from that speed with `stops_m_s2`.
+///
+/// # Formula
+/// A force F over the mass at corner i gives the place, along the axis of its part, at most F √μ_i √(1 + p²). The corner is as stiff as
+/// its arm was when it touched, and presses with at most √(2E_i) ω₁/√μ_i of that moment; while it presses √μ grows at most by
+/// 1 + ω τ r/k, as the box turns by ω τ (r the distance of the farthest corner, k the least radius of gyration, ω = √(2E)/k). Four
+/// corners of a face do at most √4 times as much as one that has all of the energy. A box that turns feels ω² |p| besides, and of a
+/// torque-free change of its axis of spin at most ω² |p|/√3. Friction of the ground pushes across by [`FRICTION`] of each force.
+pub(crate) fn box_acceleration(drop: &SingleDrop, spot: &Spot, speed: f64, stops_m_s2: f64, longest_s: f64) -> f64 {
+    let Some(Levers { farthest_m, place_m, across }) = drop.levers(spot) else { return f64::INFINITY };
+    let least = drop.least_gyration_m();
+    let spins = speed / least;
+    let grows = 1.0 + spins * longest_s * farthest_m / least;
+    let [x, y] = drop.in_radii(spot).1;
+    let along = (1.0 + x * x + y * y).sqrt() * grows;
+    let pushed = if spot.inside.axis == Axis::Z { along } else { along + FRICTION * across };
+    2.0 * stops_m_s2 * pushed + (1.0 + 3_f64.sqrt().recip()) * spins * spins * place_m
 }
 
 /// The largest radius of gyration about an axis that a plate or a box turns about, as thick as it is taken where real tilt counts.
@@ -162,6 +197,8 @@ fn most_gyration_m(product: &Product, is_box: bool) -> f64 {
     libm::hypot(in_plane, deep)
 }
 
+#[cfg(test)]
+mod random;
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -38,6 +38,16 @@ pub(crate) struct BlockMotion {
     felt: Vec<[[f64; 4]; 3]>,
 }
 
+/// Contacts that push a box, one after the other or at once.
+pub(crate) struct Pushed {
+    pub(crate) from_s: f64,
+    pub(crate) until_s: f64,
+    /// The change of velocity of the center of mass, with g.
+    pub(crate) impulse_m_s: f64,
+    /// Its largest acceleration.
+    pub(crate) peak_m_s2: f64,
+}
+
 /// Straight lines in a step of a box, which is a small part of a contact.
 const LINES: u32 = 4;
 
@@ -93,6 +103,18 @@ impl BlockMotion {
             Axis::Z => z,
             Axis::Any => libm::hypot(libm::hypot(x, y), z),
         }
+    }
+    /// When contacts press, in order of their beginning.
+    pub(crate) fn pressed(&self) -> Vec<[f64; 2]> {
+        let mut all: Vec<[f64; 2]> = self.presses().map(|(_, press)| press).collect();
+        all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        all
+    }
+    /// What pushes the center of mass, as straight lines: when each begins and ends, and the force over the mass.
+    pub(crate) fn pushed(&self) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
+        let size = |felt: &[[f64; 4]; 3]| libm::hypot(libm::hypot(felt[0][0], felt[1][0]), felt[2][0]);
+        let lines = self.times_s.windows(2).zip(self.felt.windows(2));
+        lines.map(move |(times, ends)| ([times[0], times[1]], [size(&ends[0]), size(&ends[1])]))
     }
     /// When corners touch and part.
     fn presses(&self) -> impl Iterator<Item = (usize, [f64; 2])> {

@@ -126,6 +126,17 @@ pub struct Posture {
     pub about: Option<[f64; 3]>,
 }
 
+/// Lever arms of a place in a box.
+pub(crate) struct Levers {
+    /// From the center of mass to the farthest corner.
+    pub(crate) farthest_m: f64,
+    /// From there to the place.
+    pub(crate) place_m: f64,
+    /// The most that a push at a corner across the vertical does to the place along the axis of the part, over what it does to the center of
+    /// mass.
+    pub(crate) across: f64,
+}
+
 impl Across {
     /// Cosine and sine of the direction.
     fn upward(&self) -> [f64; 2] {
@@ -447,6 +458,22 @@ impl SingleDrop {
         };
         let farthest = block.corners_m().into_iter().map(far).fold(0.0, f64::max);
         (vec![[farthest, 0.0]; 4], [here, 0.0])
+    }
+    /// What bounds a push across at a corner of a box; none of other bodies.
+    pub(crate) fn levers(&self, spot: &Spot) -> Option<Levers> {
+        let block = self.as_box()?;
+        let place @ [x, y, z] = self.place_in_box(spot);
+        let size = |a: [f64; 3]| libm::hypot(libm::hypot(a[0], a[1]), a[2]);
+        let farthest_m = block.corners_m().into_iter().map(size).fold(0.0, f64::max);
+        // The spin that a push of 1 over the mass at the place along the axis gives.
+        let turned = |arm: [f64; 3]| size(block.turned_by(arm));
+        let spins = match spot.inside.axis {
+            Axis::X => turned([0.0, z, -y]),
+            Axis::Y => turned([-z, 0.0, x]),
+            Axis::Z => turned([y, -x, 0.0]),
+            Axis::Any => size(place) / block.least_gyration_m().powi(2),
+        };
+        Some(Levers { farthest_m, place_m: size(place), across: 1.0 + spins * farthest_m })
     }
     /// The box that it is.
     fn as_box(&self) -> Option<Block> {

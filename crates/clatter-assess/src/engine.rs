@@ -3,6 +3,7 @@
 //! [`answer`] follows a drop by a model, takes what the place of the part feels, and gives the largest value of one limited
 //! quantity. Commands that ask for many answers of one drop keep the drop between them; nothing else is different.
 
+mod friction;
 mod later;
 
 use std::f64::consts::FRAC_PI_2;

@@ -98,7 +98,7 @@ pub use portrait::{Changes, CornerStrike, Curve, PlaceMap, PlatePortrait, Point,
 pub use product::{Depth, Drop, DropName, Fall, Feet, First, Landing, Product, ProductFile, RecordFile, Width};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::{Family, GridAxis, LARGEST_FILE, Plan};
-pub use reason::{Doubt, Note, Reason};
+pub use reason::{Contradiction, Doubt, Note, Reason};
 pub use repeat::repeat;
 pub use schema::schema;
 pub use search::Watch;

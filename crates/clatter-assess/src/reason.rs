@@ -4,7 +4,8 @@ use std::fmt::{Display, Formatter};
 
 use serde::Serializer;
 
-use crate::{ContactLaw, Error, Model};
+use crate::bound::FRICTION;
+use crate::{ContactLaw, DropName, Error, Model};
 
 /// Why a limit is undecided, or would be if nothing exceeded it. Shares are of what is allowed.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +23,10 @@ pub enum Doubt {
         error: Error,
     },
     /// The search was stopped.
-    Stopped,
+    Stopped {
+        /// Drops that were answered by then.
+        answered: usize,
+    },
     /// What real tilt adds to a plate is not known: the box beside it is not followed, for this.
     NoTilt(Error),
     /// The model with the most physics does not answer the worst drop found, for this.
@@ -36,6 +40,15 @@ pub enum Doubt {
         /// The share that others may ask for.
         most: f64,
     },
+    /// Without friction no drop exceeds the limit; with it some may.
+    Friction {
+        /// The share that the worst drop found asks for without friction.
+        found: f64,
+        /// The share that others may ask for with friction up to [`FRICTION`](crate::bound::FRICTION).
+        most: f64,
+    },
+    /// The assessment contradicts itself.
+    Contradiction(Contradiction),
     /// One contact law says safe and the other one unsafe, and the file names none.
     Laws([(ContactLaw, Option<f64>); 2]),
     /// The file names no contact law, and the limit is undecided by this one.
@@ -60,13 +73,14 @@ impl Doubt {
     /// Whether a part that is asked for less leaves it behind: not where drops are not answered.
     pub(crate) fn is_of_demand(&self) -> bool {
         match self {
-            Self::Others { .. } | Self::Laws(_) | Self::ExceededByOtherLaw(_) | Self::Stop { .. } => true,
+            Self::Others { .. } | Self::Friction { .. } | Self::Laws(_) | Self::ExceededByOtherLaw(_) | Self::Stop { .. } => true,
             Self::OtherLaw { doubts, .. } => doubts.iter().all(Self::is_of_demand),
             Self::Unanswered(_)
             | Self::Refused { .. }
-            | Self::Stopped
+            | Self::Stopped { .. }
             | Self::NoTilt(_)
             | Self::Fullest(..)
+            | Self::Contradiction(_)
             | Self::NoBound => false,
         }
     }
@@ -75,12 +89,16 @@ impl Doubt {
 impl Display for Doubt {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Unanswered(Error::Stopped) => write!(f, "no drop of the ranges is answered: {}", Self::Stopped),
+            Self::Unanswered(Error::Stopped) => {
+                write!(f, "no drop of the ranges is answered: {} its end", Error::Stopped)
+            }
             Self::Unanswered(error) => write!(f, "no drop of the ranges is answered: {error}"),
             Self::Refused { count, drops, error } => {
                 write!(f, "{count} of {drops} drops that were tried are not answered: {error}")
             }
-            Self::Stopped => write!(f, "{} its end", Error::Stopped),
+            Self::Stopped { answered } => {
+                write!(f, "{} its end, after {answered} drops that were answered", Error::Stopped)
+            }
             Self::NoTilt(error) => write!(f, "what real tilt adds is not known: {error}"),
             Self::Fullest(model, error) => write!(f, "{} does not answer the worst drop found: {error}", model.name()),
             Self::NoBound => f.write_str("how far other drops may exceed the worst one found is not known"),
@@ -90,6 +108,14 @@ impl Display for Doubt {
                 percent(*found),
                 percent(*most)
             ),
+            Self::Friction { found, most } => write!(
+                f,
+                "without friction the worst drop found asks for {} % of the limit; friction of the ground up to {FRICTION} may bring others \
+                 to {} %",
+                percent(*found),
+                percent(*most)
+            ),
+            Self::Contradiction(contradiction) => write!(f, "{contradiction}"),
             Self::Laws(laws) => {
                 let one = |(law, share): (ContactLaw, Option<f64>)| {
                     let share = share.map_or("an unknown share".to_owned(), |share| format!("{} %", percent(share)));
@@ -118,6 +144,35 @@ impl Display for Doubt {
     }
 }
 
+/// What an assessment says that can't be: an error of the program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Contradiction {
+    /// A drop asks for more than the bound by energy allows.
+    AboveBound {
+        /// What the drop asks for, in the unit of the limit.
+        demand: f64,
+        /// What the bound allows.
+        bound: f64,
+    },
+    /// A drop asks for more than the one that is told as the worst; shares of what is allowed.
+    AboveWorst {
+        /// What the drop asks for.
+        found: f64,
+        /// What is told.
+        told: f64,
+    },
+}
+
+impl Display for Contradiction {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let (what, [one, other]) = match *self {
+            Self::AboveBound { demand, bound } => ("a drop asks for more than its energy allows", [demand, bound]),
+            Self::AboveWorst { found, told } => ("a drop asks for more than the worst that is told", [found, told]),
+        };
+        write!(f, "this is an error of clatter, please report it: {what} ({one:.4e} and {other:.4e})")
+    }
+}
+
 /// What else is to be known of a limit. Shares are of what is allowed.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -128,6 +183,14 @@ pub enum Note {
     Error(f64),
     /// Rebounds may ask for up to this share, by their energy.
     Rebounds(f64),
+    /// Friction up to [`FRICTION`](crate::bound::FRICTION), which drops are followed without, may bring them to this share.
+    Friction(f64),
+    /// Nothing tells how far other drops may exceed the worst one found, for this.
+    Open(Vec<Doubt>),
+    /// The same of another drop of the list.
+    OpenIn(Option<DropName>, Vec<Doubt>),
+    /// The assessment contradicts itself.
+    Contradiction(Contradiction),
     /// Edges beyond feet may come down as the product lands again.
     Edges,
     /// A bar does not roll about its length, where most products turn fastest.
@@ -162,6 +225,21 @@ impl Display for Note {
                 "it may be off by {} %: later strikes add, and multiply what those before got wrong",
                 percent(*share)
             ),
+            Self::Friction(most) => write!(
+                f,
+                "drops are followed without friction: pushes along the ground of up to {FRICTION} of those of the ground upward may ask for \
+                 up to {} % of the limit",
+                percent(*most)
+            ),
+            Self::Open(doubts) => {
+                let why = joined(doubts).unwrap_or_default();
+                write!(f, "how far other drops may exceed it is not known: {why}")
+            }
+            Self::OpenIn(name, doubts) => {
+                let (name, why) = (name.map_or_else(String::new, |name| name.to_string()), joined(doubts).unwrap_or_default());
+                write!(f, "how far drops of {name} may exceed it is not known: {why}")
+            }
+            Self::Contradiction(contradiction) => write!(f, "{contradiction}"),
             Self::Edges => f.write_str(
                 "after its clatter edges beyond the feet may come down: energy bounds what they change velocities by, how hard they press \
                  is not known",

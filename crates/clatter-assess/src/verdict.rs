@@ -268,6 +268,9 @@ pub struct LimitAssessment {
     pub other_law: Option<f64>,
     /// The drop that does it; null where no drop was answered.
     pub worst_case: Option<WorstCase>,
+    /// The drop that decides the verdict, where several are listed and it is another than the one that asks for the demand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub governs: Option<DropName>,
     /// How it was followed, and why so.
     pub model: ModelChoice,
     /// Why the limit is undecided; else empty.

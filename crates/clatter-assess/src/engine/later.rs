@@ -3,6 +3,7 @@
 use clatter_shock::Suspension;
 
 use super::PlaceHistory;
+use crate::bound::box_acceleration;
 use crate::Limit;
 use crate::drop::Followed;
 use crate::quantity::Source;
@@ -122,16 +123,16 @@ impl PlaceHistory<'_> {
             turn_rad_s: center / drop.least_gyration_m() * turned,
             // Nothing where nothing is left, also where a strike has no largest force.
             acceleration_m_s2: if center > 0.0 {
-                // Four corners of a box at most, each with no more than if it had all lever arms of the place. How hard edges beyond feet
-                // press is not known.
-                let pressed = if drop.feet.is_some() {
+                // How hard edges beyond feet press is not known.
+                if drop.feet.is_some() {
                     f64::INFINITY
                 } else if is_box {
-                    2.0 * mass(here)
+                    let longest_s = drop.contact_times_s().map_or(0.0, |[_, longest]| longest);
+                    let speed = 0.5 * center * turned;
+                    box_acceleration(drop, &self.spot, speed, center * self.peak_per_change(), longest_s)
                 } else {
-                    pressed.max(mass(here))
-                };
-                center * pressed * self.peak_per_change()
+                    center * pressed.max(mass(here)) * self.peak_per_change()
+                }
             } else {
                 0.0
             },

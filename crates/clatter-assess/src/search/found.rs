@@ -26,6 +26,8 @@ pub(crate) struct Worst {
     pub(crate) near: Vec<Candidate>,
     /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
     pub(crate) later: f64,
+    /// The utilization that a drop may reach with friction, of a part that moves along the ground; else 0.
+    pub(crate) with_friction: f64,
     /// Drops that the model does not take, and why the first of them; of edges that touch, the one that does deepest.
     pub(crate) refused: Option<(usize, Error)>,
     /// Drops that were followed besides climbing.
@@ -41,9 +43,15 @@ pub(super) struct OfDrop {
     pub(super) asked: Vec<(usize, Candidate)>,
     /// Of tasks of which the energy allows more after the body has come down once, how much.
     pub(super) later: Vec<(usize, f64)>,
+    /// Of tasks that friction adds to, what they ask with it at most.
+    pub(super) with_friction: Vec<(usize, f64)>,
 }
 
 impl Worst {
+    pub(super) fn none() -> Self {
+        let near = Vec::new();
+        Self { asked: None, near, later: 0.0, with_friction: 0.0, refused: None, drops: 0, stopped: false }
+    }
     pub(super) fn refuse(&mut self, count: usize, error: &Error) {
         let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
         self.refused = Some((own + count, first.or_deeper(error.clone())));
@@ -58,10 +66,16 @@ pub(super) struct Candidates {
     pub(super) refused: Option<(usize, Error)>,
     /// Of each task, what rebounds may ask by their energy; 0 where that is less than the worst.
     pub(super) later: Vec<f64>,
+    /// Of each task, the most that a drop may ask with friction; 0 where friction adds nothing.
+    pub(super) with_friction: Vec<f64>,
     pub(super) drops: usize,
 }
 
 impl Candidates {
+    pub(super) fn none(tasks: usize) -> Self {
+        let nothing = vec![0.0; tasks];
+        Self { found: vec![Vec::new(); tasks], refused: None, later: nothing.clone(), with_friction: nothing, drops: 0 }
+    }
     /// The largest utilization of each task so far.
     pub(super) fn best(&self) -> Vec<f64> {
         let most = |found: &Vec<Candidate>| found.iter().map(|asked| asked.answer.utilization()).fold(0.0, f64::max);
@@ -74,6 +88,9 @@ impl Candidates {
                 Ok(of_drop) => {
                     of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
                     of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
+                    for (task, most) in of_drop.with_friction {
+                        self.with_friction[task] = most.max(self.with_friction[task]);
+                    }
                 }
                 Err(error) => {
                     self.refused = Some(
@@ -120,9 +137,11 @@ mod tests {
     #[test]
     fn rebounds_of_all_drops_are_the_most_of_any() {
         for order in [[3.0, 1.0, 2.0], [1.0, 2.0, 3.0]] {
-            let mut all = Candidates { found: vec![Vec::new()], refused: None, later: vec![0.0], drops: 0 };
-            all.take(order.map(|most| Ok(OfDrop { asked: Vec::new(), later: vec![(0, most)] })).into());
+            let mut all = Candidates::none(1);
+            let of = |most: f64| OfDrop { later: vec![(0, most)], with_friction: vec![(0, 2.0 * most)], ..OfDrop::default() };
+            all.take(order.map(|most| Ok(of(most))).into());
             assert!((all.later[0] - 3.0).abs() < 1e-12 && all.drops == 3, "{:?} of {order:?}", all.later);
+            assert!((all.with_friction[0] - 6.0).abs() < 1e-12, "{:?} of {order:?}", all.with_friction);
         }
     }
 }

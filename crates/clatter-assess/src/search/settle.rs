@@ -16,7 +16,7 @@ impl Ranges<'_> {
     /// again; so the next are tried until none may be worse.
     pub(super) fn settle(&self, task: &Task<'_>, mut reached: Vec<Candidate>) -> Worst {
         reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
-        let mut worst = Worst { asked: None, near: Vec::new(), later: 0.0, refused: None, drops: 0, stopped: false };
+        let mut worst = Worst::none();
         // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
         let mut bounces = f64::INFINITY;
         for late in [false, true] {
@@ -58,7 +58,7 @@ impl Ranges<'_> {
     /// The worst of what was reached as it was found, where the time is over: to the tolerance if it decides, and nobody knows how far
     /// off.
     pub(super) fn settle_at_once(&self, task: &Task<'_>, reached: Vec<Candidate>) -> Worst {
-        let mut worst = Worst { asked: None, near: Vec::new(), later: 0.0, refused: None, drops: 0, stopped: true };
+        let mut worst = Worst { stopped: true, ..Worst::none() };
         let found = reached.into_iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()));
         let exact =
             |found: Candidate| if found.answer.utilization() > 1.0 { self.exactly(task, &found) } else { Ok(found) };

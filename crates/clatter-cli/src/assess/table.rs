@@ -175,8 +175,11 @@ fn worst_drop(
         }
         None => sentence(out, &first, "no drop is answered")?,
     }
-    if let Some(reason) = limit.why_undecided() {
-        sentence(out, "  undecided: ", &reason)?;
+    match (limit.why_undecided(), limit.governs) {
+        (Some(reason), Some(other)) => sentence(out, "  undecided: ", &format!("by {other}, {reason}"))?,
+        (Some(reason), None) => sentence(out, "  undecided: ", &reason)?,
+        (None, Some(other)) => sentence(out, &format!("  {}: ", verdict(limit.verdict)), &format!("by {other}"))?,
+        (None, None) => {}
     }
     limit.notes.iter().try_for_each(|note| sentence(out, "  note: ", &note.to_string()))?;
     let Some(worst) = &limit.worst_case else { return Ok(()) };
