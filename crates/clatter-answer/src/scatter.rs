@@ -18,7 +18,7 @@
 use std::convert::Infallible;
 
 use clatter_assess::scatter::{
-    ComponentScatter, Driver, Error, Input, LandingComponent, LandingScatter, Pilot, Probability, Sampler, Scatter,
+    ComponentScatter, Driver, Error, Input, LandingComponent, LandingScatter, PlateAs, Probability, Sampler, Scatter,
     Settings,
 };
 use clatter_assess::{Component, DropName, Model, ProductFile};
@@ -68,8 +68,6 @@ pub fn answer(file: &ProductFile, settings: Settings) -> Result<Answer<'_>, Erro
 struct AnswerJson<'a> {
     product: &'a str,
     samples: u64,
-    /// More than `samples` where most are answered by the cheap model.
-    drawn: u64,
     seed: u64,
     confidence: Json,
     model: ModelJson,
@@ -81,9 +79,8 @@ struct AnswerJson<'a> {
     /// Why the first of them is not answered.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
-    /// Of several drops in sequence, samples in which what answers may be off by, or the energy left, decides.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    open: Option<u64>,
+    /// Samples in which what answers may be off by, or the energy left, decides.
+    open: u64,
     components: Vec<ComponentJson<'a>>,
     /// Of several drops, each of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -104,36 +101,32 @@ struct LandingComponentJson<'a> {
     open: u64,
     unanswered: u64,
     survival: SurvivalJson,
-    largest_utilization: Json,
+    /// Null where no drop was answered.
+    largest_utilization: Option<Json>,
 }
 
 #[derive(Serialize)]
 struct ModelJson {
     bar: &'static str,
     reason: &'static str,
-    /// Drops that this model answered, where most are answered by a cheap one.
-    refined: u64,
-    /// Null where the cheap model was not tried.
-    pilot: Option<PilotJson>,
+    /// How a plate is followed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plate: Option<PlateJson>,
     /// Of several drops, what a sample is.
     #[serde(skip_serializing_if = "Option::is_none")]
     sequence: Option<&'static str>,
 }
 
 #[derive(Serialize)]
-struct PilotJson {
-    /// Drops of a first batch, answered by both models.
-    drops: u64,
-    /// Those of them in which a part fails …
-    failed: u64,
-    /// … and in which the cheap model does not say the same.
-    differ: u64,
-    /// Least work for the same interval, as a share of that of plain sampling.
-    work: Json,
-    /// Whether the cheap model helps, and is taken.
-    taken: bool,
-    /// One drop in so many is then answered by both.
-    one_in: Option<u64>,
+#[serde(tag = "as", rename_all = "kebab-case")]
+enum PlateJson {
+    Box {
+        thickness_m: Json,
+        /// Whether the file tells no thickness.
+        assumed: bool,
+    },
+    /// On feet: real tilt is left out.
+    LevelPlate,
 }
 
 #[derive(Serialize)]
@@ -160,7 +153,8 @@ struct InputJson {
 
 #[derive(Serialize)]
 struct SurvivalJson {
-    probability: Json,
+    /// Null where nothing was answered.
+    probability: Option<Json>,
     interval: [Json; 2],
     at_least: Json,
 }
@@ -206,7 +200,7 @@ struct DriverJson {
 
 impl SurvivalJson {
     fn new(p: Probability) -> Self {
-        Self { probability: Json(p.estimate), interval: [Json(p.lo), Json(p.hi)], at_least: Json(p.at_least) }
+        Self { probability: p.estimate.map(Json), interval: [Json(p.lo), Json(p.hi)], at_least: Json(p.at_least) }
     }
 }
 
@@ -216,17 +210,12 @@ impl ModelJson {
             Model::Compliant => "contacts that take time: how long is known",
             _ => "instant impacts at real tilt, with gravity: the contact time is not known",
         };
-        let pilot = |pilot: Pilot| PilotJson {
-            drops: pilot.drops,
-            failed: pilot.failures,
-            differ: pilot.differ,
-            work: Json(pilot.work),
-            taken: pilot.one_in.is_some(),
-            one_in: pilot.one_in,
+        let plate = |plate| match plate {
+            PlateAs::Box { thickness_m, assumed } => PlateJson::Box { thickness_m: Json(thickness_m), assumed },
+            PlateAs::Level => PlateJson::LevelPlate,
         };
-        let refined = if scatter.followed < scatter.drawn { scatter.followed } else { 0 };
         let sequence = (!scatter.landings.is_empty()).then_some(SEQUENCE);
-        Self { bar: scatter.model.name(), reason, refined, pilot: scatter.pilot.map(pilot), sequence }
+        Self { bar: scatter.model.name(), reason, plate: scatter.plate.map(plate), sequence }
     }
 }
 
@@ -243,7 +232,7 @@ impl<'a> LandingJson<'a> {
             open: of.open,
             unanswered: of.unanswered,
             survival: SurvivalJson::new(of.survival),
-            largest_utilization: Json(of.largest_utilization),
+            largest_utilization: of.largest_utilization.map(Json),
         };
         let components = file.components.iter().zip(&of.components).map(one).collect();
         Self { landing: of.landing, survival: SurvivalJson::new(of.survival), components }
@@ -293,7 +282,6 @@ impl Serialize for Answer<'_> {
         AnswerJson {
             product: &file.product.name,
             samples,
-            drawn: scatter.drawn,
             seed,
             confidence: Json(confidence),
             model: ModelJson::new(scatter),
@@ -302,7 +290,7 @@ impl Serialize for Answer<'_> {
             target: target.map(|share| TargetJson { survival: Json(share), met: self.is_met() }),
             unanswered: scatter.unanswered,
             reason: scatter.reason.as_ref().map(ToString::to_string),
-            open: (!scatter.landings.is_empty()).then_some(scatter.open),
+            open: scatter.open,
             components: scatter.components.iter().map(|c| ComponentJson::new(c, &landing)).collect(),
             landings: scatter.landings.iter().map(|of| LandingJson::new(file, of)).collect(),
         }

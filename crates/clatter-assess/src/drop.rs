@@ -9,6 +9,7 @@ use clatter::End;
 use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model as Physics, Plate, PlateScene, Scene};
 use serde::Serialize;
 
+use crate::assess::THIN;
 use crate::attitude::{turned_off, turns_off};
 use crate::course::Course;
 use crate::engine::Spot;
@@ -278,6 +279,13 @@ impl SingleDrop {
     /// Whether it is a box that lands on a face, an edge or a corner.
     pub(crate) fn is_box(&self) -> bool {
         self.across.is_some_and(|across| across.posture.is_some())
+    }
+    /// Of a plate of small tilt the box that it is, as thick as its file tells, else thin; none of one on feet, which no box is.
+    pub(crate) fn boxed(&self) -> Option<Self> {
+        let across = self.across.filter(|across| across.posture.is_none() && self.feet.is_none())?;
+        let thickness_m = across.width.thickness_m.unwrap_or(THIN * self.body.length_m());
+        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m, about: None });
+        Some(Self { across: Some(Across { posture, ..across }), ..*self })
     }
     /// From the lowest point to the highest, along the body.
     pub(crate) fn reach_m(&self) -> f64 {

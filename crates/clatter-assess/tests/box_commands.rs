@@ -104,7 +104,10 @@ fn a_flat_landing_without_ranges_survives_as_it_is_assessed() {
             assert_eq!(assessment.components.iter().map(|c| c.verdict).collect::<Vec<_>>(), verdicts);
             for (verdict, part) in verdicts.into_iter().zip(&scatter.components) {
                 let survives = if verdict == Verdict::Safe { 1.0 } else { 0.0 };
-                assert!((part.survival.estimate - survives).abs() < 1e-12 && part.open == 0, "{face}: {part:?}");
+                assert!(
+                    (part.survival.estimate.unwrap() - survives).abs() < 1e-12 && part.open == 0,
+                    "{face}: {part:?}"
+                );
             }
         }
     }
@@ -132,10 +135,10 @@ fn a_sequence_is_all_of_its_drops() {
             let alone = &landing.components[i];
             assert!(component.failures >= alone.failures && component.survival.hi <= alone.survival.hi);
             assert!(scatter.survival.estimate <= landing.survival.estimate);
-            assert!(alone.largest_utilization <= component.largest_utilization);
+            assert!(alone.largest_utilization <= Some(component.largest_utilization));
         }
     }
-    assert!(scatter.components[0].failures > 0 && scatter.survival.estimate < 1.0);
+    assert!(scatter.components[0].failures > 0 && scatter.survival.estimate < Some(1.0));
     // It takes several drops to fail as often.
     let most = scatter.landings.iter().map(|landing| landing.components[0].failures).max().unwrap();
     assert!(scatter.components[0].failures > most, "{} and {most}", scatter.components[0].failures);
@@ -206,7 +209,7 @@ fn boxes_fail_as_often_as_in_plain_sampling() {
     let scatter = run(&file, many);
     let of = [OfLanding::Tilt, OfLanding::Direction].map(|of| Input::Landing(0, of));
     assert_eq!(scatter.inputs, [of[0], Input::Restitution, of[1]]);
-    assert_eq!((scatter.assumed_even.as_slice(), scatter.pilot), (&of[..1], None));
+    assert_eq!(scatter.assumed_even, of[..1]);
     let shares = |k: u32| {
         [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3].map(|a| (a * f64::from(k)).fract())
     };
@@ -219,7 +222,7 @@ fn boxes_fail_as_often_as_in_plain_sampling() {
     });
     #[expect(clippy::cast_precision_loss, reason = "a small count")]
     let failed = fails.count() as f64 / f64::from(drops);
-    let found = 1.0 - scatter.components[0].survival.estimate;
+    let found = 1.0 - scatter.components[0].survival.estimate.unwrap();
     assert!((0.2..0.8).contains(&failed), "{failed}");
     // Four standard deviations of both.
     let most = 4.0 * (failed * (1.0 - failed) * (1.0 / 1500.0 + 1.0 / f64::from(drops))).sqrt();
@@ -246,7 +249,7 @@ fn what_rebounds_may_decide_is_open() {
     let display = &scatter.components[0];
     assert!(display.failures == 0 && display.open == 20 && scatter.open == 20, "{display:?}");
     let survival = display.survival;
-    assert_eq!([survival.estimate, survival.lo, survival.hi].map(f64::to_bits), [1.0, 0.0, 1.0].map(f64::to_bits));
+    assert_eq!((survival.estimate, survival.lo, survival.hi), (Some(1.0), 0.0, 1.0));
     // With less energy left it is followed to where that decides nothing.
     let calm = run(&file(&on("face", "bottom").replace("9 mm", "60 mm")), 20);
     assert!(calm.open == 0 && calm.components[0].survival.lo > 0.8, "{calm:?}");
@@ -280,7 +283,9 @@ fn the_drops_of_a_list_have_their_names() {
     // The battery slides along the length: on the ends most, flat on its back next to nothing.
     let battery = |name: &str| {
         let on = DropName::On(Attitude::on(name).unwrap());
-        scatter.landings.iter().find(|landing| landing.landing == on).unwrap().components[1].largest_utilization
+        scatter.landings.iter().find(|landing| landing.landing == on).unwrap().components[1]
+            .largest_utilization
+            .unwrap()
     };
     assert!(battery("end-a") > 4.0 * battery("bottom") && battery("end-b") > 4.0 * battery("top"));
 }

@@ -8,9 +8,9 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter_answer::scatter::Answer;
+use clatter_assess::ProductFile;
 use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings};
 use clatter_assess::units::Quantity;
-use clatter_assess::{Model, ProductFile};
 
 use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
@@ -28,11 +28,8 @@ use crate::{Exit, Failure, Streams, assess, budget, output, quantities};
 /// a part survives comes with an interval that holds the truth at least as often as it says, and with what it is at
 /// least; what answers may be off by widens both.
 ///
-/// Where many of a bar are asked for, a cheap model answers more drops than that, and the fuller one a share of them as well: the
-/// mean difference of both verdicts is added (two-level Monte Carlo), so that nothing that the cheap model gets wrong is
-/// left. A first batch chooses the share, so that the interval for all parts is as wide as that of N drops; the interval
-/// of a part that fails less often may be wider. Where that saves nothing, it says so and answers each by the fuller
-/// model.
+/// A plate is followed as the box that it is, with full rotation; where the file tells no thickness as one of a twentieth of its
+/// length, which is told. One on feet is followed at small tilt, and what real tilt does is left out.
 ///
 /// A sample of a box is one product that goes through all of its drops, and survives if it survives each: what the file says of
 /// product and parts is drawn once for it, height or speed and attitude for each drop, every attitude within the tolerance
@@ -57,8 +54,7 @@ pub(crate) struct Args {
     /// Product file
     #[arg(value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
     product: PathBuf,
-    /// How many drops, 1 to 1e12; where a cheap model helps, as many as the interval is worth; of a box how many products, each of which goes
-    /// through all drops [default: 1e5, of a box 1000]
+    /// How many drops, 1 to 1e12; of a box how many products, each of which goes through all drops [default: 1e5, of a box 1000]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = samples)]
     samples: Option<u64>,
     /// Another seed draws other drops
@@ -74,7 +70,7 @@ pub(crate) struct Args {
     /// Survival of all parts that is to be sure, as a share: 0.999 or 99.9%; missed where the interval begins below it
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = target)]
     target: Option<f64>,
-    /// Also write every sample to this file, ending in .csv: its drop, what varies of the parts, the model, and the
+    /// Also write every sample to this file, ending in .csv: its drop, what varies of the parts, and the
     /// utilization of every part; - writes them to standard output in place of the answer
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = output::ending("csv"))]
     output: Option<PathBuf>,
@@ -185,7 +181,6 @@ fn title(file: &ProductFile, column: Column) -> String {
         Column::LandingSpinRadS(n) => there("spin_rad_s", n),
         Column::LandingDirectionDeg(n) => there("direction_deg", n),
         Column::LandingUtilization(n, i) => there(&format!("utilization of {}", name_of(file, i)), n),
-        Column::Model => "model".to_owned(),
         Column::Utilization(i) => format!("utilization of {}", name_of(file, i)),
         _ => "value".to_owned(),
     }
@@ -199,14 +194,13 @@ fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, counted: &C
         write!(out, ",{}", field(&title(file, *column)))?;
     }
     writeln!(out)?;
-    let (full, mut sample) = (fullest(file).name(), 0_u64);
+    let mut sample = 0_u64;
     sampler.run(true, &budget::go_on, |progress: &Progress<'_>| {
         for row in progress.values.chunks(columns.len()) {
             write!(out, "{sample}")?;
             for (column, value) in columns.iter().zip(row) {
                 match column {
                     Column::First => write!(out, ",{}", if *value < 0.5 { "a" } else { "b" })?,
-                    Column::Model => write!(out, ",{}", if *value < 0.5 { full } else { "cheap" })?,
                     // no answer
                     _ if value.is_nan() => write!(out, ",")?,
                     _ => write!(out, ",{}", digits(*value))?,
@@ -218,11 +212,6 @@ fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, counted: &C
         counted.at(progress.done);
         Ok::<_, io::Error>(())
     })
-}
-
-/// The model with the most physics that the file allows.
-fn fullest(file: &ProductFile) -> Model {
-    if file.product.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt }
 }
 
 /// The name of a part by its index.

@@ -107,7 +107,7 @@ fn scatter_tells_of_the_samples_that_were_drawn() {
     let scatter = ["scatter", "long.toml", "--samples=100000000", "--format=json", "--time-limit=4s"];
     let (code, stdout, stderr) = told(&clatter(dir.path()).args(scatter).output().unwrap());
     assert_eq!(code, Some(0), "{stderr}");
-    let drawn = stdout.split("\"drawn\":").nth(1).and_then(|rest| rest.split(',').next()).unwrap();
+    let drawn = stdout.split("\"samples\":").nth(1).and_then(|rest| rest.split(',').next()).unwrap();
     assert!((1..100_000_000).contains(&drawn.parse::<u64>().unwrap()), "{drawn}");
     assert!(stderr.contains("warning: --time-limit is over: the answer is of what was done by then"), "{stderr}");
 }

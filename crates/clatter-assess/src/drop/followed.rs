@@ -59,6 +59,11 @@ impl Followed {
         Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s, before_edge: false })
     }
 
+    /// The same motion as that of another drop, of which more may come.
+    pub(crate) fn left_early(self, drop: &SingleDrop) -> Self {
+        Self { drop: *drop, early: true, ..self }
+    }
+
     /// Follows one drop until nothing later counts: until the energy that is left allows no velocity shock above `tolerance` of the
     /// largest times the restitution.
     ///

@@ -3,8 +3,8 @@
 /// A probability, the interval that holds it with the stated confidence, and one-sided bounds of the same confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Probability {
-    /// Successes over samples.
-    pub estimate: f64,
+    /// Successes over samples; none where nothing is known of any.
+    pub estimate: Option<f64>,
     /// Lower bound of the interval.
     pub lo: f64,
     /// Upper bound of the interval.
@@ -36,7 +36,7 @@ pub struct Probability {
 /// No failure in 1000 drops: at 95 %, at least 997 in 1000 survive.
 /// ```
 /// let survival = clatter_assess::scatter::clopper_pearson(1000, 1000, 0.95);
-/// assert_eq!((survival.estimate, survival.hi), (1.0, 1.0));
+/// assert_eq!((survival.estimate, survival.hi), (Some(1.0), 1.0));
 /// assert!((survival.at_least - 0.05f64.powf(1e-3)).abs() < 1e-15 && survival.at_least > 0.997);
 /// ```
 #[must_use]
@@ -56,7 +56,7 @@ pub fn clopper_pearson(successes: u64, samples: u64, confidence: f64) -> Probabi
         (0, _) => -libm::expm1(libm::log(0.5 * alpha) / n),
         _ => beta_quantile(rest, k + 1.0, 0.5 * alpha)[1],
     };
-    Probability { estimate: k / n, lo: lower(0.5 * alpha), hi, at_least: lower(alpha) }
+    Probability { estimate: Some(k / n), lo: lower(0.5 * alpha), hi, at_least: lower(alpha) }
 }
 
 /// x and 1 − x with I_x(a, b) = `share`, for whole a, b ≥ 1: bisection in ln(x/(1 − x)), which keeps the digits of
@@ -189,7 +189,8 @@ mod tests {
                 (one.lo - (1.0 - other.hi)).abs() < 1e-12 && (one.hi - (1.0 - other.lo)).abs() < 1e-12,
                 "{k} of {n}"
             );
-            assert!(one.lo <= one.at_least && one.at_least <= one.estimate && one.estimate <= one.hi, "{k} of {n}");
+            let estimate = one.estimate.unwrap();
+            assert!(one.lo <= one.at_least && one.at_least <= estimate && estimate <= one.hi, "{k} of {n}");
         }
     }
 

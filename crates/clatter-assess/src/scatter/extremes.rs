@@ -76,7 +76,7 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
         let (body, e) = &points[pick(0, points.len())];
         let sample = few.sample(body, *e, pick(1, few.drops.len()));
         let (mut cheap, mut full) = (Vec::new(), Vec::new());
-        cheap::answer(&sample, &vec![1.0; sample.parts.len()], &mut cheap);
+        cheap::answer(&sample, &mut cheap);
         full::answer(&sample.drops[0], &sample.parts, &mut full);
         error(&cheap, &full)
     };
@@ -89,14 +89,14 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
 }
 
 /// The largest factor, less 1, between what both models ask of the parts of a drop; infinite where the fuller one has no answer.
-fn error(cheap: &[SampleDemand], full: &[Result<SampleDemand, crate::Error>]) -> f64 {
-    let of = |(cheap, full): (&SampleDemand, &Result<SampleDemand, crate::Error>)| {
+fn error(cheap: &[f64], full: &[Result<SampleDemand, crate::Error>]) -> f64 {
+    let of = |(cheap, full): (&f64, &Result<SampleDemand, crate::Error>)| {
         let Ok(full) = full else { return f64::INFINITY };
         let [least, most] = full.within;
-        if most <= 0.0 && cheap.utilization <= 0.0 {
+        if most <= 0.0 && *cheap <= 0.0 {
             return 0.0;
         }
-        let factor = (most / cheap.utilization).max(cheap.utilization / least);
+        let factor = (most / cheap).max(cheap / least);
         if factor.is_nan() { f64::INFINITY } else { factor - 1.0 }
     };
     cheap.iter().zip(full).map(of).fold(0.0, f64::max)
@@ -203,7 +203,6 @@ impl Corners {
 
     fn closed(&self, body: &Body, e: f64) -> Vec<Option<f64>> {
         let (mut asked, mut sample) = (Vec::new(), self.sample(body, e, 0));
-        let even = vec![1.0; sample.parts.len()];
         let mut worst = Worst::new(&self.counts);
         for drop in &self.drops {
             // Another body may be turned up where it touches, which no train tells.
@@ -211,8 +210,8 @@ impl Corners {
                 return vec![None; self.counts.len()];
             }
             sample.drops[0] = SingleDrop { body: *body, restitution: e, ..*drop };
-            cheap::answer(&sample, &even, &mut asked);
-            worst.raise(&asked, |asked, most| Some(asked.utilization.max(most)));
+            cheap::answer(&sample, &mut asked);
+            worst.raise(&asked, |asked, most| Some(asked.max(most)));
         }
         worst.verdicts()
     }

@@ -27,6 +27,8 @@ const BOUNCES: f64 = 4.0;
 #[derive(Debug)]
 pub(super) struct FollowedDrops<'a> {
     drop: &'a SingleDrop,
+    /// The box that a plate is.
+    boxed: Option<SingleDrop>,
     /// The first swing of the slowest part takes so long at most.
     swing_s: f64,
     early: LazyDrop,
@@ -41,12 +43,12 @@ impl<'a> FollowedDrops<'a> {
     pub(super) fn of(drop: &'a SingleDrop, parts: &[PartSample]) -> Self {
         let suspensions = parts.iter().filter_map(|part| part.suspension.as_ref());
         let swing_s = suspensions.map(|part| PI / part.omega()).fold(0.0, f64::max);
-        Self { drop, swing_s, early: None, whole: None, finer: [None, None] }
+        Self { drop, boxed: drop.boxed(), swing_s, early: None, whole: None, finer: [None, None] }
     }
 
     /// What the drop asks of a part; why, where it is not answered.
     pub(super) fn answer(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
-        if self.drop.is_box() {
+        if self.drop.is_box() || self.boxed.is_some() {
             return self.of_box(part);
         }
         let mut asked = self.passing(part, TOLERANCE, LEAST)?;
@@ -65,20 +67,26 @@ impl<'a> FollowedDrops<'a> {
 
     /// The same of a box: by its first landing and the first swing of its parts, and by what follows where its energy may decide whether
     /// a limit holds. Where what is left of it in the end still may, the sample is open.
+    ///
+    /// A plate whose contacts are too soft for so thin a box lands on the corners of its bottom, however far they sink in.
     fn of_box(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
-        let drop = self.drop;
-        let follow = |following: &mut LazyDrop, until| {
-            let follow = || Followed::until(drop, drop.fullest(), TOLERANCE, until);
-            let followed = following.get_or_insert_with(follow);
+        let drop = self.boxed.as_ref().unwrap_or(self.drop);
+        let until = |time_s| Followed::until(drop, drop.fullest(), TOLERANCE, Until::Past(time_s));
+        let lands_s = self.swing_s.max(drop.clatter_s());
+        let on_bottom = |error| {
+            let posture = self.boxed.and_then(|boxed| boxed.across?.posture).ok_or(error)?;
+            Ok(Followed::as_block(self.drop, posture.thickness_m, lands_s)?.left_early(drop))
+        };
+        let of_part = |followed: &Result<Followed, Error>| {
             followed.as_ref().map_err(Clone::clone).and_then(|followed| of_part_of_box(followed, part))
         };
-        let first = follow(&mut self.early, Until::Past(self.swing_s))?;
+        let first = of_part(self.early.get_or_insert_with(|| until(self.swing_s).or_else(on_bottom)))?;
         if !first.is_open() {
             return Ok(first);
         }
         let on_s = if drop.gravity_m_s2 > 0.0 { BOUNCES * drop.speed_m_s / drop.gravity_m_s2 } else { 0.0 };
         // A motion that is too long to be followed stays open.
-        Ok(follow(&mut self.whole, Until::Past(on_s.max(self.swing_s))).unwrap_or(first))
+        Ok(of_part(self.whole.get_or_insert_with(|| until(on_s.max(self.swing_s)))).unwrap_or(first))
     }
 
     /// The larger of a utilization and what the drop asks of a part.

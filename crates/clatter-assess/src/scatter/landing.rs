@@ -1,7 +1,7 @@
 //! The drops of a list, one by one and in sequence.
 
-use super::levels::Count;
-use super::{OfPart, Probability, SampleDemand, Settings};
+use super::tally::Count;
+use super::{OfPart, Probability, SampleDemand};
 use crate::DropName;
 
 /// What came of one of several drops.
@@ -28,8 +28,8 @@ pub struct LandingComponent {
     pub unanswered: u64,
     /// Probability that all of its limits hold in this drop.
     pub survival: Probability,
-    /// The largest utilization seen.
-    pub largest_utilization: f64,
+    /// The largest utilization seen; none where none was answered.
+    pub largest_utilization: Option<f64>,
 }
 
 /// What is drawn anew for each drop of a list.
@@ -62,12 +62,12 @@ impl OfLanding {
     }
 }
 
-/// What a sequence of drops asks of a part: as much as the one that asks most. Where one of them is not answered, neither is the sequence,
-/// unless the part has failed in another.
-pub(super) fn sequence<'a>(drops: impl Iterator<Item = &'a OfPart>) -> OfPart {
+/// What a sequence of drops asks of a part, and a drop of all parts together: as much as the one that asks most. Where one of them is not
+/// answered, neither are all, unless another has failed for sure.
+pub(super) fn sequence<'a>(each: impl IntoIterator<Item = &'a OfPart>) -> OfPart {
     let (mut most, mut error) = (SampleDemand::default(), None);
-    for drop in drops {
-        match drop {
+    for one in each {
+        match one {
             Ok(asked) => most = most.largest(asked),
             Err(why) => error = error.or(Some(why)),
         }
@@ -75,50 +75,47 @@ pub(super) fn sequence<'a>(drops: impl Iterator<Item = &'a OfPart>) -> OfPart {
     error.filter(|_| most.within[0] <= 1.0).map_or(Ok(most), |error| Err(error.clone()))
 }
 
-/// What is asked of all parts together; why, where one of them is not answered.
-pub(super) fn all_of(parts: &[OfPart]) -> OfPart {
-    let together =
-        |most: SampleDemand, asked: &OfPart| asked.as_ref().map(|asked| most.largest(asked)).map_err(Clone::clone);
-    parts.iter().try_fold(SampleDemand::default(), together)
-}
-
 /// What came of one of several drops, so far: of all parts, and of each with the largest utilization.
 #[derive(Debug, Clone)]
 pub(super) struct LandingTally {
     all: Count,
-    parts: Vec<(Count, f64)>,
+    parts: Vec<(Count, Option<f64>)>,
 }
 
 impl LandingTally {
     pub(super) fn new(parts: usize) -> Self {
-        Self { all: Count::default(), parts: vec![(Count::default(), 0.0); parts] }
+        Self { all: Count::default(), parts: vec![(Count::default(), None); parts] }
     }
 
     pub(super) fn take(&mut self, parts: &[OfPart]) {
         for ((count, largest), asked) in self.parts.iter_mut().zip(parts) {
-            count.take(None, Some(asked.as_ref().ok()));
-            *largest = asked.as_ref().map_or(*largest, |asked| asked.utilization.max(*largest));
+            count.take(asked.as_ref().ok());
+            *largest = larger(*largest, asked.as_ref().ok().map(|asked| asked.utilization));
         }
-        self.all.take(None, Some(all_of(parts).as_ref().ok()));
+        self.all.take(sequence(parts).as_ref().ok());
     }
 
     pub(super) fn merge(&mut self, later: &Self) {
         self.all.merge(&later.all);
         for ((count, largest), later) in self.parts.iter_mut().zip(&later.parts) {
             count.merge(&later.0);
-            *largest = largest.max(later.1);
+            *largest = larger(*largest, later.1);
         }
     }
 
-    pub(super) fn summary(&self, landing: DropName, settings: &Settings) -> LandingScatter {
-        let of = |(count, largest_utilization): &(Count, f64)| {
-            let [failures, open, unanswered] = count.counts(settings.samples);
-            let survival = count.survival(settings.confidence);
-            LandingComponent { failures, open, unanswered, survival, largest_utilization: *largest_utilization }
+    pub(super) fn summary(&self, landing: DropName, confidence: f64) -> LandingScatter {
+        let of = |(count, largest_utilization): &(Count, Option<f64>)| {
+            let [failures, open, unanswered] = count.counts();
+            let (survival, largest_utilization) = (count.survival(confidence), *largest_utilization);
+            LandingComponent { failures, open, unanswered, survival, largest_utilization }
         };
-        let survival = self.all.survival(settings.confidence);
+        let survival = self.all.survival(confidence);
         LandingScatter { landing, survival, components: self.parts.iter().map(of).collect() }
     }
+}
+
+fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    a.into_iter().chain(b).reduce(f64::max)
 }
 
 #[cfg(test)]

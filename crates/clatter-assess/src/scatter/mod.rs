@@ -2,18 +2,20 @@
 //!
 //! # Model
 //! A sample is answered as any other drop is: by the model with the most physics that the data allow, contacts that take time
-//! where their time is known, else instant impacts at real tilt with gravity. Where many samples of a bar are drawn, most are answered by a
-//! cheap model instead, and what that gets wrong is measured on a share of them: a two-level estimate, as wide as the
-//! interval of the samples asked for would be without it. Utilizations and what drives them are those of the samples that the full
-//! model answered.
+//! where their time is known, else instant impacts at real tilt with gravity.
 //!
 //! # Intervals
-//! An interval holds the probability by the model with the most physics with the stated confidence. A sample whose utilization is
-//! so near 1 that the error told by the model decides it counts as a failure for the lower end and as none for the upper. A sample
-//! that is not answered is treated alike.
+//! All numbers are counted on the same samples, so that all parts together survive no more often than each, and a sequence of drops no
+//! more often than each of them. An interval holds the probability with the stated confidence: that of Clopper and Pearson. A sample
+//! whose utilization is so near 1 that the error told by the model decides it counts as a failure for the lower end and as none for the
+//! upper. A sample that is not answered is treated alike.
 //!
 //! Where a body lands after it has bounced clear is sensitive to every input. What such a landing asks in one sample may differ from
 //! one tolerance to another; how many samples fail does not.
+//!
+//! # Plates
+//! A drop of a plate is followed as one of the box that it is, with full rotation. A file that tells no thickness has one of a twentieth of
+//! the length. On feet no plate is followed as a box: real tilt is left out ([`PlateAs`]).
 //!
 //! # Boxes
 //! A sample of a box is one product that goes through all of its drops, and survives if it survives each. What \[product\] and
@@ -37,7 +39,6 @@ mod drivers;
 mod extremes;
 mod full;
 mod landing;
-mod levels;
 mod philox;
 mod rows;
 mod sample;
@@ -47,7 +48,6 @@ use rayon::prelude::*;
 
 use crate::{Component, DropName, LimitKind, Model, ProductFile};
 use landing::sequence;
-use levels::{Levels, float, round};
 use sample::{Inputs, Sample};
 use tally::Block;
 
@@ -55,7 +55,6 @@ pub use binomial::{Probability, clopper_pearson};
 pub use drivers::Share;
 pub use extremes::{Extremes, extremes};
 pub use landing::{LandingComponent, LandingScatter, OfLanding};
-pub use levels::Pilot;
 pub use rows::{PartRow, Recount};
 pub use sample::Input;
 
@@ -89,8 +88,7 @@ pub enum Error {
 /// How to draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How many drops answered by the full model the intervals are as wide as; where several are listed how many products, each of which goes
-    /// through all of them.
+    /// How many drops; where several are listed how many products, each of which goes through all of them.
     pub samples: u64,
     /// Another seed, other drops.
     pub seed: u64,
@@ -114,23 +112,19 @@ impl Settings {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Scatter {
-    /// How they were drawn; where it was stopped before the end, as many samples as the intervals are as wide as.
+    /// How they were drawn; where that was stopped before the end, as many samples as were drawn.
     pub settings: Settings,
     /// The model with the most physics, which the probabilities are those of.
     pub model: Model,
-    /// Samples drawn: more than asked for where most are answered by the cheap model.
-    pub drawn: u64,
-    /// Those of them that the full model answered.
-    pub followed: u64,
-    /// What the cheap model gets wrong, by a first batch; none where it was not tried: for few samples, and of a plate.
-    pub pilot: Option<Pilot>,
+    /// How a plate is followed; none of a bar, and of a box that lands on anything.
+    pub plate: Option<PlateAs>,
     /// The inputs that vary; without any, all samples are one.
     pub inputs: Vec<Input>,
     /// Inputs given as a range with no distribution, taken as equally likely all over it.
     pub assumed_even: Vec<Input>,
     /// Probability that every component survives; `at_least` is what a target is held against.
     pub survival: Probability,
-    /// Samples in which a component was not answered, of those asked for. They count as failures, except for the upper ends of intervals.
+    /// Samples in which a component was not answered. They count as failures, except for the upper ends of intervals.
     pub unanswered: u64,
     /// Why the first of them was not.
     pub reason: Option<crate::Error>,
@@ -142,7 +136,21 @@ pub struct Scatter {
     pub landings: Vec<LandingScatter>,
 }
 
-/// What came of one component. Counts are of the samples asked for; where not all are answered by the full model, as estimated.
+/// How drops of a plate are followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PlateAs {
+    /// As the box that it is, with full rotation.
+    Box {
+        /// Its thickness.
+        thickness_m: f64,
+        /// Whether that is taken as a twentieth of the length, as the file tells none.
+        assumed: bool,
+    },
+    /// At small tilt: one on feet is not followed as a box, and what real tilt does is left out.
+    Level,
+}
+
+/// What came of one component.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ComponentScatter {
@@ -158,7 +166,7 @@ pub struct ComponentScatter {
     pub survival: Probability,
     /// Failures by limit: one sample may count at several.
     pub limits: Vec<(LimitKind, u64)>,
-    /// Mean of the utilization, the largest demand over allowed, of the samples that the full model answered; NaN where it answered none.
+    /// Mean of the utilization, the largest demand over allowed, of the samples that were answered; NaN where none was.
     pub mean_utilization: f64,
     /// Its standard deviation.
     pub utilization_deviation: f64,
@@ -231,9 +239,7 @@ pub enum Column {
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part in m/s², where it varies.
     CriticalAccelerationMS2(usize),
-    /// 0: answered by the full model; 1: by the cheap one alone.
-    Model,
-    /// Utilization of a part; by the cheap model times a factor, so that as many drops fail in the first batch: the largest demand over allowed. It survives up to 1. NaN where the model has no answer.
+    /// Utilization of a part: the largest demand over allowed. It survives up to 1. NaN where the model has no answer.
     Utilization(usize),
     /// In one of several drops, the utilization of a part.
     LandingUtilization(usize, usize),
@@ -271,14 +277,12 @@ impl SampleDemand {
     }
 }
 
-/// What a sample asks of every part; a list is empty where a model was not asked.
+/// What a sample asks of every part.
 #[derive(Debug, Default)]
 struct Answers {
-    /// By the cheap model.
-    cheap: Vec<SampleDemand>,
-    /// By the full one, in all drops.
-    full: Vec<OfPart>,
-    /// The same in each of several drops.
+    /// In all drops.
+    parts: Vec<OfPart>,
+    /// In each of several drops.
     landings: Vec<Vec<OfPart>>,
 }
 
@@ -302,9 +306,6 @@ pub struct Sampler {
     drop_names: Vec<DropName>,
     fullest: Model,
 }
-
-/// Samples of the first batch are those from here on: none of them is drawn again.
-const BATCH: u64 = 1 << 63;
 
 impl Sampler {
     /// Checks everything before anything is drawn.
@@ -332,9 +333,9 @@ impl Sampler {
         self.inputs.columns()
     }
 
-    /// Draws all samples on the threads of the current pool, after a first batch where it is worth while. `watch` is called in
-    /// order, on this thread, with all samples where `keep` asks for them. Where `go_on`, which any thread may ask, says `false`, no
-    /// more are drawn than the first: the answer is that of the samples so far, as many as its settings say.
+    /// Draws all samples on the threads of the current pool. `watch` is called in order, on this thread, with all samples where `keep`
+    /// asks for them. Where `go_on`, which any thread may ask, says `false`, no more are drawn than the first: the answer is that of the
+    /// samples so far, as many as its settings say.
     ///
     /// # Errors
     /// Those of `watch`.
@@ -344,35 +345,29 @@ impl Sampler {
         go_on: &(dyn Fn() -> bool + Sync),
         mut watch: impl FnMut(&Progress<'_>) -> Result<(), E>,
     ) -> Result<Scatter, E> {
-        let asked_for = self.settings.samples;
-        // A first batch that was cut short tells nothing.
-        let (pilot, levels) = self.pilot(go_on).filter(|_| go_on()).unzip();
-        let levels = levels.flatten();
-        let samples = levels.as_ref().map_or(asked_for, |levels| levels.samples);
+        let samples = self.settings.samples;
         let near = self.near();
         let block = self.block_size();
         let blocks = samples.div_ceil(block);
         let together = 4 * rayon::current_num_threads() as u64;
         let mut total = Block::new(&self.components, &self.inputs, &near);
         let mut next = 0;
-        let done = |drawn| round(float(asked_for) * (float(drawn) / float(samples)));
         'drawing: while next < blocks {
             let until = blocks.min(next + together);
             let drawn: Vec<Block> = (next..until)
                 .into_par_iter()
-                .map(|b| self.block([b * block, samples.min((b + 1) * block)], levels.as_ref(), keep, &near, go_on))
+                .map(|b| self.block([b * block, samples.min((b + 1) * block)], keep, &near, go_on))
                 .collect();
             for drawn in drawn {
                 total.merge(&drawn);
-                watch(&Progress { done: done(total.all.samples), values: &drawn.values })?;
+                watch(&Progress { done: total.all.samples, values: &drawn.values })?;
                 next += 1;
                 if total.all.samples < samples.min(next * block) {
                     break 'drawing;
                 }
             }
         }
-        let samples = done(total.all.samples).max(1);
-        Ok(self.summary(total, samples, pilot))
+        Ok(self.summary(total))
     }
 
     /// Samples of one block.
@@ -386,99 +381,61 @@ impl Sampler {
         &self.drop_names
     }
 
-    /// What came of all blocks, for the intervals of so many samples.
-    fn summary(&self, total: Block, samples: u64, pilot: Option<Pilot>) -> Scatter {
-        let Block { tallies, landings, all, reason, .. } = total;
-        let settings = Settings { samples, ..self.settings };
+    /// What came of all blocks.
+    fn summary(&self, total: Block) -> Scatter {
+        let Block { tallies, landings, all, unanswered, reason, .. } = total;
+        let settings = Settings { samples: all.samples, ..self.settings };
+        let confidence = settings.confidence;
         let each = self.components.iter().zip(tallies.iter().zip(&self.inputs.of_part));
         let components: Vec<_> =
-            each.map(|(component, (tally, own))| tally.summary(component, &self.inputs, own, &settings)).collect();
-        let [_, open, unanswered] = all.counts(settings.samples);
+            each.map(|(component, (tally, own))| tally.summary(component, &self.inputs, own, confidence)).collect();
+        let [_, open, _] = all.counts();
+        let landings = self.drop_names.iter().zip(&landings).map(|(name, tally)| tally.summary(*name, confidence));
         Scatter {
             settings,
             model: self.fullest,
-            drawn: all.samples,
-            followed: all.both,
-            pilot,
+            plate: self.inputs.plate,
             inputs: self.inputs.varied.clone(),
             assumed_even: self.inputs.assumed_even.clone(),
-            survival: all.survival(settings.confidence),
+            survival: all.survival(confidence),
             unanswered,
             reason,
             open,
             components,
-            landings: self
-                .drop_names
-                .iter()
-                .zip(&landings)
-                .map(|(name, tally)| tally.summary(*name, &settings))
-                .collect(),
+            landings: landings.collect(),
         }
-    }
-
-    /// The cheap model beside the full one, on samples of its own, and how to go on from there; none where few are asked for, and of a
-    /// plate.
-    fn pilot(&self, go_on: &(dyn Fn() -> bool + Sync)) -> Option<(Pilot, Option<Levels>)> {
-        let Settings { samples, confidence, .. } = self.settings;
-        let parts = self.components.len();
-        let both = |k| {
-            if !go_on() {
-                return vec![(0.0, false); parts];
-            }
-            let (mut sample, mut asked) = (self.inputs.blank(), Answers::default());
-            self.answer(BATCH + k, Some(&vec![1.0; parts]), true, &mut sample, &mut asked);
-            let Answers { cheap, full, .. } = asked;
-            let fails = |full: &Result<SampleDemand, _>| full.as_ref().map_or(true, |asked| asked.utilization > 1.0);
-            cheap.iter().zip(&full).map(|(cheap, full)| (cheap.utilization, fails(full))).collect()
-        };
-        (samples >= levels::LEAST_SAMPLES && self.inputs.has_cheap())
-            .then(|| levels::pilot(samples, confidence, parts, go_on, both))
     }
 
     /// The utilizations of the first sample: sums count from there.
     fn near(&self) -> Vec<f64> {
         let (mut sample, mut asked) = (self.inputs.blank(), Answers::default());
-        self.answer(0, None, true, &mut sample, &mut asked);
-        let utilization = |asked: &Result<SampleDemand, _>| asked.as_ref().map_or(0.0, |asked| asked.utilization);
-        asked.full.iter().map(utilization).map(|used| if used.is_finite() { used } else { 0.0 }).collect()
+        self.answer(0, &mut sample, &mut asked);
+        let utilization = |asked: &OfPart| asked.as_ref().map_or(0.0, |asked| asked.utilization);
+        asked.parts.iter().map(utilization).map(|used| if used.is_finite() { used } else { 0.0 }).collect()
     }
 
-    /// Draws a sample, and what it asks by the cheap model, times these factors, and by the full one; a list is left empty where that
-    /// one is not asked.
-    fn answer(&self, k: u64, factors: Option<&[f64]>, follow: bool, sample: &mut Sample, asked: &mut Answers) {
-        let Answers { cheap, full, landings } = asked;
-        cheap.clear();
-        full.clear();
+    /// Draws a sample, and what it asks.
+    fn answer(&self, k: u64, sample: &mut Sample, asked: &mut Answers) {
+        let Answers { parts, landings } = asked;
+        parts.clear();
         landings.clear();
-        let drawn = self.inputs.draw(self.settings.seed, k, sample);
-        if let Some(factors) = factors {
-            cheap::answer(sample, factors, cheap);
-        }
-        match drawn {
-            _ if !follow => {}
+        match self.inputs.draw(self.settings.seed, k, sample) {
             Ok(()) if self.inputs.landings() > 0 => {
                 landings.resize_with(sample.drops.len(), Vec::new);
                 let each = sample.drops.iter().zip(landings.iter_mut());
                 each.for_each(|(drop, asked)| full::answer(drop, &sample.parts, asked));
-                full.extend((0..sample.parts.len()).map(|i| sequence(landings.iter().map(|landing| &landing[i]))));
+                parts.extend((0..sample.parts.len()).map(|i| sequence(landings.iter().map(|landing| &landing[i]))));
             }
-            Ok(()) => full::answer(&sample.drops[0], &sample.parts, full),
+            Ok(()) => full::answer(&sample.drops[0], &sample.parts, parts),
             Err(error) => {
-                full.resize(self.components.len(), Err(error));
-                landings.resize(self.inputs.landings(), full.clone());
+                parts.resize(self.components.len(), Err(error));
+                landings.resize(self.inputs.landings(), parts.clone());
             }
         }
     }
 
     /// Samples from .. to, as long as it may go on; the first of all is drawn in any case.
-    fn block(
-        &self,
-        [from, to]: [u64; 2],
-        levels: Option<&Levels>,
-        keep: bool,
-        near: &[f64],
-        go_on: &(dyn Fn() -> bool + Sync),
-    ) -> Block {
+    fn block(&self, [from, to]: [u64; 2], keep: bool, near: &[f64], go_on: &(dyn Fn() -> bool + Sync)) -> Block {
         let mut block = Block::new(&self.components, &self.inputs, near);
         let columns = if keep { self.columns() } else { Vec::new() };
         let (mut sample, mut asked) = (self.inputs.blank(), Answers::default());
@@ -486,15 +443,11 @@ impl Sampler {
             if k > 0 && !go_on() {
                 break;
             }
-            let follow = levels.is_none_or(|levels| k % levels.one_in == 0);
-            let factors = levels.map(|levels| &levels.factors[..]);
-            self.answer(k, factors, follow, &mut sample, &mut asked);
+            self.answer(k, &mut sample, &mut asked);
             block.take(k, &asked, &self.inputs, &sample.uniforms);
             let used = |asked: &OfPart| asked.as_ref().map_or(f64::NAN, |asked| asked.utilization);
             block.values.extend(columns.iter().map(|column| match column {
-                Column::Model => f64::from(u8::from(!follow)),
-                Column::Utilization(i) if follow => used(&asked.full[*i]),
-                Column::Utilization(i) => asked.cheap[*i].utilization,
+                Column::Utilization(i) => used(&asked.parts[*i]),
                 Column::LandingUtilization(n, i) => used(&asked.landings[*n][*i]),
                 other => sample.value(*other),
             }));

@@ -1,7 +1,7 @@
-//! Samples one by one, all by the full model: kept elsewhere, and counted again from what was kept.
+//! Samples one by one: kept elsewhere, and counted again from what was kept.
 //!
 //! A sample depends on the seed and its number alone, so that samples may be drawn anywhere and in any order. Counted in order, they
-//! give what [`Sampler::run`] gives where it answers all of them by the full model, to the last bit.
+//! give what [`Sampler::run`] gives, to the last bit.
 
 use std::ops::Range;
 
@@ -59,7 +59,7 @@ impl Sampler {
         columns.iter().map(|column| in_si(&drawn, *column)).collect()
     }
 
-    /// Draws samples by the full model on the threads of the current pool, and gives these quantities of each in SI, angles in rad too,
+    /// Draws samples on the threads of the current pool, and gives these quantities of each in SI, angles in rad too,
     /// and what it asks of each part, of a box through all of its drops and then of each part in each of them; none where it has no answer.
     /// `done` is told of so many more, by any thread.
     #[must_use]
@@ -75,15 +75,14 @@ impl Sampler {
             let until = samples.end.min(from + PIECE);
             let (mut sample, mut answers) = (self.inputs.blank(), Answers::default());
             let row = |k| {
-                self.answer(k, None, true, &mut sample, &mut answers);
-                let full = &answers.full;
-                if full.iter().all(Result::is_err) {
+                self.answer(k, &mut sample, &mut answers);
+                if answers.parts.iter().all(Result::is_err) {
                     // What could not be drawn is not to be that of the sample before.
                     sample = self.inputs.blank();
                     let _ = self.inputs.draw(self.settings.seed, k, &mut sample);
                 }
                 let values = columns.iter().map(|column| in_si(&sample, *column)).collect();
-                let asked = full.iter().chain(answers.landings.iter().flatten());
+                let asked = answers.parts.iter().chain(answers.landings.iter().flatten());
                 (values, asked.map(|asked| asked.as_ref().ok().map(PartRow::new)).collect())
             };
             let rows: Vec<_> = (from..until).map(row).collect();
@@ -133,19 +132,19 @@ impl Recount {
         let known = self.total.reason.as_ref().or(self.block.reason.as_ref());
         if known.is_none() && asked.iter().any(Option::is_none) {
             // Why it has no answer was not kept, and is found once more.
-            sampler.answer(k, None, true, &mut self.sample, &mut again);
+            sampler.answer(k, &mut self.sample, &mut again);
         }
-        let parts = sampler.components.len();
+        let count = sampler.components.len();
         let reason = |i: usize| {
-            let asked: Option<&OfPart> = again.full.iter().chain(again.landings.iter().flatten()).nth(i);
+            let asked: Option<&OfPart> = again.parts.iter().chain(again.landings.iter().flatten()).nth(i);
             asked.and_then(|asked| asked.as_ref().err()).or(known).cloned().unwrap_or(crate::Error::Unfinished)
         };
         let each = asked.iter().enumerate();
-        let mut full: Vec<OfPart> =
+        let mut parts: Vec<OfPart> =
             each.map(|(i, asked)| asked.map(|asked| asked.demand()).ok_or_else(|| reason(i))).collect();
-        let of_drops = full.split_off(parts.min(full.len()));
-        let landings = of_drops.chunks(parts.max(1)).map(<[_]>::to_vec).collect();
-        let answers = Answers { full, landings, ..Answers::default() };
+        let of_drops = parts.split_off(count.min(parts.len()));
+        let landings = of_drops.chunks(count.max(1)).map(<[_]>::to_vec).collect();
+        let answers = Answers { parts, landings };
         self.block.take(k, &answers, &sampler.inputs, &self.sample.uniforms);
         self.next += 1;
         if self.next.is_multiple_of(sampler.block_size()) {
@@ -158,6 +157,6 @@ impl Recount {
     #[must_use]
     pub fn finish(mut self) -> Scatter {
         self.total.merge(&self.block);
-        self.sampler.summary(self.total, self.next.max(1), None)
+        self.sampler.summary(self.total)
     }
 }

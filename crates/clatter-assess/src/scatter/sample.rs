@@ -9,7 +9,7 @@ use clatter_shock::Suspension;
 use super::draw::Quantile;
 use super::landing::OfLanding;
 use super::philox::Stream;
-use super::{Column, Error};
+use super::{Column, Error, PlateAs};
 use crate::assess::Listed;
 use crate::component::places;
 use crate::drop::{Across, Posture};
@@ -177,6 +177,8 @@ pub(super) struct Inputs {
     pub(super) assumed_even: Vec<Input>,
     /// Of each part, which of those that vary act on it.
     pub(super) of_part: Vec<Vec<usize>>,
+    /// How a plate is followed; none of a bar, and of a box that lands on anything.
+    pub(super) plate: Option<PlateAs>,
     /// What is the same in all drops.
     drop: SingleDrop,
     /// Whether a sample goes through the drops of a list.
@@ -382,12 +384,20 @@ impl Inputs {
             feet: product.feet,
             own_contacts: product.own_contacts,
         };
+        let plate = same.across.filter(|_| !same.is_box()).map(|across| {
+            let posture = same.boxed().and_then(|drop| drop.across?.posture);
+            posture.map_or(PlateAs::Level, |posture| PlateAs::Box {
+                thickness_m: posture.thickness_m,
+                assumed: across.width.thickness_m.is_none(),
+            })
+        });
         let Finder { varied, assumed_even } = finder;
         Ok(Self {
             merge_s,
             varied,
             assumed_even,
             of_part,
+            plate,
             drop: same,
             has_list,
             restitution,
@@ -434,11 +444,6 @@ impl Inputs {
             }
         }
         Ok(())
-    }
-
-    /// Whether the cheap model is one of the product: of a bar that falls once.
-    pub(super) fn has_cheap(&self) -> bool {
-        self.drop.across.is_none() && !self.has_list
     }
 
     /// The drops that these uniform numbers give, all of one product.
@@ -528,7 +533,6 @@ impl Inputs {
                 _ => None,
             }));
         }
-        columns.push(Column::Model);
         columns.extend((0..self.parts.len()).map(Column::Utilization));
         if self.has_list {
             let of = |n| (0..self.parts.len()).map(move |i| Column::LandingUtilization(n, i));
@@ -569,7 +573,7 @@ impl Sample {
             Column::CriticalAccelerationMS2(i) => {
                 limit(i, LimitKind::DamageBoundary).map(|limit| limit.critical_acceleration_m_s2)
             }
-            Column::Model | Column::Utilization(_) | Column::LandingUtilization(..) => None,
+            Column::Utilization(_) | Column::LandingUtilization(..) => None,
         };
         value.unwrap_or(f64::NAN)
     }

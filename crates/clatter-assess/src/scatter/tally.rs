@@ -1,43 +1,49 @@
 //! What comes of many samples: counts of failures, what they are within, and what drives them.
 
-#![expect(clippy::option_option, reason = "not asked, without an answer, answered")]
-
 use super::drivers::Sums;
-use super::landing::{LandingTally, all_of};
-use super::levels::{Count, float, round};
-use super::{Answers, ComponentScatter, Driver, Inputs, Probability, SampleDemand, Settings};
+use super::landing::{LandingTally, sequence};
+use super::{Answers, ComponentScatter, Driver, Inputs, Probability, SampleDemand, clopper_pearson};
 use crate::{Component, Error, Limit};
 
+/// Verdicts on samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Count {
+    pub(super) samples: u64,
+    /// Those that fail: as answered, at least and at most, whatever the answers may be off by. What is not answered fails but for the
+    /// least.
+    fails: [u64; 3],
+    unanswered: u64,
+}
+
 impl Count {
-    /// Takes in a sample by what it asks by the cheap model, where that was asked, and by the full one: none where only the cheap one
-    /// was asked, an inner none where it has no answer.
-    pub(super) fn take(&mut self, cheap: Option<&SampleDemand>, full: Option<Option<&SampleDemand>>) {
-        let fails = |asked: &SampleDemand| [asked.utilization, asked.within[0], asked.within[1]].map(|used| used > 1.0);
-        self.add(cheap.is_some_and(|asked| asked.utilization > 1.0), full.map(|full| full.map(fails)));
+    /// Takes in what a sample asks; none where that is not answered.
+    pub(super) fn take(&mut self, asked: Option<&SampleDemand>) {
+        let verdicts =
+            |asked: &SampleDemand| [asked.utilization, asked.within[0], asked.within[1]].map(|used| used > 1.0);
+        let fails = asked.map_or([true, false, true], verdicts);
+        self.samples += 1;
+        self.fails.iter_mut().zip(fails).for_each(|(count, fails)| *count += u64::from(fails));
+        self.unanswered += u64::from(asked.is_none());
+    }
+
+    pub(super) fn merge(&mut self, later: &Self) {
+        self.samples += later.samples;
+        self.fails.iter_mut().zip(later.fails).for_each(|(count, later)| *count += later);
+        self.unanswered += later.unanswered;
     }
 
     /// The probability to survive. The lower end takes all that is open or not answered as failures, the upper end as none.
     pub(super) fn survival(&self, confidence: f64) -> Probability {
-        let least = |confidence| (1.0 - self.bounds(2, confidence)[1]).max(0.0);
-        Probability {
-            estimate: (1.0 - self.probability(0)).clamp(0.0, 1.0),
-            lo: least(confidence),
-            hi: 1.0 - self.bounds(1, confidence)[0],
-            at_least: least(2.0 * confidence - 1.0),
-        }
+        let [told, most, least] =
+            self.fails.map(|fails| clopper_pearson(self.samples - fails, self.samples, confidence));
+        let estimate = told.estimate.filter(|_| self.unanswered < self.samples);
+        Probability { estimate, lo: least.lo, hi: most.hi, at_least: least.at_least }
     }
 
-    /// So many of the samples asked for, by the verdicts of one kind.
-    fn of(&self, samples: u64, which: usize) -> u64 {
-        round(float(samples) * self.probability(which).clamp(0.0, 1.0))
-    }
-
-    /// Of the samples asked for, those that fail, that are open and that are not answered.
-    pub(super) fn counts(&self, samples: u64) -> [u64; 3] {
-        let Self { more, fewer, unanswered, both, .. } = *self;
-        let scaled = |count: u64| round(float(count) * float(samples) / float(both.max(1)));
-        let open = (more[2] + fewer[1]).saturating_sub(more[1] + fewer[2] + unanswered);
-        [self.of(samples, 0).saturating_sub(scaled(unanswered)), scaled(open), scaled(unanswered)]
+    /// How many fail, are open and are not answered.
+    pub(super) fn counts(&self) -> [u64; 3] {
+        let Self { fails: [told, least, most], unanswered, .. } = *self;
+        [told - unanswered, most - least - unanswered, unanswered]
     }
 }
 
@@ -47,7 +53,10 @@ pub(super) struct Block {
     pub(super) tallies: Vec<Tally>,
     /// Of each drop of a box.
     pub(super) landings: Vec<LandingTally>,
+    /// Of all parts together.
     pub(super) all: Count,
+    /// Samples in which a part is not answered, and why the first is not.
+    pub(super) unanswered: u64,
     pub(super) reason: Option<Error>,
     pub(super) values: Vec<f64>,
 }
@@ -57,21 +66,20 @@ impl Block {
         let each = components.iter().zip(&inputs.of_part).zip(near);
         let tallies = each.map(|((component, own), near)| Tally::new(component, own.len(), *near)).collect();
         let landings = vec![LandingTally::new(components.len()); inputs.landings()];
-        Self { tallies, landings, all: Count::default(), reason: None, values: Vec::new() }
+        Self { tallies, landings, all: Count::default(), unanswered: 0, reason: None, values: Vec::new() }
     }
 
-    /// Takes in sample k; an empty list where a model was not asked.
+    /// Takes in sample k.
     pub(super) fn take(&mut self, k: u64, asked: &Answers, inputs: &Inputs, uniforms: &[f64]) {
-        let Answers { cheap, full, landings } = asked;
-        for (i, (tally, own)) in self.tallies.iter_mut().zip(&inputs.of_part).enumerate() {
-            let full = full.get(i).map(|full| full.as_ref().ok());
-            tally.take(k, cheap.get(i), full, own.iter().map(|input| uniforms[*input]));
+        let Answers { parts, landings } = asked;
+        for ((tally, own), asked) in self.tallies.iter_mut().zip(&inputs.of_part).zip(parts) {
+            tally.take(k, asked.as_ref().ok(), own.iter().map(|input| uniforms[*input]));
         }
-        let cheap = cheap.iter().fold(SampleDemand::default(), SampleDemand::largest);
-        let together = all_of(full);
-        self.all.take(Some(&cheap), (!full.is_empty()).then_some(together.as_ref().ok()));
+        self.all.take(sequence(parts).as_ref().ok());
+        let reason = parts.iter().find_map(|asked| asked.as_ref().err());
+        self.unanswered += u64::from(reason.is_some());
         if self.reason.is_none() {
-            self.reason = together.err();
+            self.reason = reason.cloned();
         }
         self.landings.iter_mut().zip(landings).for_each(|(tally, parts)| tally.take(parts));
     }
@@ -80,6 +88,7 @@ impl Block {
         self.all.merge(&later.all);
         self.tallies.iter_mut().zip(&later.tallies).for_each(|(sum, later)| sum.merge(later));
         self.landings.iter_mut().zip(&later.landings).for_each(|(sum, later)| sum.merge(later));
+        self.unanswered += later.unanswered;
         if self.reason.is_none() {
             self.reason.clone_from(&later.reason);
         }
@@ -90,7 +99,8 @@ impl Block {
 #[derive(Debug)]
 pub(super) struct Tally {
     pub(super) count: Count,
-    limits: Vec<Count>,
+    /// Failures of each limit.
+    limits: Vec<u64>,
     sums: Sums,
     largest: f64,
     worst: Option<u64>,
@@ -99,24 +109,15 @@ pub(super) struct Tally {
 impl Tally {
     /// `near` is any value near the utilizations.
     pub(super) fn new(component: &Component, inputs: usize, near: f64) -> Self {
-        let limits = vec![Count::default(); component.limits.kinds().len()];
+        let limits = vec![0; component.limits.kinds().len()];
         Self { count: Count::default(), limits, sums: Sums::new(near, inputs), largest: 0.0, worst: None }
     }
 
     /// Takes in a sample as [`Count::take`], with the ranks of the inputs of the part.
-    pub(super) fn take(
-        &mut self,
-        sample: u64,
-        cheap: Option<&SampleDemand>,
-        full: Option<Option<&SampleDemand>>,
-        ranks: impl Iterator<Item = f64>,
-    ) {
-        self.count.take(cheap, full);
-        for (k, count) in self.limits.iter_mut().enumerate() {
-            let full = full.map(|full| [full.is_some_and(|asked| asked.fails[k]); 3]);
-            count.add(cheap.is_some_and(|asked| asked.fails[k]), full.map(Some));
-        }
-        let Some(Some(asked)) = full else { return };
+    pub(super) fn take(&mut self, sample: u64, asked: Option<&SampleDemand>, ranks: impl Iterator<Item = f64>) {
+        self.count.take(asked);
+        let Some(asked) = asked else { return };
+        self.limits.iter_mut().zip(asked.fails).for_each(|(count, fails)| *count += u64::from(fails));
         self.sums.add(asked.utilization, ranks);
         if self.worst.is_none() || asked.utilization > self.largest {
             (self.largest, self.worst) = (asked.utilization, Some(sample));
@@ -125,7 +126,7 @@ impl Tally {
 
     pub(super) fn merge(&mut self, later: &Self) {
         self.count.merge(&later.count);
-        self.limits.iter_mut().zip(&later.limits).for_each(|(sum, later)| sum.merge(later));
+        self.limits.iter_mut().zip(&later.limits).for_each(|(sum, later)| *sum += later);
         self.sums.merge(&later.sums);
         if later.worst.is_some() && (self.worst.is_none() || later.largest > self.largest) {
             (self.largest, self.worst) = (later.largest, later.worst);
@@ -137,21 +138,21 @@ impl Tally {
         component: &Component,
         inputs: &Inputs,
         own: &[usize],
-        settings: &Settings,
+        confidence: f64,
     ) -> ComponentScatter {
         let shares = self.sums.shares().unwrap_or_default();
         let mut drivers: Vec<Driver> =
             own.iter().zip(shares).map(|(input, share)| Driver { input: inputs.varied[*input], share }).collect();
         drivers.sort_by(|a, b| b.share.variance.total_cmp(&a.share.variance));
         let kinds = Limit::of(component).into_iter().map(|limit| limit.kind);
-        let [failures, open, unanswered] = self.count.counts(settings.samples);
+        let [failures, open, unanswered] = self.count.counts();
         ComponentScatter {
             name: component.name.clone(),
             failures,
             open,
             unanswered,
-            survival: self.count.survival(settings.confidence),
-            limits: kinds.zip(self.limits.iter().map(|count| count.of(settings.samples, 0))).collect(),
+            survival: self.count.survival(confidence),
+            limits: kinds.zip(self.limits.iter().copied()).collect(),
             mean_utilization: self.sums.mean(),
             utilization_deviation: self.sums.deviation(),
             largest_utilization: self.largest,
@@ -164,22 +165,43 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scatter::clopper_pearson;
+    use crate::scatter::OfPart;
+
+    fn of(used: f64, least: f64, most: f64) -> SampleDemand {
+        SampleDemand { utilization: used, within: [least, most], ..SampleDemand::default() }
+    }
 
     /// Of five samples one fails, one may fail, one has no answer, and two are stood.
     #[test]
     fn every_sample_is_counted_once() {
         let mut count = Count::default();
-        let of = |used, least, most| {
-            Some(SampleDemand { utilization: used, within: [least, most], ..SampleDemand::default() })
-        };
-        for full in [of(1.2, 1.1, 1.3), of(0.98, 0.95, 1.01), None, of(0.5, 0.4, 0.6), of(0.7, 0.6, 0.8)] {
-            count.take(None, Some(full.as_ref()));
+        for asked in [of(1.2, 1.1, 1.3), of(0.98, 0.95, 1.01), of(0.5, 0.4, 0.6), of(0.7, 0.6, 0.8)] {
+            count.take(Some(&asked));
         }
-        assert_eq!(count.counts(5), [1, 1, 1]);
+        count.take(None);
+        assert_eq!(count.counts(), [1, 1, 1]);
         let survival = count.survival(0.95);
-        assert!((survival.estimate - 0.6).abs() < 1e-12, "what has no answer is no survivor: {survival:?}");
-        assert!(survival.lo < clopper_pearson(2, 5, 0.95).lo + 1e-12, "nor is what may fail: {survival:?}");
-        assert!(survival.hi > clopper_pearson(4, 5, 0.95).hi - 1e-12, "{survival:?}");
+        assert_eq!(survival.estimate, Some(0.6), "what has no answer is no survivor: {survival:?}");
+        let [two, four] = [2, 4].map(|survive| clopper_pearson(survive, 5, 0.95));
+        for (told, known) in [(survival.lo, two.lo), (survival.at_least, two.at_least), (survival.hi, four.hi)] {
+            assert_eq!(told.to_bits(), known.to_bits(), "nor is what may fail: {survival:?}");
+        }
+    }
+
+    /// Of all that two parts may be in one sample: together they fail wherever one of them does, and may fail wherever one may.
+    #[test]
+    fn parts_together_survive_no_more_often_than_each() {
+        let answered = [of(0.5, 0.4, 0.6), of(0.9, 0.8, 1.1), of(1.1, 0.9, 1.2), of(2.0, 1.5, 3.0)].map(Ok);
+        let each: Vec<OfPart> = answered.into_iter().chain([Err(Error::Unfinished)]).collect();
+        for (one, other) in each.iter().flat_map(|one| each.iter().map(move |other| (one, other))) {
+            let [all, one, other] = [sequence([one, other]), one.clone(), other.clone()].map(|asked| {
+                let mut count = Count::default();
+                count.take(asked.as_ref().ok());
+                count
+            });
+            for which in 0..3 {
+                assert_eq!(all.fails[which], one.fails[which].max(other.fails[which]), "{one:?}, {other:?}: {all:?}");
+            }
+        }
     }
 }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use clatter_answer::scatter::Answer;
 use clatter_assess::ProductFile;
 use clatter_assess::scatter::{
-    ComponentScatter, Driver, Input, LandingComponent, OfLanding, Pilot, Probability, Scatter, Settings,
+    ComponentScatter, Driver, Input, LandingComponent, OfLanding, PlateAs, Probability, Scatter, Settings,
 };
 
 use super::name_of;
@@ -53,6 +53,11 @@ fn way(driver: &Driver) -> &'static str {
     }
 }
 
+/// The same of an estimate; "-" where nothing was answered.
+pub(crate) fn estimated(survival: &Probability) -> String {
+    survival.estimate.map_or_else(|| "-".to_owned(), hundredths)
+}
+
 /// A probability as a number of a hundred.
 pub(crate) fn hundredths(p: f64) -> String {
     if p >= 1.0 { "100".to_owned() } else { figures(100.0 * p) }
@@ -62,7 +67,6 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     let Answer { file, scatter, target, .. } = answer;
     let Settings { samples, seed, confidence, .. } = scatter.settings;
     let (product, sure) = (shown(&file.product.name, 60), given(100.0 * confidence));
-    let (drawn, followed) = (scatter.drawn, scatter.followed);
     let has_list = !scatter.landings.is_empty();
     if has_list {
         let drops = match scatter.landings.len() {
@@ -70,32 +74,34 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
             n => format!("its {n} drops, one after the other"),
         };
         writeln!(out, "{product}: {samples} products drawn with seed {seed}; each goes through {drops}")?;
-    } else if followed < drawn {
-        writeln!(out, "{product}: {drawn} drops drawn with seed {seed}, for the intervals of {samples}")?;
     } else {
         writeln!(out, "{product}: {samples} drops drawn with seed {seed}")?;
     }
-    models(scatter, out)?;
+    sentence(out, "", &model(scatter))?;
     let Probability { estimate, lo, at_least, .. } = scatter.survival;
-    writeln!(
-        out,
-        "All parts survive in {} % of them; in at least {} % of all {} ({sure} % confidence)",
-        hundredths(estimate),
-        hundredths(at_least),
-        if has_list { "products" } else { "drops" }
-    )?;
+    let what = if has_list { "products" } else { "drops" };
+    match estimate {
+        Some(estimate) => writeln!(
+            out,
+            "All parts survive in {} % of them; in at least {} % of all {what} ({sure} % confidence)",
+            hundredths(estimate),
+            hundredths(at_least)
+        )?,
+        None => writeln!(out, "Whether all parts survive is not known of any")?,
+    }
     if let Some(target) = target {
         let word = if answer.is_met() { "met" } else { "MISSED" };
         let (wanted, low) = (given(100.0 * target), hundredths(lo));
         writeln!(out, "Target of {wanted} % {word}: the {sure} % interval begins at {low} %")?;
     }
     if let Some(reason) = &scatter.reason {
-        let what = if has_list { "products" } else { "drops" };
-        writeln!(out, "{} {what} are not answered, and counted as failures: {reason}", scatter.unanswered)?;
+        let unanswered = scatter.unanswered;
+        writeln!(out, "{unanswered} {what} are not answered, failures but for the upper ends of intervals: {reason}")?;
     }
-    if has_list && scatter.open > 0 {
+    let is_box = has_list || matches!(scatter.plate, Some(PlateAs::Box { .. }));
+    if is_box && scatter.open > 0 {
         let text = format!(
-            "{} products are open: how they come down again, by the energy left, may decide. They count by what was followed, as failures \
+            "{} {what} are open: how they come down again, by the energy left, may decide. They count by what was followed, as failures \
              for the lower ends of intervals and for what is at least, as none for the upper ends",
             scatter.open
         );
@@ -126,7 +132,10 @@ fn landings(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Wri
     ];
     for of in &scatter.landings {
         let parts = file.components.iter().zip(&of.components);
-        let order = |of: &LandingComponent| (of.survival.estimate, -of.largest_utilization);
+        // One that is not known comes last.
+        let order = |of: &LandingComponent| {
+            (of.survival.estimate.unwrap_or(f64::INFINITY), -of.largest_utilization.unwrap_or(0.0))
+        };
         let least = parts.min_by(|(_, a), (_, b)| {
             let ((a, most), (b, other)) = (order(a), order(b));
             a.total_cmp(&b).then(most.total_cmp(&other))
@@ -134,35 +143,32 @@ fn landings(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Wri
         let Some((component, least)) = least else { continue };
         rows.push(vec![
             of.landing.to_string(),
-            hundredths(of.survival.estimate),
+            estimated(&of.survival),
             hundredths(of.survival.lo),
             hundredths(of.survival.hi),
             shown(&component.name, 24),
-            hundredths(least.survival.estimate),
-            figures(least.largest_utilization),
+            estimated(&least.survival),
+            least.largest_utilization.map_or_else(|| "-".to_owned(), figures),
         ]);
     }
     writeln!(out)?;
     Table { keys: 1, headings: 2, texts: 1, last_is_text: false, least: 8, rows }.write(out)
 }
 
-/// The model, and what the first batch says of the cheap one.
-fn models(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
-    let (full, drawn, followed) = (scatter.model.name(), scatter.drawn, scatter.followed);
-    let Some(Pilot { drops, failures, differ, .. }) = scatter.pilot else {
-        return writeln!(out, "Each is answered by the model {full}");
+/// The model, and how a plate is followed.
+pub(crate) fn model(scatter: &Scatter) -> String {
+    let how = match scatter.plate {
+        None => String::new(),
+        Some(PlateAs::Box { thickness_m, assumed }) => {
+            let taken = if assumed { ", a twentieth of its length: the file tells no thickness" } else { "" };
+            format!(", as a box of {} mm with full rotation{taken}", given((1e6 * thickness_m).round() / 1e3))
+        }
+        Some(PlateAs::Level) => {
+            ", as a plate of small tilt: one on feet is not followed as a box, and what real tilt does is left out"
+                .to_owned()
+        }
     };
-    if followed < drawn {
-        return writeln!(
-            out,
-            "All are answered by a cheap model (instant impacts, small tilt, no gravity), {followed} of them by {full} as well: what the \
-             cheap one gets wrong is measured on these"
-        );
-    }
-    writeln!(
-        out,
-        "Each is answered by the model {full}: a cheap one saves nothing, of {drops} drops {failures} fail and it gets {differ} wrong"
-    )
+    format!("Each is answered by the model {}{how}", scatter.model.name())
 }
 
 /// An input with the part that it belongs to.
@@ -187,10 +193,10 @@ fn parts(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write)
     ];
     // Of many inputs of a list some stand out by chance.
     #[expect(clippy::cast_precision_loss, reason = "a share")]
-    let by_chance = if scatter.landings.is_empty() { 0.0 } else { 3.0 * NOISE / scatter.followed as f64 };
+    let by_chance = if scatter.landings.is_empty() { 0.0 } else { 3.0 * NOISE / scatter.settings.samples as f64 };
     let least = NAMED.max(by_chance);
     for component in &scatter.components {
-        let Probability { estimate, lo, hi, at_least } = component.survival;
+        let Probability { lo, hi, at_least, .. } = component.survival;
         let named = component.drivers.iter().filter(|driver| driver.share.variance >= least).take(4);
         let driver = |d: &Driver| format!("{}{} {:.0} %", of_drop(file, &d.input), way(d), 100.0 * d.share.variance);
         let drivers: Vec<String> = named.map(driver).collect();
@@ -198,7 +204,7 @@ fn parts(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write)
         let of = |utilization: f64| if answered { figures(utilization) } else { "-".to_owned() };
         rows.push(vec![
             shown(&component.name, 24),
-            hundredths(estimate),
+            estimated(&component.survival),
             hundredths(at_least),
             hundredths(lo),
             hundredths(hi),
@@ -224,7 +230,8 @@ pub(crate) fn rows(scatter: &Scatter, begin: &str, out: &mut dyn Write) -> io::R
     let samples = scatter.settings.samples;
     for component in &scatter.components {
         let ComponentScatter { name, failures, survival, open, unanswered, .. } = component;
-        let numbers = [survival.estimate, survival.lo, survival.hi, survival.at_least].map(digits).join(",");
+        let bounds = [survival.lo, survival.hi, survival.at_least].map(digits).join(",");
+        let numbers = format!("{},{bounds}", survival.estimate.map_or_else(String::new, digits));
         let used = match component.worst_sample {
             Some(_) => format!("{},{}", digits(component.mean_utilization), digits(component.largest_utilization)),
             None => ",".to_owned(),

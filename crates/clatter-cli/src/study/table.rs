@@ -7,9 +7,9 @@ use clatter_answer::study::{Answer, Member, Outcome, SearchedLimit};
 use clatter_assess::scatter::ComponentScatter;
 use clatter_assess::{GridAxis, Verdict};
 
-use crate::columns::Table;
+use crate::columns::{Table, sentence};
 use crate::numbers::{digits, figures, given};
-use crate::scatter::table::{self as of_one, hundredths};
+use crate::scatter::table::{self as of_one, estimated, hundredths};
 use crate::text::{field, shown};
 use crate::words;
 
@@ -29,7 +29,16 @@ pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
         Outcome::Drawn(scatter) => {
             let (count, samples, seed) = (answer.members.len(), plan.samples, plan.seed);
             writeln!(out, "{product}: {count} products, of each {samples} drops drawn with seed {seed}")?;
-            writeln!(out, "Each is answered by the model {}", scatter.model.name())?;
+            let plate = |member: &Member| if let Outcome::Drawn(of) = &member.outcome { of.plate } else { None };
+            if answer.members.iter().all(|member| plate(member) == scatter.plate) {
+                sentence(out, "", &of_one::model(scatter))?;
+            } else {
+                let model = scatter.model.name();
+                writeln!(
+                    out,
+                    "Each is answered by the model {model}, as a box with full rotation, of its own thickness"
+                )?;
+            }
         }
         Outcome::Searched(_) => {
             writeln!(out, "{product}: the worst drop of each of {} products", answer.members.len())?;
@@ -78,8 +87,9 @@ fn cells(member: &Member) -> Vec<Vec<String>> {
 fn survival(component: &ComponentScatter) -> Vec<String> {
     let survival = component.survival;
     let of = |used: f64| if component.worst_sample.is_some() { figures(used) } else { "-".to_owned() };
-    let shares = [survival.estimate, survival.at_least, survival.lo, survival.hi].map(hundredths);
-    std::iter::once(shown(&component.name, WIDEST)).chain(shares).chain([of(component.largest_utilization)]).collect()
+    let bounds = [survival.at_least, survival.lo, survival.hi].map(hundredths);
+    let told = [shown(&component.name, WIDEST), estimated(&survival)];
+    told.into_iter().chain(bounds).chain([of(component.largest_utilization)]).collect()
 }
 
 fn verdict(member: &Member, limit: &SearchedLimit) -> Vec<String> {
