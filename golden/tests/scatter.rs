@@ -26,9 +26,10 @@ fn scatter_of_a_laptop() {
     let mut text = String::new();
     for part in scatter.components {
         let p = part.survival;
+        let estimate = p.estimate.expect("samples are answered");
         let _ = writeln!(text, "{}: {} of 20000 fail", part.name, part.failures);
         let _ =
-            writeln!(text, "  survives {:.5} in [{:.5}, {:.5}], at least {:.5}", p.estimate, p.lo, p.hi, p.at_least);
+            writeln!(text, "  survives {:.5} in [{:.5}, {:.5}], at least {:.5}", estimate, p.lo, p.hi, p.at_least);
         let _ = writeln!(text, "  utilization {:.5} ± {:.5}", part.mean_utilization, part.utilization_deviation);
         for driver in part.drivers {
             let share = driver.share;
