@@ -103,8 +103,8 @@ pub(crate) static PRODUCT: &[Key] = &[
         false,
         Sides(&Spread(&units::LENGTH, ["0.01 mm", "100 m"])),
         "Radius of gyration about the center of mass (length/√12 = 0.289 length for evenly spread mass): a range where it is not \
-         known well; of a plate two values, of the mass along the length and of that along the width. One of three ways to give the \
-         inertia.",
+         known well; of a plate two values, of the mass along the length and of that along the width. All mass lies within the product: at \
+         most √(a b), with a and b from the center of mass to both ends. One of three ways to give the inertia.",
     ),
     key(
         "moment_of_inertia",
@@ -117,7 +117,7 @@ pub(crate) static PRODUCT: &[Key] = &[
         "masses",
         false,
         Tables(MASS),
-        "Point masses and slabs along the bar: their center of mass and radius of gyration are worked out. One of three ways to \
+        "Point masses and slabs within the product: their center of mass and radius of gyration are worked out. One of three ways to \
          give the inertia.",
     ),
     key(
@@ -142,7 +142,8 @@ pub(crate) static PRODUCT: &[Key] = &[
         "contact_law",
         false,
         Choice(&clatter_flight::ContactLaw::NAMES),
-        "What the force of an impact does: hysteretic has the peak of a half-sine; dashpot jumps at the touch, as with some rubber.",
+        "What the force of an impact does: hysteretic has the peak of a half-sine; dashpot jumps at the touch, as with some rubber. Needs \
+         the contact_time.",
     ),
     key(
         "contacts",

@@ -221,14 +221,14 @@ fn masses_have_heights_in_a_box() {
     }
     let high = text.replace("\"-5 mm\"", "\"8 mm\"");
     let said = ProductFile::read(&high, "box.toml").unwrap_err().to_string();
-    assert!(said.contains("`height` = 8 mm is out of its range"), "{said}");
+    assert!(said.contains("the mass reaches 8 mm from the middle along the thickness"), "{said}");
     let said = ProductFile::read(&text.replace("thickness = \"14 mm\"\n", ""), "box.toml").unwrap_err().to_string();
     assert!(said.contains("in a product with a thickness alone"), "{said}");
     // All of it in a skin on top: no box stands on its center of mass.
     let skin = text.replace("[\"75 mm\", \"35 mm\"] }", "[\"75 mm\", \"35 mm\"], height = \"7 mm\" }");
     let skin = skin.replace("\"-5 mm\"", "\"7 mm\"").replace("\"3 mm\"", "\"7 mm\"");
     let said = ProductFile::read(&skin, "box.toml").unwrap_err().to_string();
-    assert!(said.contains("the center of mass is 7 mm from the middle of a product 14 mm thick"), "{said}");
+    assert!(said.contains("the center of mass is 7 mm from the middle of a thickness of 14 mm"), "{said}");
 }
 
 /// On its end a box that is struck once feels along its length what a lone mass does: (1 + e) v in the half-sine of four corners.

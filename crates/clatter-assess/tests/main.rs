@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
 mod bad_files;
+mod bodies;
 mod box_commands;
 mod boxes;
 mod data;

@@ -400,11 +400,11 @@ fn strikes_in_step_with_a_part_are_found() {
 
 /// Both ends of a flat drop strike at one instant, which is one shock. By hand, with α = L²/ρ² = 0.82190 and q = (α − 1)/(α + 1): the
 /// place gets (1 + e) v₀ (1 + 0.1 α)/(1 + α) of the first end, and (1 + e) (1 + q (1 + e)) v₀ (1 − 0.1 α)/(1 + α) of the second, which
-/// the first has pushed up. One strike alone gives less than 5.312 m/s here by its energy, whichever end it falls on.
+/// the first has pushed up: its feet are closer together than its masses. One strike alone gives less than 5.312 m/s here by its energy, whichever end it falls on.
 #[test]
 fn two_strikes_at_one_instant_are_within_the_bound() {
     let text = r#"
-product = { name = "Flat", length = "330 mm", radius_of_gyration = "182 mm", restitution = [0.2, 0.35] }
+product = { name = "Flat", length = "414 mm", radius_of_gyration = "182 mm", feet_inset = "42 mm", feet_height = "60 mm", restitution = [0.2, 0.35] }
 drop = { speed = "3.8608 m/s", tilt = ["0 deg", "8 deg"] }
 [[component]]
 name = "part"

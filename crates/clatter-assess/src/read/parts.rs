@@ -29,7 +29,9 @@ impl Reader {
             limit_source,
         };
         if let Some(Err(fault)) = product.map(|product| component.fits(product)) {
-            self.data(position.span, &fault, "this position");
+            let is_high = matches!(fault, DataFault::Outside { side: "thickness", .. });
+            let height = section.table.get("height").filter(|_| is_high);
+            self.data(height.map_or(position.span, toml::Spanned::span), &fault, "this position");
             return None;
         }
         if let Err(fault) = component.check_axis(self.is_box) {
