@@ -333,6 +333,12 @@ fn the_command_below_a_worst_drop_of_a_box_says_the_same() {
     let another =
         clatter(["respond", &format!("--product={}", example("handheld-transit.toml")), "--component=battery"]);
     assert!(another.stderr.contains("'clatter respond --worst' takes its worst drop"), "{}", another.stderr);
+    let axes = [0, 1, 2].map(|k| json["components"][k]["worst_case"]["axis"].as_str().unwrap());
+    assert_eq!(axes, ["z", "x", "any"]);
+    let words = table.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in ["95.00, 15.00 mm, along z, ", "-60.00, -10.00 mm, along x, ", "80.00, 25.00 mm, along the blow; "] {
+        assert!(words.contains(said), "{said}: {table}");
+    }
     for word in ["table 516.8-IX", "corner top back end-b", "off, deg"] {
         assert!(table.contains(word), "{word}: {table}");
     }

@@ -286,20 +286,20 @@ pub(crate) static COMPONENT: &[Key] = &[
         "extent",
         false,
         Sides(&Quantity(&units::LENGTH, ["0 mm", "100 m"])),
-        "How far it extends along the bar; 0 mm unless given; of a plate across it too.",
+        "How far it extends along the bar; 0 mm unless given; of a plate across it too. All of it lies within the product.",
     ),
     key(
         "height",
         false,
         Quantity(&units::LENGTH, PLACES),
-        "Where its middle is across the thickness of a box, from the middle towards the top; 0 mm unless given.",
+        "Where its middle is across the thickness of a box, from the middle towards the top, within the product; 0 mm unless given.",
     ),
     key(
         "axis",
         false,
         Choice(&["x", "y", "z", "any"]),
-        "Along which axis of a box it moves and is shaken: x along the length, y along the width, z unless given; any, of a part that is \
-         mounted rigidly, is the magnitude.",
+        "Along which axis of a box it moves and is shaken: x along the length, y along the width, z along the thickness. Unless given, a \
+         part on a suspension moves along z, and one that is mounted rigidly is judged along the blow, which is any: by the magnitude.",
     ),
     key(
         "mount",

@@ -6,7 +6,7 @@ use clatter::End;
 use serde::{Serialize, Serializer};
 
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
-use crate::{Component, Drop, DropName, Landing, LimitKind, Model, Part, ProductFile, SingleDrop, Unit};
+use crate::{Axis, Component, Drop, DropName, Landing, LimitKind, Model, Part, Product, ProductFile, SingleDrop, Unit};
 
 /// Whether every limit holds in the worst drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -317,6 +317,11 @@ impl WorstCase {
     pub fn spin_rad_s(&self) -> Option<f64> {
         Some(self.drop.spin_rad_s).filter(|spin| *spin != 0.0)
     }
+    /// Along which axis of a box the part is shaken; none of a bar and of a plate.
+    #[must_use]
+    pub fn axis(&self) -> Option<Axis> {
+        self.drop.across.and_then(|across| across.posture).map(|_| self.part.inside.axis)
+    }
     /// Radius of gyration; none where the file gives one value.
     #[must_use]
     pub fn gyration_m(&self) -> Option<f64> {
@@ -356,6 +361,8 @@ struct WorstCaseRow {
     frequency_hz: Option<f64>,
     damping_ratio: Option<f64>,
     position_m: Sides,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    axis: Option<Axis>,
     impact: u64,
     time_s: f64,
     command: String,
@@ -379,6 +386,7 @@ impl Serialize for WorstCase {
             frequency_hz: self.frequency_hz(),
             damping_ratio: self.damping_ratio(),
             position_m: Sides::of(&self.part, &self.drop),
+            axis: self.axis(),
             impact: self.impact,
             time_s: self.time_s,
             command: self.command(),
