@@ -75,7 +75,7 @@ pub(crate) static PRODUCT: &[Key] = &[
         false,
         Quantity(&units::LENGTH, ["1 mm", "100 m"]),
         "Width across the length: with it the product is a plate that may land on any corner, and places have two values. It needs the \
-         contact time.",
+         contact time. Without it the product is a bar; one that is wider than a quarter of its length may ask for up to 30 % more.",
     ),
     key(
         "thickness",

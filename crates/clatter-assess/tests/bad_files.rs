@@ -1,6 +1,9 @@
 //! Bad product files: every fault is told, with the value, its place and what is allowed, all at once.
 
-use clatter_assess::{EXAMPLE, Faults, LimitKind, ProductFile};
+use clatter_assess::{Faults, LimitKind, ProductFile};
+
+/// A bar.
+const EXAMPLE: &str = include_str!("../../../tests/cases/bar-handheld.toml");
 
 fn faults(text: &str) -> Faults {
     ProductFile::read(text, "product.toml").expect_err("a bad file")

@@ -253,7 +253,7 @@ fn faults_of_plates_are_told() {
     assert!(said.contains("a product without `width` has no `direction`"), "{said}");
 }
 
-const EXAMPLE: &str = include_str!("../../../reports/examples/handheld-plate.toml");
+const EXAMPLE: &str = include_str!("../../../reports/examples/handheld-terminal.toml");
 
 /// Each part with its tightest limit, as it is asked, and its portrait.
 fn portraits(text: &str) -> Vec<(LimitAssessment, Limit, PlatePortrait)> {

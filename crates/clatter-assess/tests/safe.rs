@@ -7,7 +7,8 @@ use clatter_assess::{Accuracy, Doubt, LimitAssessment, LimitKind, Model, Note, P
 
 pub(crate) const G: f64 = 9.806_65;
 
-const LAPTOP: &str = include_str!("../../../reports/examples/laptop.toml");
+const HANDHELD: &str = include_str!("../../../tests/cases/bar-handheld.toml");
+const LAPTOP: &str = include_str!("../../../tests/cases/bar-laptop.toml");
 
 /// A soft part in the middle of a tablet that may land flat.
 const FLAT_SOFT: &str = r#"
@@ -480,7 +481,7 @@ fn the_most_damping_of_a_range_is_hardest() {
 fn what_a_named_model_lacks_is_told_as_doubt() {
     let accuracy = Accuracy { model: Some(Model::Map), ..Accuracy::default() };
     let mut most = 0.0_f64;
-    for text in [clatter_assess::EXAMPLE, LAPTOP, FLAT_500] {
+    for text in [HANDHELD, LAPTOP, FLAT_500] {
         let assessment = read(text).assess_to(&accuracy).expect("an assessment");
         for limit in assessment.components.iter().flat_map(|component| &component.limits) {
             let off =

@@ -252,7 +252,8 @@ fn mount(component: &Component) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_assess::EXAMPLE;
+
+    const EXAMPLE: &str = include_str!("../../../../tests/cases/bar-handheld.toml");
 
     #[test]
     fn what_the_file_gives_is_told() {
