@@ -85,7 +85,7 @@ fn impossible_bodies_are_refused_where_they_stand() {
         (BAR, radius, masses(&format!("{case}, {{ mass = \"10 g\", position = \"81 mm\" }}")), "\"81 mm\"", &["the mass reaches 81 mm from the middle along the length", "up to 80 mm", "within the body"]),
         (BAR, radius, masses(&case.replace("\"-80", "\"-90")), "\"-90 mm\"", &["the mass reaches 90 mm", "up to 80 mm"]),
         (BAR, "\"10 mm\"", "[\"10 mm\", \"71 mm\"]".to_owned(), "[\"10 mm\", \"71 mm\"]", &["with its extent reaches 81 mm from the middle along the length", "up to 80 mm"]),
-        (BAR, "contact_time = \"0.4 ms\"\n", String::new(), "\"hysteretic\"", &["`contact_law` needs the `contact_time`"]),
+        (BAR, "contact_time = \"0.4 ms\"\n", String::new(), "contact_law", &["`contact_law` needs the `contact_time`"]),
         (PLATE, "\"22 mm\"]", "\"41 mm\"]".to_owned(), "[\"45 mm\", \"41 mm\"]", &["along the width is 41 mm", "from 4 to 40 mm"]),
         (PLATE, radii, masses(&format!("{lid}, {{ mass = \"10 g\", position = [\"10 mm\", \"-41 mm\"] }}")), "[\"10 mm\", \"-41 mm\"]", &["the mass reaches 41 mm from the middle along the width", "up to 40 mm"]),
         (PLATE, radii, masses(&lid.replace("\"40 mm\"]", "\"50 mm\"]")), "[\"80 mm\", \"50 mm\"]", &["the mass reaches 50 mm", "along the width"]),
@@ -112,33 +112,33 @@ fn impossible_bodies_are_refused_in_code() {
     fn width(file: &mut ProductFile) -> &mut Width {
         file.product.width.as_mut().expect("a width")
     }
-    fn depth(center_m: f64, gyration_m: f64, products_of_inertia_m2: [f64; 2]) -> Option<Depth> {
-        Some(Depth { center_m, gyration_m, products_of_inertia_m2 })
+    fn depth(center_m: f64, gyration_m: f64, products_of_inertia_m2: [f64; 2]) -> Depth {
+        Depth { center_m, gyration_m, products_of_inertia_m2 }
     }
     let boxes: &[(Change, &str)] = &[
         (|file| width(file).gyration_m = 0.0401, "along the width is 40.1 mm; allowed: from 4 to 40 mm"),
         (|file| width(file).gyration_m = f64::NAN, "along the width is NaN mm"),
         (
-            |file| width(file).depth = depth(0.0, 0.0126, [0.0; 2]),
+            |file| width(file).depth = Some(depth(0.0, 0.0126, [0.0; 2])),
             "along the thickness is 12.6 mm; allowed: from 0 to 12.5 mm",
         ),
         // √(22.5 · 2.5) mm = 7.5 mm.
         (
-            |file| width(file).depth = depth(0.010, 0.0076, [0.0; 2]),
+            |file| width(file).depth = Some(depth(0.010, 0.0076, [0.0; 2])),
             "along the thickness is 7.6 mm; allowed: from 0 to 7.5 mm",
         ),
-        (|file| width(file).depth = depth(0.0, f64::NAN, [0.0; 2]), "along the thickness is NaN mm"),
+        (|file| width(file).depth = Some(depth(0.0, f64::NAN, [0.0; 2])), "along the thickness is NaN mm"),
         (
             |file| width(file).product_of_inertia_m2 = 990e-6,
             "inertia xy over the mass is 990 mm2; allowed: from -980.1 to 980.1 mm2",
         ),
         (|file| width(file).product_of_inertia_m2 = f64::NAN, "inertia xy over the mass is NaN mm2"),
         (
-            |file| width(file).depth = depth(0.0, 0.01, [-460e-6, 0.0]),
+            |file| width(file).depth = Some(depth(0.0, 0.01, [-460e-6, 0.0])),
             "inertia xz over the mass is -460 mm2; allowed: from -450 to 450",
         ),
         (
-            |file| width(file).depth = depth(0.0, 0.01, [0.0, 230e-6]),
+            |file| width(file).depth = Some(depth(0.0, 0.01, [0.0, 230e-6])),
             "inertia yz over the mass is 230 mm2; allowed: from -220 to 220",
         ),
         // Both ends lean one way, the third the other: with ratios of 0.9, 0.9 and −0.9 no masses have them.
@@ -146,7 +146,7 @@ fn impossible_bodies_are_refused_in_code() {
             |file| {
                 let (x, y, z) = (45e-3, 22e-3, 10e-3);
                 width(file).product_of_inertia_m2 = 0.9 * x * y;
-                width(file).depth = depth(0.0, z, [0.9 * x * z, -0.9 * y * z]);
+                width(file).depth = Some(depth(0.0, z, [0.9 * x * z, -0.9 * y * z]));
             },
             "the products of inertia over the mass are 891, 405 and -198 mm2: no masses have them together",
         ),

@@ -173,7 +173,7 @@ fn parts_are_struck_along_the_blow_unless_an_axis_is_named() {
         let worst = limit.worst_case.expect("a drop");
         (limit.demand.expect("an answer"), worst.axis())
     };
-    let [blow, any, x, z] = ["", "axis = \"any\"\n", "axis = \"x\"\n", "axis = \"z\"\n"].map(|axis| display(axis));
+    let [blow, any, x, z] = ["", "axis = \"any\"\n", "axis = \"x\"\n", "axis = \"z\"\n"].map(display);
     assert_eq!(blow, any);
     assert_eq!([any.1, x.1, z.1], [Some(Axis::Any), Some(Axis::X), Some(Axis::Z)]);
     // It stands on its end: the blow is along its length, and hardly any of it along its thickness.

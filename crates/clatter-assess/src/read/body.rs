@@ -35,11 +35,11 @@ impl Reader {
         self.exactly_one(section, &["radius_of_gyration", "moment_of_inertia", "masses"], true);
         self.exactly_one(section, &["masses", "center_of_mass"], false);
         self.exactly_one(section, &["masses", "mass"], false);
-        if let (true, Some((key, _))) = (
-            contact_time.is_none() && !section.table.contains_key("contact_time"),
-            section.table.get_key_value("width"),
-        ) {
-            self.data(key.span(), &DataFault::PlateWithoutContactTime, "beside this");
+        let needs_time = [("width", DataFault::PlateWithoutContactTime), ("contact_law", DataFault::LawWithoutTime)];
+        for (name, fault) in needs_time.into_iter().filter(|_| !section.table.contains_key("contact_time")) {
+            if let Some((key, _)) = section.table.get_key_value(name) {
+                self.data(key.span(), &fault, "beside this");
+            }
         }
         let (mut product_of_inertia_m2, mut depth) = (0.0, None);
         let (center_m, gyration) = if let Some(moment) = &moment {
@@ -106,15 +106,8 @@ impl Reader {
             contact_time_s: contact_time.map(|t| t.value),
             contact_law: contact_law.and_then(|law| ContactLaw::from_name(law.value)),
         };
-        match product.check() {
-            Err(fault @ (DataFault::ProductOfInertia { .. } | DataFault::CenterOfMass { .. })) => {
-                self.data(span, &fault, "these together");
-            }
-            Err(fault @ DataFault::LawWithoutTime) => {
-                let law = section.table.get("contact_law").map_or(span, toml::Spanned::span);
-                self.data(law, &fault, "this law");
-            }
-            _ => {}
+        if let Err(fault @ (DataFault::ProductOfInertia { .. } | DataFault::CenterOfMass { .. })) = product.check() {
+            self.data(span, &fault, "these together");
         }
         Some(product)
     }
