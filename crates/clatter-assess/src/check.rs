@@ -22,8 +22,9 @@ const FARTHEST_CENTER: f64 = 0.45;
 const FARTHEST_LEAN: f64 = 0.99;
 /// Radius of gyration over the length: less mass at the ends no product has.
 pub(crate) const LEAST_GYRATION: f64 = 0.05;
-/// Places are compared to this share of the length, radii of gyration to this share of them: quantities that are given in millimeters are
-/// exact to less.
+/// Masses and radii of gyration may pass the ends of the body by this share: that of values written to six digits.
+pub(crate) const WRITTEN: f64 = 1e-5;
+/// Places of parts are compared to this share of the length, radii of gyration of a range to this share of them.
 const ROUNDINGS: f64 = 1e-9;
 
 impl ProductFile {
@@ -234,7 +235,7 @@ impl Product {
             (yz, "yz", [(across, radii_m[1]), (faces, radii_m[2])], 1.0),
         ] {
             let (([a, b], k), ([c, d], l)) = (one, other);
-            let roundings = ROUNDINGS * (a + b) * (c + d);
+            let roundings = WRITTEN * (a + b) * (c + d);
             let allowed_m2 = [-(lean * k * l).min(a * c).min(b * d), (lean * k * l).min(a * d).min(b * c)];
             if !(allowed_m2[0] - roundings..=allowed_m2[1] + roundings).contains(&product_m2) {
                 return Err(DataFault::ProductOfInertia { sides, product_m2, allowed_m2 });
@@ -303,14 +304,20 @@ fn center(side: &'static str, center_m: f64, side_m: f64) -> Result<(), DataFaul
 /// masses between them with this center these have the largest.
 fn gyration(side: &'static str, gyration_m: f64, least_m: f64, [a, b]: [f64; 2]) -> Result<(), DataFault> {
     let most_m = (a * b).sqrt();
-    let is_possible = (least_m..=most_m * (1.0 + ROUNDINGS)).contains(&gyration_m);
+    let is_possible = (least_m..=most_m * (1.0 + WRITTEN)).contains(&gyration_m);
     if is_possible { Ok(()) } else { Err(DataFault::Gyration { side, gyration_m, allowed_m: [least_m, most_m] }) }
 }
 
-/// Refuses what reaches beyond the ends of a side.
-pub(crate) fn within(what: &'static str, side: &'static str, reach_m: f64, side_m: f64) -> Result<(), DataFault> {
+/// Refuses what reaches beyond the ends of a side by more than this share of it.
+pub(crate) fn within(
+    what: &'static str,
+    side: &'static str,
+    reach_m: f64,
+    side_m: f64,
+    roundings: f64,
+) -> Result<(), DataFault> {
     let half_m = 0.5 * side_m;
-    let is_within = reach_m <= half_m * (1.0 + ROUNDINGS);
+    let is_within = reach_m <= half_m * (1.0 + roundings);
     if is_within { Ok(()) } else { Err(DataFault::Outside { what, side, reach_m, half_m }) }
 }
 
@@ -390,10 +397,10 @@ impl Component {
     pub(crate) fn fits(&self, product: &Product) -> Result<(), DataFault> {
         let [length_m, width_m] = product.sides_m();
         let reach = |place: &Spread, extent_m: f64| place.lo().abs().max(place.hi().abs()) + 0.5 * extent_m;
-        within(PART, "length", reach(&self.position_m, self.extent_m), length_m)?;
-        within(PART, "width", reach(&self.across_m, self.extent_across_m), width_m)?;
+        within(PART, "length", reach(&self.position_m, self.extent_m), length_m, ROUNDINGS)?;
+        within(PART, "width", reach(&self.across_m, self.extent_across_m), width_m, ROUNDINGS)?;
         let thickness_m = product.width.and_then(|width| width.thickness_m);
-        thickness_m.map_or(Ok(()), |side_m| within(PART, "thickness", self.inside.height_m.abs(), side_m))
+        thickness_m.map_or(Ok(()), |side_m| within(PART, "thickness", self.inside.height_m.abs(), side_m, ROUNDINGS))
     }
 
     /// Everything but whether its name is its own.
@@ -459,7 +466,7 @@ impl RecordFile {
 
 /// Whether an acceleration was measured at a place of the product.
 pub(crate) fn sensor(position_m: f64, product: &Product) -> Result<(), DataFault> {
-    within("the sensor", "length", position_m.abs(), product.sides_m()[0])
+    within("the sensor", "length", position_m.abs(), product.sides_m()[0], ROUNDINGS)
 }
 
 pub(crate) fn named(name: &str) -> Result<(), DataFault> {

@@ -239,7 +239,9 @@ impl Reader {
         let in_plane = in_plane.flat_map(|place| (0..2).map(|k| (k, place.value[k], &place.span)));
         for (k, place_m, span) in in_plane.chain(height.iter().map(|height| (2, height.value, &height.span))) {
             let side = ["length", "width", "thickness"][k];
-            if let Some(Err(fault)) = sides_m[k].map(|side_m| check::within("the mass", side, place_m.abs(), side_m)) {
+            if let Some(Err(fault)) =
+                sides_m[k].map(|side_m| check::within("the mass", side, place_m.abs(), side_m, check::WRITTEN))
+            {
                 self.data(span.clone(), &fault, "this place");
                 return None;
             }
