@@ -54,7 +54,7 @@ fn the_bars_of_table_1() {
 
 #[test]
 fn a_handheld_terminal() {
-    let text = include_str!("../../reports/examples/handheld-terminal.toml");
+    let text = include_str!("../../tests/cases/bar-terminal.toml");
     let file = ProductFile::read(text, "handheld-terminal.toml").unwrap();
     let answer = file.ladders(&file.assess().unwrap(), TOLERANCE).unwrap();
     let mut text = String::new();

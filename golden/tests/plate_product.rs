@@ -11,7 +11,7 @@ fn the_pages_of_a_plate() {
     if std::env::var_os("CLATTER_SKIP_TYPST").is_some() {
         return;
     }
-    let file = ProductFile::read(include_str!("../../reports/examples/handheld-plate.toml"), "plate.toml").unwrap();
+    let file = ProductFile::read(include_str!("../../reports/examples/handheld-terminal.toml"), "plate.toml").unwrap();
     let assessment = file.assess().unwrap();
     let portraits = file.portraits(&assessment);
     let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);

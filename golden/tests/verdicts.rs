@@ -6,11 +6,10 @@ use std::fmt::Write as _;
 
 use clatter_assess::{LimitAssessment, ProductFile};
 
-const EXAMPLES: [&str; 4] = [
+const EXAMPLES: [&str; 3] = [
     include_str!("../../reports/examples/phone.toml"),
     include_str!("../../reports/examples/handheld-terminal.toml"),
     include_str!("../../reports/examples/laptop.toml"),
-    include_str!("../../reports/examples/handheld-plate.toml"),
 ];
 
 /// A value of three digits, if there is one.

@@ -1,11 +1,14 @@
 """What answers are for: tables, notebooks, pictures."""
 
 import json
+from pathlib import Path
 
 import clatter
 import numpy as np
 import polars
 import pytest
+
+BAR = (Path(__file__).resolve().parents[2] / "tests/cases/bar-handheld.toml").read_text(encoding="utf-8")
 
 
 def test_fields_are_attributes_and_items():
@@ -32,7 +35,7 @@ def test_tables_have_the_columns_of_the_command(command):
 
 def test_every_answer_is_a_table():
     pulse = clatter.Pulse("half-sine", amplitude_m_s2=1000, duration_s=1e-3)
-    example = clatter.Product.example()
+    example = clatter.Product.from_text(BAR)
     record = clatter.Record(np.sin(np.arange(100.0)), sample_rate_hz=1e3)
     tables = {
         ("component", "limit", "allowed", "demand", "margin", "verdict"): (clatter.assess(example), 5),

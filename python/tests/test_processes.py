@@ -7,15 +7,18 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import clatter
 import numpy as np
 import pytest
 
+BAR = (Path(__file__).resolve().parents[2] / "tests/cases/bar-handheld.toml").read_text(encoding="utf-8")
+
 
 def crowded():
     """A product of so many parts that to search it takes some ten seconds."""
-    head, display, camera, *_ = clatter.Product.example().text.split("[[component]]\n")
+    head, display, camera, *_ = BAR.split("[[component]]\n")
     parts = [
         camera.replace('"camera"', f'"camera {i}"').replace('"90 Hz", "110 Hz"', f'"{90 + i} Hz", "2 kHz"') for i in range(300)
     ]
@@ -39,7 +42,7 @@ def spectra():
 
 
 LONG = {
-    "scatter": lambda: lambda: clatter.scatter(clatter.Product.example(), samples=10**12),
+    "scatter": lambda: lambda: clatter.scatter(clatter.Product.from_text(BAR), samples=10**12),
     "assess": lambda: lambda: clatter.assess(crowded(), tolerance=1e-4),
     "design": lambda: lambda: clatter.design(crowded(), margin=50),
     "bars": bars,

@@ -11,6 +11,7 @@ import pytest
 import tomllib
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "reports/examples"
+BAR = (Path(__file__).resolve().parents[2] / "tests/cases/bar-handheld.toml").read_text(encoding="utf-8")
 TABLES = {
     "product": {"name": "handheld", "length": "150 mm", "restitution": [0.25, 0.4], "radius_of_gyration": "45 mm"},
     "drop": {"height": "1 m", "tilt": ["1 deg", "6 deg"], "first": "either"},
@@ -46,7 +47,7 @@ def test_builders_and_dicts_are_the_same_product():
 
 
 def test_files_texts_and_dicts_have_the_same_answer(tmp_path):
-    text = clatter.Product.example().text
+    text = BAR
     path = tmp_path / "handheld.toml"
     path.write_text(text)
     answers = [
@@ -101,7 +102,7 @@ def test_further_keys_go_by_their_names():
 
 def test_all_that_is_wrong_is_told_in_the_words_of_the_command(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    text = clatter.Product.example().text.replace('"140 mm"', '"140 kg"').replace('"1.2 m"', '"-1 m"')
+    text = BAR.replace('"140 mm"', '"140 kg"').replace('"1.2 m"', '"-1 m"')
     tmp_path.joinpath("wrong.toml").write_text(text)
     told = command("assess", "wrong.toml", code=[2]).stderr
     for ask in (clatter.assess, clatter.scatter, clatter.design, clatter.explain):
@@ -113,7 +114,7 @@ def test_all_that_is_wrong_is_told_in_the_words_of_the_command(command, tmp_path
 
 def test_slips_are_warned_of(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    text = clatter.Product.example().text.replace('"1.2 m"', '"120 m"')
+    text = BAR.replace('"1.2 m"', '"120 m"')
     tmp_path.joinpath("odd.toml").write_text(text)
     told = command("assess", "odd.toml", "--format=json").stderr
     with pytest.warns(UserWarning) as warned:
@@ -122,7 +123,7 @@ def test_slips_are_warned_of(command, tmp_path, monkeypatch):
 
 
 STRIKES = "time_s,end\n0,a\n1.2121e-3,b\n1.68285e-3,a\n34.386e-3,b\n"
-NAMED = clatter.Product.example().text.replace("contact_time =", "# contact_time =") + """
+NAMED = BAR.replace("contact_time =", "# contact_time =") + """
 [[record]]
 file = "strikes.csv"
 timing = "1 us"
@@ -196,11 +197,11 @@ def test_records_that_cannot_be_read_are_refused(measured, command):
     with pytest.raises(FileNotFoundError, match=r"strikes\.csv"):
         clatter.assess("product/measured.toml")
     with pytest.raises(ValueError, match="measured 'a' has 'strike'"):
-        clatter.assess(clatter.Product.example(), measured={"a": {"strike": []}})
+        clatter.assess(clatter.Product.from_text(BAR), measured={"a": {"strike": []}})
 
 
 def test_the_printed_report_is_that_of_the_command(measured, command):
-    measured.joinpath("plain.toml").write_text(clatter.Product.example().text)
+    measured.joinpath("plain.toml").write_text(BAR)
     command("assess", "product/plain.toml", "-o", "command.pdf", "--date=2026-03-31")
     clatter.assess("product/plain.toml", report="wheel.pdf", report_date="2026-03-31")
     wheel, printed = (measured.parent.joinpath(name).read_bytes() for name in ("wheel.pdf", "command.pdf"))
@@ -213,9 +214,9 @@ def test_the_printed_report_is_that_of_the_command(measured, command):
 
 
 def test_assessed_products_have_a_picture():
-    bar = clatter.assess(clatter.Product.example())
+    bar = clatter.assess(clatter.Product.from_text(BAR))
     assert all(f">{part.name}<" in str(bar.plot()) for part in bar.components)
-    plate = clatter.assess(EXAMPLES / "handheld-plate.toml")
+    plate = clatter.assess(EXAMPLES / "handheld-terminal.toml")
     drawn = str(plate.plot())
     assert "The plate from above" in drawn
     assert all(f">{part.name}<" in drawn for part in plate.components)
@@ -223,7 +224,7 @@ def test_assessed_products_have_a_picture():
 
 def test_tradeoff_is_that_of_the_command_but_for_its_times(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    tmp_path.joinpath("handheld.toml").write_text(clatter.Product.example().text)
+    tmp_path.joinpath("handheld.toml").write_text(BAR)
     theirs = json.loads(command("tradeoff", "handheld.toml", "--tolerance=10%", "--format=json").stdout)
     ours = clatter.tradeoff("handheld.toml", tolerance=0.1)
 

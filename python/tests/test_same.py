@@ -1,11 +1,12 @@
 """Every answer has the text of the command, to the last byte."""
 
 import json
+from pathlib import Path
 
 import clatter
 import pytest
 
-HANDHELD = clatter.Product.example().text
+HANDHELD = (Path(__file__).resolve().parents[2] / "tests/cases/bar-handheld.toml").read_text(encoding="utf-8")
 DROP = "--length-m=0.14 --gyration-m=0.0404 --e=0.3 --speed-m-s=4.43 --tilt-deg=5"
 DROP_OF = {"length_m": 0.14, "gyration_m": 0.0404, "e": 0.3, "speed_m_s": 4.43, "tilt_deg": 5}
 PLATE_OF = {"length_m": 0.15, "width_m": 0.07, "gyration_m": (0.0433, 0.0202), "e": 0.3, "speed_m_s": 4.43}

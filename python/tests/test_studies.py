@@ -1,7 +1,11 @@
 """Shards of studies are files of the command, and merge to its answer."""
 
+from pathlib import Path
+
 import clatter
 import pytest
+
+BAR = (Path(__file__).resolve().parents[2] / "tests/cases/bar-handheld.toml").read_text(encoding="utf-8")
 
 PLAN = "product = 'handheld.toml'\nsamples = 500\nseed = 7\n"
 PLANS = {
@@ -14,7 +18,7 @@ PLANS = {
 @pytest.fixture
 def plan(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    tmp_path.joinpath("handheld.toml").write_text(clatter.Product.example().text)
+    tmp_path.joinpath("handheld.toml").write_text(BAR)
     tmp_path.joinpath("plan.toml").write_text(PLAN)
     return tmp_path
 

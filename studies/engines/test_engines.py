@@ -30,9 +30,9 @@ def clatter(*arguments):
 def plan(tmp_path_factory):
     """The plan of this folder with fewer drops."""
     folder = tmp_path_factory.mktemp("study")
-    shutil.copy(HERE / "../../reports/examples/handheld-terminal.toml", folder)
+    shutil.copy(HERE / "../../tests/cases/bar-terminal.toml", folder)
     text = (HERE / "plan.toml").read_text()
-    text, changes = re.subn("samples = .*", f"samples = {SAMPLES}", text.replace("../../reports/examples/", ""))
+    text, changes = re.subn("samples = .*", f"samples = {SAMPLES}", text.replace("../../tests/cases/", ""))
     assert changes == 1
     (folder / "plan.toml").write_text(text)
     return folder / "plan.toml"

@@ -17,9 +17,9 @@ use crate::files::pretty;
 
 /// The worked products, and the name of the figure of each.
 const EXAMPLES: [(&str, &str); 3] = [
-    ("trade-phone.svg", include_str!("../../reports/examples/phone.toml")),
-    ("trade-handheld-terminal.svg", include_str!("../../reports/examples/handheld-terminal.toml")),
-    ("trade-laptop.svg", include_str!("../../reports/examples/laptop.toml")),
+    ("trade-phone.svg", include_str!("../../tests/cases/bar-phone.toml")),
+    ("trade-handheld-terminal.svg", include_str!("../../tests/cases/bar-terminal.toml")),
+    ("trade-laptop.svg", include_str!("../../tests/cases/bar-laptop.toml")),
 ];
 
 /// The four bars of the paper's Table 1 ([`DESIGNS`]) as drops to compare others with: 140 mm long, 4.43 m/s (from 1 m), 5°,

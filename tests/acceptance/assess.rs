@@ -8,18 +8,18 @@ use serde_json::Value;
 
 use crate::{answer, clatter};
 
+/// A worked product, or one of the bars that tests are about.
 pub(crate) fn example(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/examples").join(name);
+    let folder = if name.starts_with("bar-") { "cases" } else { "../reports/examples" };
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(name);
     path.to_str().unwrap().to_owned()
 }
 
-/// A directory with a product file made from the one of `clatter init`.
+/// A directory with a product file made from that of a bar.
 pub(crate) fn changed(change: impl Fn(String) -> String) -> (tempfile::TempDir, String) {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("product.toml");
-    let written = clatter(["init", path.to_str().unwrap()]);
-    assert_eq!(written.exit, Exit::Done, "{}", written.stderr);
-    fs::write(&path, change(fs::read_to_string(&path).unwrap())).unwrap();
+    fs::write(&path, change(fs::read_to_string(example("bar-handheld.toml")).unwrap())).unwrap();
     (dir, path.to_str().unwrap().to_owned())
 }
 
@@ -32,7 +32,9 @@ fn display_limit(text: &str, limit: &str) -> String {
 
 #[test]
 fn what_init_writes_is_safe_as_it_stands_and_never_written_over() {
-    let (dir, path) = changed(|text| text);
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("product.toml").to_str().unwrap().to_owned();
+    assert_eq!(clatter(["init", path.as_str()]).exit, Exit::Done);
     let before = fs::read(&path).unwrap();
     let outcome = clatter(["assess", path.as_str()]);
     assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""), "{}", outcome.stdout);
@@ -47,7 +49,7 @@ fn what_init_writes_is_safe_as_it_stands_and_never_written_over() {
 
 #[test]
 fn an_unsafe_component_exits_with_1_and_the_json_says_why() {
-    let path = example("handheld-terminal.toml");
+    let path = example("bar-terminal.toml");
     let outcome = clatter(["assess", path.as_str(), "--format=json"]);
     assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Unsafe, ""));
     let json: Value = serde_json::from_str(&outcome.stdout).unwrap();
@@ -99,11 +101,56 @@ fn what_is_undecided_exits_with_1_and_says_why() {
     let (_dir, path) = changed(|text| text.replace("0.4 ms", "40 ms"));
     let outcome = clatter(["assess", &path]);
     assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Unsafe, ""));
-    assert!(outcome.stdout.starts_with("Handheld is undecided: 3 of 3 components\n"), "{}", outcome.stdout);
+    assert!(outcome.stdout.starts_with("Handheld is undecided: 3 of 3 components, as a bar; "), "{}", outcome.stdout);
     assert!(outcome.stdout.contains("display, acceleration: no drop is answered\n  undecided: "), "{}", outcome.stdout);
     assert!(outcome.stdout.contains("contact time 40 ms: at most 2.88 ms here"), "{}", outcome.stdout);
     let json: Value = serde_json::from_str(&clatter(["assess", &path, "--format=json"]).stdout).unwrap();
     assert_eq!(json["verdict"], "undecided");
+}
+
+/// A product without width is a bar, which the first line and the JSON say; a plate is what its file says. The law is named or not.
+#[test]
+fn what_the_file_does_not_state_is_told() {
+    let told = "as a bar; if it is wider than a quarter of its length, give `width`: up to 30 % more";
+    let said = |path: &str| {
+        let table = clatter(["assess", path]).stdout;
+        let first = table.split("\n\n").next().unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
+        let json: Value = serde_json::from_str(&clatter(["assess", path, "--format=json"]).stdout).unwrap();
+        let inputs: Vec<String> =
+            json["assumed"].as_array().unwrap().iter().map(|one| one["input"].as_str().unwrap().to_owned()).collect();
+        (first, inputs, json)
+    };
+    let (_dir, bar) = changed(|text| text);
+    let (first, inputs, json) = said(&bar);
+    assert_eq!(first, format!("Handheld is safe: every limit holds in the worst drop, {told}"));
+    assert_eq!(inputs, ["body", "law"]);
+    assert_eq!(json["assumed"][0]["taken"], "bar");
+    assert_eq!(format!("as a bar; {}", json["assumed"][0]["why"].as_str().unwrap()), told);
+    let (_dir, named) = changed(|text| text.replace("# contact_law", "contact_law"));
+    assert_eq!(said(&named).1, ["body"]);
+    let (first, inputs, _) = said(&example("handheld-terminal.toml"));
+    assert_eq!((first.contains("as a bar"), inputs), (false, vec!["law".to_owned()]));
+    // Beside one another each says it for itself.
+    let both = clatter(["assess", &bar, &example("handheld-terminal.toml")]).stdout;
+    let both = both.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(both.matches("as a bar").count(), 1, "{both}");
+    assert!(both.contains(&format!("Handheld: {told}")), "{both}");
+    // By instant impacts there is no law.
+    let json: Value = serde_json::from_str(&clatter(["assess", &bar, "--model=map", "--format=json"]).stdout).unwrap();
+    assert_eq!(json["assumed"].as_array().unwrap().len(), 1, "{}", json["assumed"]);
+}
+
+/// No worked product is left to be taken as a bar.
+#[test]
+fn every_worked_product_has_a_width() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/examples");
+    for file in fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        let product = clatter_assess::ProductFile::read(&fs::read_to_string(&path).unwrap(), "worked").unwrap().product;
+        assert!(product.width.is_some(), "{}", path.display());
+    }
+    let init = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "init").unwrap();
+    assert!(init.product.width.is_some());
 }
 
 /// The words of a command as a shell takes them apart, without its name.
@@ -195,7 +242,7 @@ fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("plate.toml").display().to_string();
     // Beyond 10 degrees the command warns of the plate's small tilt.
-    let text = fs::read_to_string(example("handheld-plate.toml")).unwrap().replace("12 deg", "9 deg");
+    let text = fs::read_to_string(example("handheld-terminal.toml")).unwrap().replace("12 deg", "9 deg");
     fs::write(&path, text).unwrap();
     let outcome = clatter(["assess", &path, "--format=json"]);
     let json: Value = serde_json::from_str(&outcome.stdout).unwrap();
@@ -333,6 +380,12 @@ fn the_command_below_a_worst_drop_of_a_box_says_the_same() {
     let another =
         clatter(["respond", &format!("--product={}", example("handheld-transit.toml")), "--component=battery"]);
     assert!(another.stderr.contains("'clatter respond --worst' takes its worst drop"), "{}", another.stderr);
+    let axes = [0, 1, 2].map(|k| json["components"][k]["worst_case"]["axis"].as_str().unwrap());
+    assert_eq!(axes, ["z", "x", "any"]);
+    let words = table.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in ["95.00, 15.00 mm, along z, ", "-60.00, -10.00 mm, along x, ", "80.00, 25.00 mm, along the blow; "] {
+        assert!(words.contains(said), "{said}: {table}");
+    }
     for word in ["table 516.8-IX", "corner top back end-b", "off, deg"] {
         assert!(table.contains(word), "{word}: {table}");
     }
@@ -396,7 +449,7 @@ fn several_drops_of_a_bar_are_told_one_by_one() {
 #[test]
 fn the_command_below_a_worst_drop_says_the_same() {
     let (_dir, path) = changed(|text| text);
-    let examples = ["phone.toml", "handheld-terminal.toml", "laptop.toml"].map(example);
+    let examples = ["bar-phone.toml", "bar-terminal.toml", "bar-laptop.toml"].map(example);
     let mut count = 0;
     for path in examples.iter().chain([&path]) {
         for model in ["", "--model=map", "--model=ballistic", "--model=finite-tilt"] {
@@ -461,14 +514,14 @@ fn what_stands_beside_a_demand_has_its_unit() {
 
 #[test]
 fn the_table_names_bound_accuracy_and_the_other_law() {
-    let outcome = clatter(["assess", &example("phone.toml")]);
+    let outcome = clatter(["assess", &example("bar-phone.toml")]);
     let table = &outcome.stdout;
     for said in
         ["Phone is UNSAFE: 1 of 3 components", "bound by energy", "other law", "good to", "by the model compliant"]
     {
         assert!(table.contains(said), "{said}:\n{table}");
     }
-    let outcome = clatter(["assess", &example("phone.toml"), "--model=map"]);
+    let outcome = clatter(["assess", &example("bar-phone.toml"), "--model=map"]);
     assert!(outcome.stdout.contains("note: map was asked for; compliant says "), "{}", outcome.stdout);
     assert!(outcome.stdout.contains("by the model map"), "{}", outcome.stdout);
 }
@@ -481,7 +534,8 @@ fn two_products_stand_side_by_side() {
     assert_eq!(outcome.exit, Exit::Unsafe, "one of both is");
     let lines: Vec<&str> = outcome.stdout.lines().collect();
     assert!(lines[0].contains("Handheld") && lines[0].ends_with("Lighter"), "{}", outcome.stdout);
-    let verdicts: Vec<&str> = lines.last().unwrap().split_whitespace().collect();
+    let verdicts = lines.iter().find(|line| line.trim_start().starts_with("verdict")).unwrap();
+    let verdicts: Vec<&str> = verdicts.split_whitespace().collect();
     assert_eq!(verdicts, ["verdict", "safe", "UNSAFE"], "{}", outcome.stdout);
     let json: Value = serde_json::from_str(&clatter(["assess", &before, &path, "--format=json"]).stdout).unwrap();
     assert_eq!([&json[0]["verdict"], &json[1]["verdict"]], ["safe", "unsafe"]);
@@ -529,7 +583,7 @@ fn the_schema_names_every_key_of_the_examples() {
     for table in ["/properties/product", "/properties/drop/anyOf/0", "/properties/drop/anyOf/1/items"] {
         assert_eq!(schema.pointer(table).unwrap()["additionalProperties"], false, "{table}");
     }
-    for name in ["phone.toml", "handheld-terminal.toml", "laptop.toml", "handheld-plate.toml"] {
+    for name in ["phone.toml", "handheld-terminal.toml", "laptop.toml", "bar-terminal.toml"] {
         let text = fs::read_to_string(example(name)).unwrap();
         for line in text.lines().filter(|line| !line.starts_with(['#', '[', ' ', ']']) && line.contains(" = ")) {
             let key = line.split(" = ").next().unwrap();
@@ -567,7 +621,7 @@ fn the_table_counts_parts_by_their_verdict() {
     let verdicts = [0, 1, 2].map(|k| json["components"][k]["verdict"].as_str().unwrap());
     assert_eq!(verdicts, ["unsafe", "undecided", "safe"]);
     let table = clatter(["assess", &path]).stdout;
-    assert!(table.starts_with("Handheld is UNSAFE: 1 of 3 components, 1 undecided\n"), "{table}");
+    assert!(table.starts_with("Handheld is UNSAFE: 1 of 3 components, 1 undecided, as a bar; "), "{table}");
     let time_s = json["components"][0]["limits"][0]["worst_case"]["time_s"].as_f64().unwrap();
     let words: Vec<&str> = table.split("display, acceleration: ").nth(1).unwrap().split_whitespace().collect();
     let at = words.windows(3).find(|w| w[0] == "at" && w[2].trim_end_matches('.') == "ms").unwrap()[1];

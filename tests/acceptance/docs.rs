@@ -65,7 +65,7 @@ fn the_examples_of_readme_are_what_the_command_says() {
 #[test]
 fn the_examples_of_the_tutorials_are_what_the_command_says() {
     let (root, dir) = (std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(".."), tempfile::tempdir().unwrap());
-    for file in ["reports/examples/phone.toml", "docs/drop.csv"] {
+    for file in ["docs/remote.toml", "docs/drop.csv"] {
         let file = root.join(file);
         std::fs::copy(&file, dir.path().join(file.file_name().unwrap())).unwrap();
     }

@@ -1,23 +1,17 @@
 //! `clatter explain`, and the tolerance and model of `clatter assess`.
 
-use std::path::Path;
-
 use clatter_cli::Exit;
 use serde_json::Value;
 
+use crate::assess::example;
 use crate::{answer, clatter};
-
-fn example(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/examples").join(name);
-    path.to_str().unwrap().to_owned()
-}
 
 /// The six models, from the least physics.
 const MODELS: [&str; 6] = ["net-change", "largest-shock", "map", "ballistic", "finite-tilt", "compliant"];
 
 #[test]
 fn every_limit_gets_its_models_and_a_reason() {
-    let path = example("phone.toml");
+    let path = example("bar-phone.toml");
     let json = answer(["explain", path.as_str()]);
     assert_eq!((&json["tolerance"], &json["left_out"]), (&0.01.into(), &Value::Array(Vec::new())));
     let assessed: Value = serde_json::from_str(&clatter(["assess", path.as_str(), "--format=json"]).stdout).unwrap();
@@ -45,7 +39,7 @@ fn every_limit_gets_its_models_and_a_reason() {
 
 #[test]
 fn less_is_enough_where_less_is_asked() {
-    let path = example("phone.toml");
+    let path = example("bar-phone.toml");
     let cheapest = |tolerance: &str| {
         let json = answer(["explain", path.as_str(), tolerance]);
         let of = |limit: &Value| MODELS.iter().position(|name| limit["cheapest"] == *name).unwrap();
@@ -56,7 +50,7 @@ fn less_is_enough_where_less_is_asked() {
 
 #[test]
 fn people_are_told_what_decides() {
-    let table = clatter(["explain", &example("phone.toml")]);
+    let table = clatter(["explain", &example("bar-phone.toml")]);
     assert_eq!((table.exit, table.stderr.as_str()), (Exit::Done, ""));
     for said in [
         "Phone: the cheapest model within 1 % of the one with the most physics",
@@ -70,13 +64,13 @@ fn people_are_told_what_decides() {
         assert!(table.stdout.contains(said), "{said}: {}", table.stdout);
     }
     assert_eq!(table.stdout.matches("cheapest within the tolerance").count(), 3, "{}", table.stdout);
-    let laptop = clatter(["explain", &example("laptop.toml")]);
+    let laptop = clatter(["explain", &example("bar-laptop.toml")]);
     assert!(!laptop.stdout.contains("compliant") && !laptop.stdout.contains("τ/Δt"), "{}", laptop.stdout);
 }
 
 #[test]
 fn a_tolerance_and_a_model_can_be_asked_for() {
-    let path = example("laptop.toml");
+    let path = example("bar-laptop.toml");
     let demand = |json: &Value| json["components"][1]["limits"][0]["demand"].as_f64().unwrap();
     let json = |option: &str| -> Value {
         serde_json::from_str(&clatter(["assess", path.as_str(), option, "--format=json"]).stdout).unwrap()

@@ -18,7 +18,7 @@ const SHOCK: &str = "time [s],acceleration [m/s2]\n0,0\n0.001,5\n0.002,5\n0.003,
 /// A product file that names these records.
 fn product(records: &[&str]) -> String {
     let named: Vec<_> = records.iter().map(|file| format!("[[record]]\nfile = \"{file}\"\n")).collect();
-    format!("{}\n{}", clatter_assess::EXAMPLE, named.concat())
+    format!("{}\n{}", include_str!("../cases/bar-handheld.toml"), named.concat())
 }
 
 /// The folder of a test: product, record, and what else is read.

@@ -282,7 +282,7 @@ fn what_a_plate_has_not_is_refused() {
 /// say it, seen from that corner.
 #[test]
 fn a_product_file_of_a_plate_gives_its_drop() {
-    let path = crate::assess::example("handheld-plate.toml");
+    let path = crate::assess::example("handheld-terminal.toml");
     let product = format!("--product={path}");
     // What was taken of each range is told beside the answer.
     let taken = |words: [&str; 5]| -> Value {

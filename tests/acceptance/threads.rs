@@ -7,7 +7,7 @@ use std::thread;
 
 use crate::clatter;
 
-/// Worked products, drops that were hard to find, and the file of `clatter init` with other casings, of both laws and of none.
+/// Worked products, drops that were hard to find, and a bar with other casings, of both laws and of none.
 fn products(folder: &Path) -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let given = ["reports/examples", "tests/cases"].map(|name| fs::read_dir(root.join(name)).unwrap());
@@ -17,7 +17,8 @@ fn products(folder: &Path) -> Vec<PathBuf> {
         for law in ["", "contact_law = \"hysteretic\"\n", "contact_law = \"dashpot\"\n"] {
             let path = folder.join(format!("{k}{}.toml", law.len()));
             let product = format!("[product]\nrestitution = {e}\n{law}");
-            let lines = clatter_assess::EXAMPLE.lines().filter(|line| !line.starts_with("restitution"));
+            let lines =
+                include_str!("../cases/bar-handheld.toml").lines().filter(|line| !line.starts_with("restitution"));
             let text: String = lines.flat_map(|line| [line, "\n"]).collect();
             fs::write(&path, text.replacen("[product]\n", &product, 1)).unwrap();
             all.push(path);

@@ -37,7 +37,7 @@ fn the_table_says_what_each_model_gets_wrong_and_costs() {
 
 #[test]
 fn the_json_has_every_model_with_its_error_and_its_time() {
-    let json = answer(["tradeoff", example("phone.toml").as_str(), "--tolerance=5%"]);
+    let json = answer(["tradeoff", example("bar-phone.toml").as_str(), "--tolerance=5%"]);
     assert_eq!((&json["product"], &json["tolerance"]), (&"Phone".into(), &0.05.into()));
     assert!(json["machine"]["processor"].is_string() && json["machine"]["optimized"].is_boolean());
     assert_eq!(json["left_out"], Value::Array(Vec::new()));
@@ -64,7 +64,7 @@ fn the_json_has_every_model_with_its_error_and_its_time() {
 
 #[test]
 fn without_contact_time_the_reference_is_real_tilt() {
-    let path = example("laptop.toml");
+    let path = example("bar-laptop.toml");
     let outcome = clatter(["tradeoff", path.as_str()]);
     assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""));
     assert!(outcome.stdout.contains("reference  finite-tilt: "), "{}", outcome.stdout);

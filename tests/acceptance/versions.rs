@@ -17,7 +17,8 @@ const DROP: [&str; 6] = ["simulate", "--model=map", "--length=140mm", "--gyratio
 fn files_tell_the_version_that_wrote_them() {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().display().to_string();
-    for (name, text) in [("p.toml", clatter_assess::EXAMPLE), ("r.csv", RECORD), ("b.csv", BOUNCES)] {
+    for (name, text) in [("p.toml", include_str!("../cases/bar-handheld.toml")), ("r.csv", RECORD), ("b.csv", BOUNCES)]
+    {
         fs::write(dir.path().join(name), text).unwrap();
     }
     let map = ["map", "peak-end", "--q=0:1:3", "--e=0:1:3"];
@@ -64,7 +65,7 @@ fn files_tell_the_version_that_wrote_them() {
 
 #[test]
 fn several_answers_tell_it_each() {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/examples/phone.toml");
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bar-phone.toml");
     let path = path.display().to_string();
     let outcome = clatter(["assess", &path, &path, "--format=json", "--model=map"]);
     let answers: Vec<Value> = serde_json::from_str(&outcome.stdout).unwrap();

@@ -138,9 +138,12 @@ function verdicts(told, { first, changed }) {
     : open
       ? `is undecided: ${open} of ${all} components`
       : 'is safe: every limit holds in the worst drop';
+  const body = answer.assumed.find((assumed) => assumed.input === 'body');
+  const assumed = body ? `, as a ${body.taken}; ${body.why.replaceAll('`', '')}` : '';
   const verdict = $('verdict');
   verdict.dataset.verdict = answer.verdict;
-  if (verdict.textContent !== `${answer.product} ${headline}`) verdict.textContent = `${answer.product} ${headline}`;
+  const line = `${answer.product} ${headline}${assumed}`;
+  if (verdict.textContent !== line) verdict.textContent = line;
   $('limits').replaceChildren(
     ...answer.components.flatMap((part, i) => part.limits.map((limit, k) => row(part, limit, told.shown[i][k], k === 0))),
   );

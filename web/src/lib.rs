@@ -142,8 +142,8 @@ mod tests {
     fn the_first_answer_is_by_instant_impacts() {
         let [name, text] = products::WORKED[0];
         let of = |quick| asked(&serde_json::json!({ "ask": "assess", "name": name, "text": text, "quick": quick }), "");
-        assert_eq!(of(true)["command"], "clatter assess handheld-terminal.toml --model=finite-tilt --format=json");
-        assert_eq!(of(false)["command"], "clatter assess handheld-terminal.toml --format=json");
+        assert_eq!(of(true)["command"], "clatter assess scanner-wand.toml --model=finite-tilt --format=json");
+        assert_eq!(of(false)["command"], "clatter assess scanner-wand.toml --format=json");
         let model = |told: &serde_json::Value| {
             let answer: serde_json::Value = serde_json::from_str(told["answer"].as_str().unwrap()).unwrap();
             answer["components"][0]["model"]["bar"].clone()

@@ -188,7 +188,7 @@ mod tests {
 
     #[test]
     fn a_part_and_a_mass_are_moved_and_all_else_stands() {
-        let bar = worked("handheld-terminal.toml");
+        let bar = worked("scanner-wand.toml");
         let part = moved(bar, Item::Component(0), [-0.0305, 0.0]).unwrap();
         assert_eq!(changed(bar, &part), [r#"position = "64.5 mm""#]);
         let mass = moved(bar, Item::Mass(1), [0.09, 0.5]).unwrap();
@@ -197,7 +197,7 @@ mod tests {
             [r#"  { name = "battery", mass = "110 g", from = "0 mm", to = "60 mm" },"#],
             "both ends, and nothing is across"
         );
-        let plate = worked("handheld-plate.toml");
+        let plate = worked("handheld-terminal.toml");
         let both = moved(plate, Item::Component(2), [0.001, -0.002]).unwrap();
         assert_eq!(changed(plate, &both), [r#"position = ["-19 mm", "-27 mm"]"#]);
         let mass = moved(plate, Item::Mass(1), [0.0, 0.01]).unwrap();
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn what_is_not_there_is_refused() {
-        let bar = worked("handheld-terminal.toml");
+        let bar = worked("scanner-wand.toml");
         assert_eq!(moved(bar, Item::Component(3), [0.1, 0.0]).unwrap_err(), "the file has no such part");
         assert!(moved("[", Item::Mass(0), [0.1, 0.0]).is_err(), "no TOML");
     }
@@ -234,7 +234,7 @@ mod tests {
             assert_eq!(count("components"), text.matches("[[component]]").count(), "{name}");
             assert_eq!(count("masses"), text.matches(", mass = \"").count(), "{name}");
         }
-        let told = plan("x.toml", worked("handheld-terminal.toml")).unwrap().shown;
+        let told = plan("x.toml", worked("scanner-wand.toml")).unwrap().shown;
         // By hand: the center of mass −8.929 mm from the middle, so that the arms are 101.071 and 118.929 mm; ρ² = 4275.24 mm²;
         // q = (12020.27 − 4275.24)/√((10215.35 + 4275.24) (14144.11 + 4275.24)).
         assert!((told["q"].as_f64().unwrap() - 0.474_07).abs() < 5e-6, "{told}");

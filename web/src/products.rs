@@ -11,12 +11,12 @@ use serde::Serialize;
 
 use crate::{Progress, Reply, json, quoted, text};
 
-/// The worked products, each under the name of its file.
+/// The worked products, each under the name of its file: a bar first, which takes least.
 pub(crate) const WORKED: [[&str; 2]; 5] = [
+    ["scanner-wand.toml", include_str!("../scanner-wand.toml")],
     ["handheld-terminal.toml", include_str!("../../reports/examples/handheld-terminal.toml")],
     ["phone.toml", include_str!("../../reports/examples/phone.toml")],
     ["laptop.toml", include_str!("../../reports/examples/laptop.toml")],
-    ["handheld-plate.toml", include_str!("../../reports/examples/handheld-plate.toml")],
     ["handheld-transit.toml", include_str!("../../reports/examples/handheld-transit.toml")],
 ];
 

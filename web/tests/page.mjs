@@ -95,10 +95,10 @@ test('the answers are those of the command, to the last bit', async () => {
   await repeats('#product-command', 'assess');
   await repeats('#bar-commands .command:first-child', 'impacts');
   await repeats('#bar-commands .command:last-child', 'zone');
-  const first = run('clatter assess handheld-terminal.toml --model=finite-tilt --format=json');
+  const first = run('clatter assess scanner-wand.toml --model=finite-tilt --format=json');
   assert.equal(await answer('first'), first.stdout.trimEnd(), 'the first answer');
   const line = await page.textContent('#drops code');
-  assert.match(line, /^clatter respond --product=handheld-terminal.toml --component='scan engine' --worst=acceleration$/);
+  assert.match(line, /^clatter respond --product=scanner-wand.toml --component='scan engine' --worst=acceleration$/);
   const asked = JSON.parse(await answer('assess')).components[0].limits[0].demand;
   assert.ok(run(`${line} --format=json`).stdout.includes(String(asked)), 'the worst drop once more');
 });
@@ -137,7 +137,7 @@ test('arrow keys move a part, and it keeps the focus', async () => {
 });
 
 test('on a plate a part moves both ways, and the latest change wins', async () => {
-  await page.selectOption('#worked', 'handheld-plate.toml');
+  await page.selectOption('#worked', 'handheld-terminal.toml');
   await page.waitForFunction(() => document.querySelector('[data-key="component-2"] text')?.textContent === 'gyroscope');
   const old = await text();
   const wide = (await page.locator('#plan .body').boundingBox()).width;
@@ -154,15 +154,15 @@ test('on a plate a part moves both ways, and the latest change wins', async () =
   assert.deepEqual(difference(old, await text()), [['position = ["-20 mm", "-25 mm"]', 'position = ["-10 mm", "-20 mm"]']]);
   assert.match(await words('state'), /computing|first drops/);
   // The plate takes seconds: it is left for a product that takes less.
-  await changed(() => page.selectOption('#worked', 'laptop.toml'), 'Laptop');
+  await changed(() => page.selectOption('#worked', 'scanner-wand.toml'), 'Scanner wand');
   await page.waitForTimeout(300);
-  const lines = (await seen.jsonValue()).filter((line) => line && !line.startsWith('clatter assess laptop.toml'));
+  const lines = (await seen.jsonValue()).filter((line) => line && !line.startsWith('clatter assess scanner-wand.toml'));
   assert.deepEqual(lines, [], 'no answer to what was left');
   await saved();
   await repeats('#product-command', 'assess');
 });
 
-for (const name of ['handheld-plate.toml', 'handheld-transit.toml']) {
+for (const name of ['handheld-terminal.toml', 'handheld-transit.toml']) {
   test(`${name}: what the first drops ask comes first, then the answer of the command, with the picture`, async () => {
     await page.evaluate(() => {
       window.seen = [];

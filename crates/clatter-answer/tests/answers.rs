@@ -84,7 +84,7 @@ fn in_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
 }
 
 fn of_parts(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
-    let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
+    let file = ProductFile::read(include_str!("../../../tests/cases/bar-handheld.toml"), "bar.toml")?;
     let assessment = file.assess()?;
     lines.push(serde_json::to_string(&assessment)?);
     lines.push(format!("{:?}", file.remedies(&assessment, &Bounds::default(), 0.1)?));

@@ -104,7 +104,8 @@ fn records_that_answer_nothing_are_refused() {
     let whole = spectrum::Measured { file: "x.csv".to_owned(), name: None, record, shock: None };
     let search = Search { threshold_m_s2: Some(100.0), quiet_s: 0.1 };
     says(whole.apart(&search).expect_err("no shock"), "0 shocks beyond 100.0 m/s2");
-    let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml").expect("a product");
+    let file =
+        ProductFile::read(include_str!("../../../tests/cases/bar-handheld.toml"), "bar.toml").expect("a product");
     let one = |data| fit::Record { name: "x.csv".to_owned(), data };
     let [bounces, strikes] = [
         fit::Data::Bounces(vec![0.0, 0.4, 0.6]),

@@ -3,8 +3,11 @@
 use clatter_answer::study::{Answer, Error, Merge, Parts, Shard, Study};
 use clatter_answer::{assess, scatter};
 use clatter_assess::scatter::Settings;
-use clatter_assess::{Accuracy, EXAMPLE, Plan, ProductFile};
+use clatter_assess::{Accuracy, Plan, ProductFile};
 use serde_json::Value;
+
+/// A bar.
+const EXAMPLE: &str = include_str!("../../../tests/cases/bar-handheld.toml");
 
 fn study(plan: &str) -> Study {
     let plan = Plan::read(&format!("product = \"p.toml\"\n{plan}"), "plan.toml").expect("a plan");

@@ -47,9 +47,9 @@ fn ten_parts(bencher: Bencher<'_, '_>) {
 #[divan::bench(sample_count = 10, args = ["phone", "terminal", "laptop"])]
 fn worked(bencher: Bencher<'_, '_>, name: &str) {
     let text = match name {
-        "phone" => include_str!("../../../reports/examples/phone.toml"),
-        "terminal" => include_str!("../../../reports/examples/handheld-terminal.toml"),
-        _ => include_str!("../../../reports/examples/laptop.toml"),
+        "phone" => include_str!("../../../tests/cases/bar-phone.toml"),
+        "terminal" => include_str!("../../../tests/cases/bar-terminal.toml"),
+        _ => include_str!("../../../tests/cases/bar-laptop.toml"),
     };
     let file = ProductFile::read(text, name).unwrap_or_else(|faults| panic!("{faults}"));
     bencher.bench(|| black_box(&file).assess());

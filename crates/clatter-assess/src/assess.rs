@@ -11,8 +11,8 @@ use crate::quantity::Source;
 use crate::reason::{Contradiction, Doubt, Note, Reason};
 use crate::search::{Candidate, Place, Ranges, Task, Watch, Worst};
 use crate::{
-    Accuracy, Assessment, Component, ComponentAssessment, Drop, DropName, Error, Landing, LandingAssessment, Limit,
-    LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Unit, Verdict, WorstCase,
+    Accuracy, Assessment, Assumed, Component, ComponentAssessment, Drop, DropName, Error, Landing, LandingAssessment,
+    Limit, LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Unit, Verdict, WorstCase,
 };
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
@@ -97,7 +97,8 @@ impl ProductFile {
         let found = self.assess_these(&all, accuracy, most, watch)?;
         Ok(found.map(|Found { components, landings }| {
             let verdict = Verdict::of(components.iter().map(|c| c.verdict));
-            Assessment { product: self.product.name.clone(), verdict, components, landings, accuracy: *accuracy }
+            let (product, assumed) = (self.product.name.clone(), Assumed::of(self, accuracy));
+            Assessment { product, verdict, assumed, components, landings, accuracy: *accuracy }
         }))
     }
 

@@ -10,7 +10,7 @@ use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
 use crate::verdict::MERGE_S;
 use crate::{
-    Axis, Component, Damping, DataFault, Drop, Error, Fall, Feet, First, Inside, Landing, Law, LimitKind, Mount,
+    Axis, Component, Damping, DataFault, Depth, Drop, Error, Fall, Feet, First, Inside, Landing, Law, LimitKind, Mount,
     Product, ProductFile, RecordFile, Spread, Width,
 };
 
@@ -20,9 +20,11 @@ pub(crate) const FEET_INSIDE: f64 = 0.4;
 const FARTHEST_CENTER: f64 = 0.45;
 /// Product of inertia over the mass, over the product of both radii of gyration: next to 1 all mass is along one line.
 const FARTHEST_LEAN: f64 = 0.99;
-/// Radius of gyration over the length: less mass at the ends no product has, more beyond them neither.
-pub(crate) const GYRATION: [f64; 2] = [0.05, 2.0];
-/// Places are compared to this share of the length, radii of gyration to this share of them.
+/// Radius of gyration over the length: less mass at the ends no product has.
+pub(crate) const LEAST_GYRATION: f64 = 0.05;
+/// Masses and radii of gyration may pass the ends of the body by this share: that of values written to six digits.
+pub(crate) const WRITTEN: f64 = 1e-5;
+/// Places of parts are compared to this share of the length, radii of gyration of a range to this share of them.
 const ROUNDINGS: f64 = 1e-9;
 
 impl ProductFile {
@@ -157,8 +159,9 @@ impl Product {
         if !(a < 0.0 && b > 0.0 && below_a == 0.0 && below_b == 0.0) {
             return Err(DataFault::Ends { points_m });
         }
+        let inset_m = self.feet.map_or(0.0, |feet| feet.inset_m[0]);
         for gyration_m in [self.gyration_m.lo(), self.gyration_m.hi()] {
-            body_of(self.body.length_m(), -0.5 * (a + b), gyration_m)?;
+            body_of(self.body.length_m(), inset_m, -0.5 * (a + b), gyration_m)?;
         }
         let (gyration_m, middle_m) = (self.body.gyration_m(), self.gyration_m.at(0.5));
         if (gyration_m - middle_m).abs() > ROUNDINGS * middle_m {
@@ -166,6 +169,9 @@ impl Product {
         }
         self.feet.as_ref().map_or(Ok(()), |feet| self.check_feet(feet))?;
         self.check_own_contacts()?;
+        if self.contact_law.is_some() && self.contact_time_s.is_none() {
+            return Err(DataFault::LawWithoutTime);
+        }
         self.width.as_ref().map_or(Ok(()), |width| self.check_width(width))
     }
 
@@ -201,19 +207,47 @@ impl Product {
         let width_m = width.m();
         one(keys::PRODUCT, "width", width_m)?;
         optional(keys::PRODUCT, "thickness", width.thickness_m)?;
-        width_of(width_m, width.center_m(), width.gyration_m)?;
+        let inset_m = self.feet.map_or(0.0, |feet| feet.inset_m[1]);
+        width_of(width_m, inset_m, width.center_m(), width.gyration_m)?;
         if let (Some(depth), Some(thickness_m)) = (width.depth, width.thickness_m) {
-            let center_m = depth.center_m;
-            if center_m.is_nan() || center_m.abs() > FARTHEST_CENTER * thickness_m {
-                return Err(DataFault::CenterDeep { center_m, thickness_m });
+            center("thickness", depth.center_m, thickness_m)?;
+            gyration("thickness", depth.gyration_m, 0.0, width.faces_m(thickness_m))?;
+        }
+        self.check_products(width)?;
+        if self.contact_time_s.is_none() { Err(DataFault::PlateWithoutContactTime) } else { Ok(()) }
+    }
+
+    /// Refuses products of inertia that no masses within the body have. Of ∫x y dm, x from −a to b and y from −c to d about the center of
+    /// mass, the largest is that of (x + a)(d − y) or (b − x)(y + c), which are nowhere negative, and of both radii of gyration.
+    fn check_products(&self, width: &Width) -> Result<(), DataFault> {
+        let [x, y] = self.feet.map_or([0.0; 2], |feet| feet.inset_m);
+        let beyond = |arms_m: [f64; 2], inset_m: f64| arms_m.map(|arm_m| arm_m + inset_m);
+        let (along, across) = (beyond(self.body.arms_m(), x), beyond(width.edges_m, y));
+        let faces = width.thickness_m.map_or([0.0; 2], |thickness_m| width.faces_m(thickness_m));
+        let depth = width.depth.unwrap_or(Depth { center_m: 0.0, gyration_m: 0.0, products_of_inertia_m2: [0.0; 2] });
+        // The least radius leaves the least room.
+        let radii_m = [self.gyration_m.lo(), width.gyration_m, depth.gyration_m];
+        let [xz, yz] = depth.products_of_inertia_m2;
+        let products_m2 = [width.product_of_inertia_m2, xz, yz];
+        for (product_m2, sides, [one, other], lean) in [
+            (products_m2[0], "xy", [(along, radii_m[0]), (across, radii_m[1])], FARTHEST_LEAN),
+            (xz, "xz", [(along, radii_m[0]), (faces, radii_m[2])], 1.0),
+            (yz, "yz", [(across, radii_m[1]), (faces, radii_m[2])], 1.0),
+        ] {
+            let (([a, b], k), ([c, d], l)) = (one, other);
+            let roundings = WRITTEN * (a + b) * (c + d);
+            let allowed_m2 = [-(lean * k * l).min(a * c).min(b * d), (lean * k * l).min(a * d).min(b * c)];
+            if !(allowed_m2[0] - roundings..=allowed_m2[1] + roundings).contains(&product_m2) {
+                return Err(DataFault::ProductOfInertia { sides, product_m2, allowed_m2 });
             }
         }
-        let (product_m2, most_m2) =
-            (width.product_of_inertia_m2, FARTHEST_LEAN * self.gyration_m.lo() * width.gyration_m);
-        if product_m2.is_nan() || product_m2.abs() > most_m2 {
-            return Err(DataFault::ProductOfInertia { product_m2, most_m2 });
-        }
-        if self.contact_time_s.is_none() { Err(DataFault::PlateWithoutContactTime) } else { Ok(()) }
+        let sides_m = [along, across, faces].map(|[a, b]| if a + b > 0.0 { a + b } else { 1.0 });
+        let second = |i: usize, j: usize| match (i, j) {
+            _ if i == j => radii_m[i] * radii_m[i],
+            _ => products_m2[i + j - 1],
+        };
+        let shares = nalgebra::Matrix3::from_fn(|i, j| second(i, j) / (sides_m[i] * sides_m[j]));
+        if shares.determinant() >= -ROUNDINGS { Ok(()) } else { Err(DataFault::ProductsOfInertia { products_m2 }) }
     }
 }
 
@@ -260,39 +294,63 @@ pub(crate) fn mass(mass_kg: f64) -> Result<(), DataFault> {
     one(keys::PRODUCT, "mass", mass_kg)
 }
 
-/// The body with its center of mass so far from the middle, towards end b.
-pub(crate) fn body_of(length_m: f64, center_m: f64, gyration_m: f64) -> Result<Body, DataFault> {
-    if center_m.is_nan() || center_m.abs() > FARTHEST_CENTER * length_m {
-        return Err(DataFault::CenterOfMass { center_m, length_m });
-    }
+/// Refuses a center of mass next to an end of a side.
+fn center(side: &'static str, center_m: f64, side_m: f64) -> Result<(), DataFault> {
+    let is_within = center_m.abs() <= FARTHEST_CENTER * side_m;
+    if is_within { Ok(()) } else { Err(DataFault::CenterOfMass { side, center_m, side_m }) }
+}
+
+/// Refuses a radius of gyration larger than that of masses at both ends of a side, √(a b), which lie a and b from the center of mass: of all
+/// masses between them with this center these have the largest.
+fn gyration(side: &'static str, gyration_m: f64, least_m: f64, [a, b]: [f64; 2]) -> Result<(), DataFault> {
+    let most_m = (a * b).sqrt();
+    let is_possible = (least_m..=most_m * (1.0 + WRITTEN)).contains(&gyration_m);
+    if is_possible { Ok(()) } else { Err(DataFault::Gyration { side, gyration_m, allowed_m: [least_m, most_m] }) }
+}
+
+/// Refuses what reaches beyond the ends of a side by more than this share of it.
+pub(crate) fn within(
+    what: &'static str,
+    side: &'static str,
+    reach_m: f64,
+    side_m: f64,
+    roundings: f64,
+) -> Result<(), DataFault> {
+    let half_m = 0.5 * side_m;
+    let is_within = reach_m <= half_m * (1.0 + roundings);
+    if is_within { Ok(()) } else { Err(DataFault::Outside { what, side, reach_m, half_m }) }
+}
+
+/// The largest radius of gyration of masses within a product, about its center of mass.
+pub(crate) fn most_gyration_m(product: &Product) -> f64 {
+    let inset_m = product.feet.map_or(0.0, |feet| feet.inset_m[0]);
+    let [a, b] = product.body.arms_m().map(|arm_m| arm_m + inset_m);
+    (a * b).sqrt()
+}
+
+/// The body with its center of mass so far from the middle, towards end b; the product goes on beyond it by `inset_m`.
+pub(crate) fn body_of(length_m: f64, inset_m: f64, center_m: f64, gyration_m: f64) -> Result<Body, DataFault> {
+    center("length", center_m, length_m)?;
     let half = 0.5 * length_m;
+    let arms_m = [half + center_m, half - center_m];
+    let (least_m, ends_m) = (LEAST_GYRATION * length_m, arms_m.map(|arm_m| arm_m + inset_m));
+    gyration("length", gyration_m, least_m, ends_m)?;
     let body = if center_m == 0.0 {
         Body::new(length_m, gyration_m)
     } else {
-        Body::off_center(half + center_m, half - center_m, gyration_m)
+        Body::off_center(arms_m[0], arms_m[1], gyration_m)
     };
-    let [least, most] = GYRATION;
-    let within = (least..=most).contains(&(gyration_m / length_m));
-    body.ok().filter(|_| within).ok_or(DataFault::Gyration { gyration_m, length_m })
+    let allowed_m = [least_m, (ends_m[0] * ends_m[1]).sqrt()];
+    body.map_err(|_| DataFault::Gyration { side: "length", gyration_m, allowed_m })
 }
 
-/// The side across a plate with its center of mass so far from the middle.
-pub(crate) fn width_of(width_m: f64, center_m: f64, gyration_m: f64) -> Result<Width, DataFault> {
-    if center_m.is_nan() || center_m.abs() > FARTHEST_CENTER * width_m {
-        return Err(DataFault::CenterAcross { center_m, width_m });
-    }
-    let [least, most] = GYRATION;
-    if !(least..=most).contains(&(gyration_m / width_m)) {
-        return Err(DataFault::GyrationAcross { gyration_m, width_m });
-    }
+/// The side across a plate with its center of mass so far from the middle; the product goes on beyond it by `inset_m`.
+pub(crate) fn width_of(width_m: f64, inset_m: f64, center_m: f64, gyration_m: f64) -> Result<Width, DataFault> {
+    center("width", center_m, width_m)?;
     let half = 0.5 * width_m;
-    Ok(Width {
-        edges_m: [half + center_m, half - center_m],
-        gyration_m,
-        product_of_inertia_m2: 0.0,
-        thickness_m: None,
-        depth: None,
-    })
+    let edges_m = [half + center_m, half - center_m];
+    gyration("width", gyration_m, LEAST_GYRATION * width_m, edges_m.map(|edge_m| edge_m + inset_m))?;
+    Ok(Width { edges_m, gyration_m, product_of_inertia_m2: 0.0, thickness_m: None, depth: None })
 }
 
 impl Drop {
@@ -320,6 +378,9 @@ impl Drop {
     }
 }
 
+/// How messages call a part.
+const PART: &str = "the component with its extent";
+
 impl Component {
     /// Whether it moves along an axis that it has.
     pub(crate) fn check_axis(&self, of_box: bool) -> Result<(), DataFault> {
@@ -332,16 +393,14 @@ impl Component {
         if has { Ok(()) } else { Err(DataFault::Axis(axis.name())) }
     }
 
-    /// Whether it is within the product.
+    /// Refuses a part beyond the faces of the product.
     pub(crate) fn fits(&self, product: &Product) -> Result<(), DataFault> {
-        let reach_m = self.position_m.lo().abs().max(self.position_m.hi().abs()) + 0.5 * self.extent_m;
-        let [half_m, half_across_m] = product.sides_m().map(|side_m| 0.5 * side_m);
-        if reach_m.is_nan() || reach_m > half_m * (1.0 + ROUNDINGS) {
-            return Err(DataFault::Reach { reach_m, half_m });
-        }
-        let reach_m = self.across_m.lo().abs().max(self.across_m.hi().abs()) + 0.5 * self.extent_across_m;
-        let half_m = half_across_m;
-        if reach_m <= half_m * (1.0 + ROUNDINGS) { Ok(()) } else { Err(DataFault::ReachAcross { reach_m, half_m }) }
+        let [length_m, width_m] = product.sides_m();
+        let reach = |place: &Spread, extent_m: f64| place.lo().abs().max(place.hi().abs()) + 0.5 * extent_m;
+        within(PART, "length", reach(&self.position_m, self.extent_m), length_m, ROUNDINGS)?;
+        within(PART, "width", reach(&self.across_m, self.extent_across_m), width_m, ROUNDINGS)?;
+        let thickness_m = product.width.and_then(|width| width.thickness_m);
+        thickness_m.map_or(Ok(()), |side_m| within(PART, "thickness", self.inside.height_m.abs(), side_m, ROUNDINGS))
     }
 
     /// Everything but whether its name is its own.
@@ -407,9 +466,7 @@ impl RecordFile {
 
 /// Whether an acceleration was measured at a place of the product.
 pub(crate) fn sensor(position_m: f64, product: &Product) -> Result<(), DataFault> {
-    let half_m = 0.5 * product.sides_m()[0];
-    let within = position_m.abs() <= half_m * (1.0 + ROUNDINGS);
-    if within { Ok(()) } else { Err(DataFault::Sensor { position_m, half_m }) }
+    within("the sensor", "length", position_m.abs(), product.sides_m()[0], ROUNDINGS)
 }
 
 pub(crate) fn named(name: &str) -> Result<(), DataFault> {

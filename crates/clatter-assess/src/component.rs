@@ -1,6 +1,7 @@
 //! A fragile part: where it is, how it is held and what it stands.
 
 use clatter_shock::{DampingRatio, Suspension};
+use serde::Serialize;
 
 use crate::{Error, LimitKind, Spread, Unit, units};
 
@@ -144,17 +145,19 @@ impl Limits {
     }
 }
 
-/// Along which axis of a box a part moves and is shaken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// Along which axis of a box a part moves and is shaken. A product file that names none means the magnitude of a part that is mounted
+/// rigidly in a box, and the thickness else.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// Along the length.
     X,
     /// Along the width.
     Y,
-    /// Along the thickness, as of every bar and plate.
+    /// Along the thickness, as every part of a bar and of a plate.
     #[default]
     Z,
-    /// The magnitude, of a part that is mounted rigidly.
+    /// Along the blow: the magnitude, of a part that is mounted rigidly.
     Any,
 }
 

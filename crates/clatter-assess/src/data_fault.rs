@@ -21,45 +21,46 @@ pub enum DataFault {
     },
     /// A center of mass too far out.
     CenterOfMass {
+        /// `length`, `width` or `thickness`.
+        side: &'static str,
         /// Its place, from the middle.
         center_m: f64,
-        /// Length of the product.
-        length_m: f64,
+        /// How long that side is.
+        side_m: f64,
     },
-    /// A radius of gyration that a body of this length does not have.
+    /// A radius of gyration that no masses within the body have.
     Gyration {
+        /// Of the mass along `length`, `width` or `thickness`.
+        side: &'static str,
         /// The radius.
         gyration_m: f64,
-        /// Length of the product.
-        length_m: f64,
+        /// The least and the largest one.
+        allowed_m: [f64; 2],
     },
-    /// The same across a plate.
-    CenterAcross {
-        /// Its place, from the middle.
-        center_m: f64,
-        /// Width of the product.
-        width_m: f64,
+    /// Something beyond a face of the body.
+    Outside {
+        /// How messages call it.
+        what: &'static str,
+        /// Along `length`, `width` or `thickness`.
+        side: &'static str,
+        /// How far it reaches from the middle.
+        reach_m: f64,
+        /// Half of that side.
+        half_m: f64,
     },
-    /// The same across the thickness.
-    CenterDeep {
-        /// Its place, from the middle.
-        center_m: f64,
-        /// Thickness of the product.
-        thickness_m: f64,
-    },
-    /// The same of the mass along the width.
-    GyrationAcross {
-        /// The radius.
-        gyration_m: f64,
-        /// Width of the product.
-        width_m: f64,
-    },
-    /// A product of inertia that leaves all mass on a line, or next to one.
+    /// A product of inertia that no masses within the body have, or that leaves all mass on a line, or next to one.
     ProductOfInertia {
+        /// The sides along which it is, as `xy`.
+        sides: &'static str,
         /// ∫x y dm over the mass.
         product_m2: f64,
-        /// At most.
-        most_m2: f64,
+        /// The least and the largest one.
+        allowed_m2: [f64; 2],
+    },
+    /// Products of inertia that no mass has together.
+    ProductsOfInertia {
+        /// ∫x y dm, ∫x z dm and ∫y z dm over the mass.
+        products_m2: [f64; 3],
     },
     /// A plate without contact time.
     PlateWithoutContactTime,
@@ -121,20 +122,6 @@ pub enum DataFault {
     NoName,
     /// Two components of one name: answers could not be told apart.
     SameName(String),
-    /// A component that reaches beyond the ends of the product.
-    Reach {
-        /// How far it reaches from the middle.
-        reach_m: f64,
-        /// Half of the length of the product.
-        half_m: f64,
-    },
-    /// The same across a plate.
-    ReachAcross {
-        /// How far it reaches from the middle.
-        reach_m: f64,
-        /// Half of the width of the product.
-        half_m: f64,
-    },
     /// Feet that are too close to one another.
     FeetApart {
         /// How far inside the edges.
@@ -150,6 +137,8 @@ pub enum DataFault {
     SameContact(String),
     /// A contact of its own that says nothing.
     ContactAsAll,
+    /// A contact law of a product without contact time.
+    LawWithoutTime,
     /// Contacts of their own in a product without contact time.
     OwnContactsWithoutTime,
     /// Contacts of their own by another law than the hysteretic one, or by none that is named.
@@ -190,13 +179,6 @@ pub enum DataFault {
         /// The key.
         field: &'static str,
     },
-    /// A record of an acceleration that was measured beyond the ends of the product.
-    Sensor {
-        /// Where, from the middle.
-        position_m: f64,
-        /// Half of the length of the product.
-        half_m: f64,
-    },
 }
 
 impl DataFault {
@@ -209,17 +191,17 @@ impl DataFault {
                 let blank = if unit.is_empty() { "" } else { " " };
                 [out_of_range(field, format_args!("{value}{blank}{unit}")), format!("allowed: {allowed}")]
             }
-            Self::CenterOfMass { center_m, length_m } => [
-                format!(
-                    "the center of mass is {} mm from the middle of a product of {} mm",
-                    mm(*center_m),
-                    mm(*length_m)
-                ),
-                "allowed: within 0.45 of the length from the middle".to_owned(),
+            Self::CenterOfMass { side, center_m, side_m } => [
+                format!("the center of mass is {} mm from the middle of a {side} of {} mm", mm(*center_m), mm(*side_m)),
+                "allowed: within 0.45 of it from the middle".to_owned(),
             ],
-            Self::Gyration { gyration_m, length_m } => [
-                format!("the radius of gyration is {} mm in a product of {} mm", mm(*gyration_m), mm(*length_m)),
-                "allowed: from 0.05 to 2 times the length".to_owned(),
+            Self::Gyration { side, gyration_m, allowed_m: [least, most] } => [
+                format!("the radius of gyration of the mass along the {side} is {} mm", mm(*gyration_m)),
+                format!("allowed: from {} to {} mm; masses within the body have no larger one", mm(*least), mm(*most)),
+            ],
+            Self::Outside { what, side, reach_m, half_m } => [
+                format!("{what} reaches {} mm from the middle along the {side}", mm(*reach_m)),
+                format!("allowed: up to {} mm, half of the product's {side}: it lies within the body", mm(*half_m)),
             ],
             Self::Ends { points_m } => [
                 format!("the ends of the body are at {points_m:?} m from its center of mass"),
@@ -240,10 +222,6 @@ impl DataFault {
             Self::SameName(name) => {
                 [format!("two components are named {name:?}"), "give each component a name of its own".to_owned()]
             }
-            Self::Reach { reach_m, half_m } => [
-                format!("the component reaches {} mm from the middle", mm(*reach_m)),
-                format!("allowed: up to {} mm, half of the product's length; extent counts on both sides", mm(*half_m)),
-            ],
             Self::FeetApart { inset_m, side_m } => [
                 format!("the feet are {} mm inside the edges of a side of {} mm", mm(*inset_m), mm(*side_m)),
                 format!("allowed: up to {} mm, 0.4 of it", mm(crate::check::FEET_INSIDE * side_m)),
@@ -315,37 +293,23 @@ impl DataFault {
             Self::Hard { field } => {
                 [format!("a hard-mounted part has no `{field}`"), "leave one of both out".to_owned()]
             }
-            Self::Sensor { position_m, half_m } => [
-                format!("the acceleration was measured {} mm from the middle", mm(*position_m)),
-                format!("allowed: up to {} mm, half of the product's length", mm(*half_m)),
-            ],
-            Self::CenterAcross { center_m, width_m } => [
-                format!(
-                    "the center of mass is {} mm from the middle of a product {} mm wide",
-                    mm(*center_m),
-                    mm(*width_m)
-                ),
-                "allowed: within 0.45 of the width from the middle".to_owned(),
-            ],
-            Self::CenterDeep { center_m, thickness_m } => [
-                format!(
-                    "the center of mass is {} mm from the middle of a product {} mm thick",
-                    mm(*center_m),
-                    mm(*thickness_m)
-                ),
-                "allowed: within 0.45 of the thickness from the middle".to_owned(),
-            ],
-            Self::GyrationAcross { gyration_m, width_m } => [
-                format!(
-                    "the radius of gyration of the mass along the width is {} mm in a product {} mm wide",
-                    mm(*gyration_m),
-                    mm(*width_m)
-                ),
-                "allowed: from 0.05 to 2 times the width".to_owned(),
-            ],
-            Self::ProductOfInertia { product_m2, most_m2 } => [
-                format!("the product of inertia over the mass is {} mm2: all mass lies along one line", 1e6 * product_m2),
-                format!("allowed: within {} mm2, 0.99 of the product of both radii of gyration", 1e6 * most_m2),
+            Self::ProductOfInertia { sides, product_m2, allowed_m2 } => {
+                let [product, least, most] = [*product_m2, allowed_m2[0], allowed_m2[1]].map(mm2);
+                [
+                    format!("the product of inertia {sides} over the mass is {product} mm2"),
+                    format!("allowed: from {least} to {most} mm2, those of masses within the body that are not all on one line"),
+                ]
+            }
+            Self::ProductsOfInertia { products_m2 } => {
+                let [xy, xz, yz] = products_m2.map(mm2);
+                [
+                    format!("the products of inertia over the mass are {xy}, {xz} and {yz} mm2: no masses have them together"),
+                    "allowed: those of masses within the body".to_owned(),
+                ]
+            }
+            Self::LawWithoutTime => [
+                "a `contact_law` needs the `contact_time`: impacts that take no time follow none".to_owned(),
+                "add contact_time = \"0.4 ms\" or whatever was measured, or leave the law out".to_owned(),
             ],
             Self::PlateWithoutContactTime => [
                 "a product with a `width` needs the `contact_time`: corners that land together have no order without it"
@@ -406,10 +370,6 @@ impl DataFault {
                 "x and y are axes of parts of a box with drops on its faces, edges or corners; any is for parts mounted rigidly there"
                     .to_owned(),
             ],
-            Self::ReachAcross { reach_m, half_m } => [
-                format!("the component reaches {} mm from the middle across the product", mm(*reach_m)),
-                format!("allowed: up to {} mm, half of the product's width; extent counts on both sides", mm(*half_m)),
-            ],
         }
     }
 }
@@ -434,4 +394,9 @@ fn degrees(angle_rad: f64) -> f64 {
 /// Millimeters to the micrometer, as messages have them.
 fn mm(length_m: f64) -> f64 {
     (1e6 * length_m).round() / 1e3
+}
+
+/// Square millimeters to a thousandth.
+fn mm2(product_m2: f64) -> f64 {
+    (1e9 * product_m2).round() / 1e3
 }

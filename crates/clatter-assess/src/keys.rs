@@ -75,7 +75,7 @@ pub(crate) static PRODUCT: &[Key] = &[
         false,
         Quantity(&units::LENGTH, ["1 mm", "100 m"]),
         "Width across the length: with it the product is a plate that may land on any corner, and places have two values. It needs the \
-         contact time.",
+         contact time. Without it the product is a bar; one that is wider than a quarter of its length may ask for up to 30 % more.",
     ),
     key(
         "thickness",
@@ -103,8 +103,8 @@ pub(crate) static PRODUCT: &[Key] = &[
         false,
         Sides(&Spread(&units::LENGTH, ["0.01 mm", "100 m"])),
         "Radius of gyration about the center of mass (length/√12 = 0.289 length for evenly spread mass): a range where it is not \
-         known well; of a plate two values, of the mass along the length and of that along the width. One of three ways to give the \
-         inertia.",
+         known well; of a plate two values, of the mass along the length and of that along the width. All mass lies within the product: at \
+         most √(a b), with a and b from the center of mass to both ends. One of three ways to give the inertia.",
     ),
     key(
         "moment_of_inertia",
@@ -117,7 +117,7 @@ pub(crate) static PRODUCT: &[Key] = &[
         "masses",
         false,
         Tables(MASS),
-        "Point masses and slabs along the bar: their center of mass and radius of gyration are worked out. One of three ways to \
+        "Point masses and slabs within the product: their center of mass and radius of gyration are worked out. One of three ways to \
          give the inertia.",
     ),
     key(
@@ -142,7 +142,8 @@ pub(crate) static PRODUCT: &[Key] = &[
         "contact_law",
         false,
         Choice(&clatter_flight::ContactLaw::NAMES),
-        "What the force of an impact does: hysteretic has the peak of a half-sine; dashpot jumps at the touch, as with some rubber.",
+        "What the force of an impact does: hysteretic has the peak of a half-sine; dashpot jumps at the touch, as with some rubber. Needs \
+         the contact_time.",
     ),
     key(
         "contacts",
@@ -285,20 +286,20 @@ pub(crate) static COMPONENT: &[Key] = &[
         "extent",
         false,
         Sides(&Quantity(&units::LENGTH, ["0 mm", "100 m"])),
-        "How far it extends along the bar; 0 mm unless given; of a plate across it too.",
+        "How far it extends along the bar; 0 mm unless given; of a plate across it too. All of it lies within the product.",
     ),
     key(
         "height",
         false,
         Quantity(&units::LENGTH, PLACES),
-        "Where its middle is across the thickness of a box, from the middle towards the top; 0 mm unless given.",
+        "Where its middle is across the thickness of a box, from the middle towards the top, within the product; 0 mm unless given.",
     ),
     key(
         "axis",
         false,
         Choice(&["x", "y", "z", "any"]),
-        "Along which axis of a box it moves and is shaken: x along the length, y along the width, z unless given; any, of a part that is \
-         mounted rigidly, is the magnitude.",
+        "Along which axis of a box it moves and is shaken: x along the length, y along the width, z along the thickness. Unless given, a \
+         part on a suspension moves along z, and one that is mounted rigidly is judged along the blow, which is any: by the magnitude.",
     ),
     key(
         "mount",

@@ -298,7 +298,7 @@ impl ProductFile {
     /// use clatter_assess::{EXAMPLE, ProductFile};
     /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
     /// let ladders = file.ladders(&file.assess()?, 0.01)?;
-    /// assert!(ladders.limits.iter().all(|limit| limit.ladder.models.len() > 3));
+    /// assert!(ladders.limits.iter().all(|limit| limit.ladder.models.len() > 2));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn ladders(&self, assessment: &Assessment, tolerance: f64) -> Result<ProductLadder, Error> {

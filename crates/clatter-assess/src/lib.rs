@@ -105,8 +105,8 @@ pub use search::Watch;
 pub use slip::{Slip, outside, slip};
 pub use spread::{Law, Spread};
 pub use verdict::{
-    Accuracy, Assessment, ComponentAssessment, LandingAssessment, LandingLimit, LimitAssessment, ModelChoice, Sides,
-    Verdict, WorstCase,
+    Accuracy, Assessment, Assumed, ComponentAssessment, LandingAssessment, LandingLimit, LimitAssessment, ModelChoice,
+    Sides, Verdict, WorstCase,
 };
 pub use visible::{visible, visible_lines};
 

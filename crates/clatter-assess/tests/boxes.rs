@@ -34,6 +34,7 @@ standard = "MIL-STD-810H/516.8-IV"
 name = "display"
 position = ["10 mm", "5 mm"]
 extent = ["20 mm", "10 mm"]
+axis = "z"
 mount = "hard"
 acceleration_limit = "5000 gn"
 
@@ -157,6 +158,28 @@ fn a_tilted_box_lands_on_what_is_lowest() {
     }
 }
 
+/// A box comes down on any side: what is mounted rigidly in it is struck along the blow, what swings does so along the thickness.
+#[test]
+fn parts_are_struck_along_the_blow_unless_an_axis_is_named() {
+    let text = on("face", "end-a").replace("axis = \"z\"\n", "").replace("axis = \"x\"\n", "");
+    let axes = |text: &str| file(text).components.iter().map(|component| component.inside.axis).collect::<Vec<_>>();
+    assert_eq!(axes(&text), [Axis::Any, Axis::Z]);
+    let plate = "tilt = [\"0 deg\", \"2 deg\"]";
+    let plate = text.replace("face = \"end-a\"\nattitude_tolerance = \"2 deg\"", plate);
+    assert_eq!(axes(&plate.replace("height = \"2 mm\"\n", "")), [Axis::Z; 2]);
+    let display = |axis: &str| {
+        let text = text.replace("mount = \"hard\"", &format!("{axis}mount = \"hard\""));
+        let limit = file(&text).assess().expect("an assessment").components[0].limits[0].clone();
+        let worst = limit.worst_case.expect("a drop");
+        (limit.demand.expect("an answer"), worst.axis())
+    };
+    let [blow, any, x, z] = ["", "axis = \"any\"\n", "axis = \"x\"\n", "axis = \"z\"\n"].map(display);
+    assert_eq!(blow, any);
+    assert_eq!([any.1, x.1, z.1], [Some(Axis::Any), Some(Axis::X), Some(Axis::Z)]);
+    // It stands on its end: the blow is along its length, and hardly any of it along its thickness.
+    assert!(blow.0 >= x.0 * 0.999 && z.0 < 0.5 * x.0, "{blow:?}, {x:?}, {z:?}");
+}
+
 /// Within 2 degrees of its bottom a box is the plate of the same masses, but for real tilt; also where these lie askew.
 #[test]
 fn a_box_on_its_bottom_is_a_plate() {
@@ -221,14 +244,14 @@ fn masses_have_heights_in_a_box() {
     }
     let high = text.replace("\"-5 mm\"", "\"8 mm\"");
     let said = ProductFile::read(&high, "box.toml").unwrap_err().to_string();
-    assert!(said.contains("`height` = 8 mm is out of its range"), "{said}");
+    assert!(said.contains("the mass reaches 8 mm from the middle along the thickness"), "{said}");
     let said = ProductFile::read(&text.replace("thickness = \"14 mm\"\n", ""), "box.toml").unwrap_err().to_string();
     assert!(said.contains("in a product with a thickness alone"), "{said}");
     // All of it in a skin on top: no box stands on its center of mass.
     let skin = text.replace("[\"75 mm\", \"35 mm\"] }", "[\"75 mm\", \"35 mm\"], height = \"7 mm\" }");
     let skin = skin.replace("\"-5 mm\"", "\"7 mm\"").replace("\"3 mm\"", "\"7 mm\"");
     let said = ProductFile::read(&skin, "box.toml").unwrap_err().to_string();
-    assert!(said.contains("the center of mass is 7 mm from the middle of a product 14 mm thick"), "{said}");
+    assert!(said.contains("the center of mass is 7 mm from the middle of a thickness of 14 mm"), "{said}");
 }
 
 /// On its end a box that is struck once feels along its length what a lone mass does: (1 + e) v in the half-sine of four corners.
@@ -584,6 +607,7 @@ const BOARD: &str = r#"
 [[component]]
 name = "board"
 position = ["60 mm", "30 mm"]
+axis = "z"
 mount = "hard"
 velocity_change_limit = "30 m/s"
 angular_velocity_change_limit = "900 rad/s"

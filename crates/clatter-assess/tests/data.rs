@@ -308,8 +308,8 @@ fn rules_between_fields_hold_in_code() {
         ),
         (
             |file| file.components[1].position_m = value(0.071),
-            "component \"board\": the component reaches 76 mm from the middle; allowed: up to 75 mm, half of the product's length; \
-             extent counts on both sides",
+            "component \"board\": the component with its extent reaches 76 mm from the middle along the length; allowed: up to 75 mm, half \
+             of the product's length: it lies within the body",
         ),
         (
             |file| file.components[1].name = " display ".to_owned(),
@@ -332,11 +332,12 @@ fn rules_between_fields_hold_in_code() {
         ),
         (
             |file| file.product.gyration_m = Spread::new(0.04, 0.4, Law::Range).unwrap(),
-            "the radius of gyration is 400 mm in a product of 150 mm; allowed: from 0.05 to 2 times the length",
+            "the radius of gyration of the mass along the length is 400 mm; allowed: from 7.5 to 75 mm; masses within the body have no \
+             larger one",
         ),
         (
             |file| file.product.body = Body::off_center(0.149, 0.001, 0.045).unwrap(),
-            "the center of mass is 74 mm from the middle of a product of 150 mm; allowed: within 0.45 of the length from the middle",
+            "the center of mass is 74 mm from the middle of a length of 150 mm; allowed: within 0.45 of it from the middle",
         ),
         (
             |file| file.product.body = Body::of_points([[-0.075, -0.01], [0.075, 0.0]], 0.045).unwrap(),
@@ -350,7 +351,8 @@ fn rules_between_fields_hold_in_code() {
         ),
         (
             |file| drop(record(file, |record| record.position_m = Some(0.08))),
-            "the acceleration was measured 80 mm from the middle; allowed: up to 75 mm, half of the product's length",
+            "the sensor reaches 80 mm from the middle along the length; allowed: up to 75 mm, half of the product's length: it lies \
+             within the body",
         ),
         (
             |file| {

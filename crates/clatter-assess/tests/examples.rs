@@ -8,9 +8,9 @@ use clatter_assess::{
 };
 use rayon::prelude::*;
 
-const PHONE: &str = include_str!("../../../reports/examples/phone.toml");
-const TERMINAL: &str = include_str!("../../../reports/examples/handheld-terminal.toml");
-const LAPTOP: &str = include_str!("../../../reports/examples/laptop.toml");
+const PHONE: &str = include_str!("../../../tests/cases/bar-phone.toml");
+const TERMINAL: &str = include_str!("../../../tests/cases/bar-terminal.toml");
+const LAPTOP: &str = include_str!("../../../tests/cases/bar-laptop.toml");
 
 fn read(text: &str) -> ProductFile {
     ProductFile::read(text, "example").unwrap_or_else(|faults| panic!("{faults}"))

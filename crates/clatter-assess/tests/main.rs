@@ -5,6 +5,7 @@
 
 mod anchored;
 mod bad_files;
+mod bodies;
 mod box_commands;
 mod boxes;
 mod data;

@@ -3,11 +3,12 @@
 use clatter_assess::{EXAMPLE, ProductFile, Verdict};
 use proptest::prelude::*;
 
-const SEEDS: [&str; 4] = [
+const SEEDS: [&str; 5] = [
     EXAMPLE,
-    include_str!("../../../reports/examples/phone.toml"),
-    include_str!("../../../reports/examples/handheld-terminal.toml"),
-    include_str!("../../../reports/examples/laptop.toml"),
+    include_str!("../../../tests/cases/bar-handheld.toml"),
+    include_str!("../../../tests/cases/bar-phone.toml"),
+    include_str!("../../../tests/cases/bar-terminal.toml"),
+    include_str!("../../../tests/cases/bar-laptop.toml"),
 ];
 
 /// What is put into a file: tokens of its language, numbers at the edges, text of other scripts.

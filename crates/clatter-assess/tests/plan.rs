@@ -1,6 +1,9 @@
 //! Plans of studies: read strictly, with every fault where it stands, and the products that a grid makes.
 
-use clatter_assess::{EXAMPLE, Plan, ProductFile};
+use clatter_assess::{Plan, ProductFile};
+
+/// A bar.
+const EXAMPLE: &str = include_str!("../../../tests/cases/bar-handheld.toml");
 
 const PLAN: &str = "product = \"p.toml\"\nsamples = 1_000\nseed = 7\n[grid]\n";
 

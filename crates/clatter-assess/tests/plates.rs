@@ -233,14 +233,10 @@ fn faults_of_plates_are_told() {
     let cases = [
         ("contact_time = \"0.4 ms\"\n", "", "needs the `contact_time`"),
         ("[\"10 mm\", \"5 mm\"]", "\"10 mm\"", "along the length and along the width"),
-        ("[\"10 mm\", \"5 mm\"]", "[\"10 mm\", \"31 mm\"]", "reaches 36 mm from the middle across the product"),
-        (
-            "[\"43 mm\", \"20 mm\"]",
-            "[\"43 mm\", \"2 mm\"]",
-            "of the mass along the width is 2 mm in a product 70 mm wide",
-        ),
+        ("[\"10 mm\", \"5 mm\"]", "[\"10 mm\", \"31 mm\"]", "reaches 36 mm from the middle along the width"),
+        ("[\"43 mm\", \"20 mm\"]", "[\"43 mm\", \"2 mm\"]", "of the mass along the width is 2 mm"),
         ("[\"43 mm\", \"20 mm\"]", "[\"43 mm\", [\"19 mm\", \"20 mm\"]]", "of the mass along the width has a range"),
-        ("[\"0 mm\", \"0 mm\"]", "[\"0 mm\", \"34 mm\"]", "34 mm from the middle of a product 70 mm wide"),
+        ("[\"0 mm\", \"0 mm\"]", "[\"0 mm\", \"34 mm\"]", "34 mm from the middle of a width of 70 mm"),
         ("tilt = [", "first = \"a\"\ntilt = [", "a product with a `width` has no `first`"),
         ("width = \"70 mm\"", "width = \"0 mm\"", "`width` = \"0 mm\" is out of its range"),
         ("tilt = [", "direction = \"400 deg\"\ntilt = [", "`direction` = \"400 deg\" is out of its range"),
@@ -257,7 +253,7 @@ fn faults_of_plates_are_told() {
     assert!(said.contains("a product without `width` has no `direction`"), "{said}");
 }
 
-const EXAMPLE: &str = include_str!("../../../reports/examples/handheld-plate.toml");
+const EXAMPLE: &str = include_str!("../../../reports/examples/handheld-terminal.toml");
 
 /// Each part with its tightest limit, as it is asked, and its portrait.
 fn portraits(text: &str) -> Vec<(LimitAssessment, Limit, PlatePortrait)> {

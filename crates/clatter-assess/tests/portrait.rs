@@ -10,10 +10,10 @@ use clatter_assess::{
 };
 
 const EXAMPLES: [&str; 4] = [
-    include_str!("../../../reports/examples/phone.toml"),
-    include_str!("../../../reports/examples/laptop.toml"),
-    include_str!("../../../reports/examples/handheld-terminal.toml"),
-    clatter_assess::EXAMPLE,
+    include_str!("../../../tests/cases/bar-phone.toml"),
+    include_str!("../../../tests/cases/bar-laptop.toml"),
+    include_str!("../../../tests/cases/bar-terminal.toml"),
+    include_str!("../../../tests/cases/bar-handheld.toml"),
 ];
 
 fn drawn() -> impl Iterator<Item = (ProductFile, Assessment, Vec<Portrait>)> {

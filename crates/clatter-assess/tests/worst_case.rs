@@ -38,6 +38,8 @@ fn product(r: &mut Random, is_plate: bool) -> ProductFile {
     let q = r.even(-0.2, 0.8);
     let gyration = 0.5 * length * ((1.0 - q) / (1.0 + q)).sqrt();
     let center = if r.unit() < 0.5 { 0.0 } else { r.even(-0.07, 0.07) * length };
+    // No masses within the body have a larger one.
+    let gyration = gyration.min((0.25 * length * length - center * center).sqrt());
     let across = is_plate.then(|| {
         let center = if r.unit() < 0.5 { 0.0 } else { r.even(-0.07, 0.07) * width };
         let turned = r.unit() < 0.3;

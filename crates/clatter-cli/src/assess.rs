@@ -29,6 +29,9 @@ use crate::{Exit, Failure, Streams, budget, input, output, quantities, text};
 /// worst drop found leaves room for what the search may miss and its answer be off by ('good to'); else undecided, with
 /// the reason. 'clatter init' writes a product file.
 ///
+/// A file without `width` is answered as a bar, and the first line says so: what is wider than a quarter of its length is a plate, which
+/// asks for up to 30 % more.
+///
 /// Where the product file names records of measured drops, the computed drop nearest to each is found as by 'clatter fit', and what it
 /// tells of the product stands beside what the file states; a warning says where they differ.
 #[derive(Debug, clap::Args)]
@@ -38,7 +41,7 @@ Examples:
   clatter assess handheld.toml -o handheld.pdf   the printed report beside the table
   clatter assess before.toml after.toml          verdicts side by side
   clatter assess handheld.toml --tolerance=0.1%  each drop answered more exactly
-  clatter assess handheld.toml --model=map       every drop by a model with less physics
+  clatter assess bar.toml --model=map            of a bar: every drop by a model with less physics
   clatter assess handheld.toml --format=json     an object; with several files, a list of them
 
 Exit status: 0 all safe, 1 a part is unsafe or undecided, 2 bad input, 3 typst is missing or failed: no printed report.")]

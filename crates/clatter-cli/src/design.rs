@@ -38,8 +38,8 @@ Examples:
   clatter design                                                 the paper's example
   clatter design --zone=0.5:0.1 --zone=2:0.85 --front=front.svg
   clatter design handheld.toml --margin=20%
-  clatter design handheld.toml -o plane.svg                      where in the plane of q and e its parts are safe
-  clatter design handheld.toml --q=0.3:0.7 --e=0.2:0.5 --format=json
+  clatter design bar.toml -o plane.svg                           where in the plane of q and e its parts are safe
+  clatter design bar.toml --q=0.3:0.7 --e=0.2:0.5 --format=json
 
 'clatter --help' tells what q, e and the units are.")]
 pub(crate) struct Args {

@@ -52,10 +52,10 @@ use crate::{Failure, Streams, assess, input, output, text};
     verbatim_doc_comment,
     after_help = "\
 Examples:
-  clatter fit strikes.csv --product=handheld.toml
-  clatter fit strikes.csv --product=handheld.toml --timing=10us -o fitted.toml -o fitted.svg
-  clatter fit video.csv --product=handheld.toml --format=json
-  clatter fit sensor.csv --position=30mm --product=handheld.toml
+  clatter fit strikes.csv --product=bar.toml
+  clatter fit strikes.csv --product=bar.toml --timing=10us -o fitted.toml -o fitted.svg
+  clatter fit video.csv --product=bar.toml --format=json
+  clatter fit sensor.csv --position=30mm --product=bar.toml
 
 Exit status: 0 done, 2 bad input, or no drop that comes near what was measured."
 )]

@@ -10,8 +10,8 @@ use crate::{Failure, Streams, output, text};
 
 /// Write a commented product file that assesses as it stands
 ///
-/// Its comments tell what each quantity is, and what is known in public of restitution and contact times. A file that is
-/// there already is never written over.
+/// It is that of a plate. Its comments tell what each quantity is, and what is known in public of restitution and contact times. A file
+/// that is there already is never written over.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

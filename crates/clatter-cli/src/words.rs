@@ -1,7 +1,7 @@
 //! Values as people say them: in common units, with as many digits as they are good for.
 
 use clatter_answer::significant;
-use clatter_assess::{DropName, STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
+use clatter_assess::{Axis, DropName, STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
 
 use crate::inputs;
 
@@ -73,6 +73,10 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     } else {
         four(1e3 * worst.part.position_m)
     };
+    let axis = worst.axis().map_or(String::new(), |axis| match axis {
+        Axis::Any => ", along the blow".to_owned(),
+        axis => format!(", along {}", axis.name()),
+    });
     let spin = worst.spin_rad_s().map_or(String::new(), |spin| format!(", turning at {} rad/s", four(spin)));
     let own = worst.drop.own_contacts.told(worst.drop.restitution, worst.drop.contact_time_s);
     let one = |(at, e, time_s): (&str, f64, Option<f64>)| {
@@ -81,7 +85,7 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     let own: String = own.map(one).collect();
     let number = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!("drop {n}, "));
     format!(
-        "{number}{lands}, {} m/s{spin}, e {}{contact}{own}{gyration}; at {place} mm{part}",
+        "{number}{lands}, {} m/s{spin}, e {}{contact}{own}{gyration}; at {place} mm{axis}{part}",
         four(worst.drop.speed_m_s),
         four(worst.drop.restitution),
     )

@@ -36,9 +36,8 @@ fn demand(limit: &Value, again: &Value) -> f64 {
 #[test]
 fn the_printed_command_repeats_the_demand() {
     let dir = tempfile::tempdir().unwrap();
-    let written = dir.path().join("handheld.toml");
-    assert!(Command::new(BINARY).arg("init").arg(&written).output().unwrap().status.success(), "init");
-    let example = |name: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/examples").join(name);
+    let example = |name: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/cases").join(name);
+    let written = example("bar-handheld.toml");
     let hard = dir.path().join("hard.toml");
     let stiff = "[product]\nname = \"Hard\"\nlength = \"140 mm\"\nradius_of_gyration = \"40 mm\"\ncenter_of_mass = \"6 mm\"\n\
         restitution = [0.1, 0.3]\ncontact_time = [\"0.3 ms\", \"0.5 ms\"]\n[drop]\nheight = \"1 m\"\ntilt = [\"3 deg\", \"8 deg\"]\n\
@@ -46,7 +45,7 @@ fn the_printed_command_repeats_the_demand() {
         damage_boundary = { velocity_change = \"0.5 m/s\", acceleration = \"5000 gn\" }\n";
     std::fs::write(&hard, stiff).unwrap();
     let mut cases: Vec<(PathBuf, &str)> =
-        ["phone.toml", "handheld-terminal.toml", "laptop.toml"].map(|name| (example(name), "")).into();
+        ["bar-phone.toml", "bar-terminal.toml", "bar-laptop.toml"].map(|name| (example(name), "")).into();
     cases.extend([(written, " --model=finite-tilt"), (hard.clone(), " --model=finite-tilt"), (hard, "")]);
     let (mut count, mut rigid) = (0, 0);
     for (path, model) in cases {
@@ -74,9 +73,8 @@ fn the_printed_command_repeats_the_demand() {
 fn the_short_command_repeats_the_demand() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a product's file.toml");
-    let text = std::fs::read_to_string(
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/examples/handheld-terminal.toml"),
-    );
+    let text =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/cases/bar-terminal.toml"));
     std::fs::write(&path, text.unwrap()).unwrap();
     for options in ["", " --tolerance=0.003", " --model=finite-tilt"] {
         let quoted = format!("\"{}\"", path.display());

@@ -19,7 +19,7 @@ fn said(args: &[&str]) -> String {
 }
 
 fn example(name: &str) -> String {
-    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/examples").join(name);
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/cases").join(name);
     path.to_str().unwrap().to_owned()
 }
 
@@ -42,7 +42,7 @@ fn wide(dir: &Path) -> String {
 fn no_table_is_wider_than_a_hundred_columns() {
     let dir = tempfile::tempdir().unwrap();
     let wide = wide(dir.path());
-    let [phone, laptop, terminal] = ["phone.toml", "laptop.toml", "handheld-terminal.toml"].map(example);
+    let [phone, laptop, terminal] = ["bar-phone.toml", "bar-laptop.toml", "bar-terminal.toml"].map(example);
     let product = format!("--product={wide}");
     let drop = ["--length=140mm", "--gyration=40mm", "--e=0.3", "--height=1m", "--tilt=5deg"];
     let places = ["--at=-1", "--at=-0.5", "--at=0", "--at=0.25", "--at=0.5", "--at=0.75", "--at=1"];

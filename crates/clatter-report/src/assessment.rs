@@ -125,6 +125,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
     let data = json!({
         "product": name(&assessment.product),
         "verdict": assessment.verdict.name(),
+        "assumed": assessment.assumed.iter().map(|assumed| assumed.told()).collect::<Vec<_>>(),
         "safe": with(Verdict::Safe),
         "undecided": with(Verdict::Undecided),
         "unsafe": with(Verdict::Unsafe),
@@ -219,7 +220,10 @@ fn share<'a>(((_, assessed), portrait): &Part<'_>, name: &'a str) -> Share<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_assess::{EXAMPLE, ProductFile};
+    use clatter_assess::ProductFile;
+
+    /// A bar.
+    const EXAMPLE: &str = include_str!("../../../tests/cases/bar-handheld.toml");
 
     fn pages(text: &str, to: &std::path::Path) -> lopdf::Document {
         let file = ProductFile::read(text, "test.toml").unwrap();
@@ -262,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_failing_part_is_told_what_would_make_it_safe() {
-        let file = ProductFile::read(include_str!("../../../reports/examples/phone.toml"), "phone.toml").unwrap();
+        let file = ProductFile::read(include_str!("../../../tests/cases/bar-phone.toml"), "phone.toml").unwrap();
         let assessment = file.assess().unwrap();
         let portraits = file.portraits(&assessment);
         let pages = Pages {
@@ -291,7 +295,7 @@ mod tests {
     /// gap of 330 mm closes within a millisecond both ends of the laptop land as one.
     #[test]
     fn a_page_says_what_was_found_of_each_part() {
-        let file = ProductFile::read(include_str!("../../../reports/examples/laptop.toml"), "laptop.toml").unwrap();
+        let file = ProductFile::read(include_str!("../../../tests/cases/bar-laptop.toml"), "laptop.toml").unwrap();
         let assessment = file.assess().unwrap();
         let portraits = file.portraits(&assessment);
         let pages = Pages {
@@ -361,6 +365,10 @@ mod tests {
         {
             assert!(first.contains(word), "{word} is not on the first page: {first}");
         }
+        let words = first.split_whitespace().collect::<Vec<_>>().join(" ");
+        let assumed =
+            "It is answered as a bar; if it is wider than a quarter of its length, give width: up to 30 % more.";
+        assert!(words.contains(assumed), "{words}");
         let rest: String = (2..=u32::try_from(pdf.get_pages().len()).unwrap()).map(|page| said(&pdf, page)).collect();
         for word in [
             "display",
@@ -379,7 +387,7 @@ mod tests {
     #[test]
     fn what_exceeds_its_limit_is_told_on_the_first_page_with_its_share() {
         let dir = tempfile::tempdir().unwrap();
-        let text = include_str!("../../../reports/examples/laptop.toml");
+        let text = include_str!("../../../tests/cases/bar-laptop.toml");
         let found = ProductFile::read(text, "laptop.toml").unwrap().assess().unwrap();
         let shares = found.components.iter().flat_map(|c| &c.limits).map(|l| l.demand.unwrap() / l.allowed);
         let share = clatter_figures::three(100.0 * shares.fold(0.0, f64::max));

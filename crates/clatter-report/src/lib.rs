@@ -133,7 +133,7 @@ pub fn assessment_pdf(
 /// use clatter_assess::{EXAMPLE, ProductFile};
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
 /// let ladders = file.ladders(&file.assess()?, 0.01)?;
-/// assert!(clatter_report::ladder_svg(&ladders)?.contains("finite tilt"));
+/// assert!(clatter_report::ladder_svg(&ladders)?.contains("plate"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

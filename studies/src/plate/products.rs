@@ -18,19 +18,19 @@ struct Product {
 
 const PRODUCTS: [Product; 3] = [
     Product {
-        text: include_str!("../../../reports/examples/phone.toml"),
+        text: include_str!("../../../tests/cases/bar-phone.toml"),
         width_m: 0.072,
         thickness_m: 0.008,
         contact_s: 4e-4,
     },
     Product {
-        text: include_str!("../../../reports/examples/handheld-terminal.toml"),
+        text: include_str!("../../../tests/cases/bar-terminal.toml"),
         width_m: 0.085,
         thickness_m: 0.035,
         contact_s: 1e-3,
     },
     Product {
-        text: include_str!("../../../reports/examples/laptop.toml"),
+        text: include_str!("../../../tests/cases/bar-laptop.toml"),
         width_m: 0.23,
         thickness_m: 0.018,
         contact_s: 1e-3,

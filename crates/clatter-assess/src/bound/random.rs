@@ -142,7 +142,7 @@ fn later(seed: u64) -> Option<([f64; 2], String)> {
     let spot = Spot { at_m: component.ends_m()[0], inside: component.inside };
     let [up, on] = [&up, &on].map(|followed| PlaceHistory::new(followed, spot).ok());
     let (up, on) = (up?, on?);
-    let mut ask = |limit: &Limit, part: Option<&Suspension>| {
+    let ask = |limit: &Limit, part: Option<&Suspension>| {
         let of = |felt: &PlaceHistory<'_>| {
             felt.answer(limit, part, 0.0).ok().map(|asked| asked.map_or(0.0, |asked| asked.utilization()))
         };

@@ -69,11 +69,16 @@ impl Plane {
     ///
     /// # Examples
     /// ```
-    /// use clatter_assess::{EXAMPLE, Model, ProductFile};
+    /// use clatter_assess::ProductFile;
     /// use clatter_assess::design::{Bounds, Plane};
     /// let bounds = Bounds { q: [0.5, 0.55], e: [0.3, 0.35], ..Bounds::default() };
-    /// let plane = Plane::of(&ProductFile::read(EXAMPLE, "example.toml")?, &bounds)?;
-    /// assert_eq!((plane.model, plane.side), (Model::Compliant, Plane::SIDE_OF_CONTACTS));
+    /// let bar = r#"
+    /// product = { name = "bar", length = "140 mm", radius_of_gyration = "38 mm", restitution = 0.3, contact_time = "0.4 ms" }
+    /// drop = { height = "1 m", tilt = ["1 deg", "5 deg"] }
+    /// component = [{ name = "camera", position = "55 mm", mount = "hard", acceleration_limit = "9000 gn" }]
+    /// "#;
+    /// let plane = Plane::of(&ProductFile::read(bar, "bar.toml")?, &bounds)?;
+    /// assert_eq!(plane.side, Plane::SIDE_OF_CONTACTS);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of(file: &ProductFile, bounds: &Bounds) -> Result<Self, Error> {

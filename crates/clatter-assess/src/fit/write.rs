@@ -4,7 +4,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::{Estimate, Fit, Quantity};
 use crate::ProductFile;
-use crate::check::GYRATION;
+use crate::check::{LEAST_GYRATION, most_gyration_m};
 
 /// Tilts that a product file takes, in degrees.
 const MOST_TILT_DEG: f64 = 30.0;
@@ -54,10 +54,9 @@ pub fn written(text: &str, fit: &Fit) -> Result<Written, String> {
         set(product, "restitution", plain(range));
     }
     if let Some(found) = of(Quantity::RadiusOfGyration) {
-        let length_m =
-            ProductFile::read(text, "the file").map_err(|faults| faults.to_string())?.product.body.length_m();
+        let of = ProductFile::read(text, "the file").map_err(|faults| faults.to_string())?.product;
         // Rounded outward to four digits it is within what a file takes.
-        let [least, most] = GYRATION.map(|share| 1e3 * share * length_m);
+        let [least, most] = [LEAST_GYRATION * of.body.length_m(), most_gyration_m(&of)].map(|m| 1e3 * m);
         let radius = quantity(range(found).map(|m| (1e3 * m).clamp(least * 1.001, most * 0.999)), "mm");
         if !set(product, "radius_of_gyration", radius) {
             notes.push(format!(

@@ -7,11 +7,8 @@ use clatter_flight::{Body, ContactLaw};
 
 use super::{At, Reader, Section};
 use crate::check::{self, body_of, width_of};
-use crate::data_fault::out_of_range;
 use crate::fault::Fault;
 use crate::own::PLACES;
-use crate::slip;
-use crate::units;
 use crate::{DataFault, Depth, Feet, OwnContact, OwnContacts, Product, Spread, Width};
 
 impl Reader {
@@ -23,8 +20,9 @@ impl Reader {
         if let (Some(thickness), false) = (&thickness, self.is_plate) {
             self.data(thickness.span.clone(), &DataFault::OfBar { field: "thickness" }, "this");
         }
-        let sides_m = [length.as_ref().map(|length| length.value), width.as_ref().map(|width| width.value)];
-        let feet = self.feet(section, sides_m)?;
+        let [length_m, width_m, thickness_m] =
+            [&length, &width, &thickness].map(|side| side.as_ref().map(|side| side.value));
+        let feet = self.feet(section, [length_m, width_m])?;
         let mass = self.quantity(section, "mass");
         let restitution = self.spread(section, "restitution");
         let contact_time = self.spread(section, "contact_time");
@@ -33,15 +31,15 @@ impl Reader {
         let gyration = self.spread_of_sides(section, "radius_of_gyration");
         let moment = self.quantity_of_sides(section, "moment_of_inertia");
         let center = self.quantity_of_sides(section, "center_of_mass");
-        let masses = self.masses(section, thickness.as_ref().map(|thickness| thickness.value));
+        let masses = self.masses(section, [length_m, width_m, thickness_m]);
         self.exactly_one(section, &["radius_of_gyration", "moment_of_inertia", "masses"], true);
         self.exactly_one(section, &["masses", "center_of_mass"], false);
         self.exactly_one(section, &["masses", "mass"], false);
-        if let (true, Some((key, _))) = (
-            contact_time.is_none() && !section.table.contains_key("contact_time"),
-            section.table.get_key_value("width"),
-        ) {
-            self.data(key.span(), &DataFault::PlateWithoutContactTime, "beside this");
+        let needs_time = [("width", DataFault::PlateWithoutContactTime), ("contact_law", DataFault::LawWithoutTime)];
+        for (name, fault) in needs_time.into_iter().filter(|_| !section.table.contains_key("contact_time")) {
+            if let Some((key, _)) = section.table.get_key_value(name) {
+                self.data(key.span(), &fault, "beside this");
+            }
         }
         let (mut product_of_inertia_m2, mut depth) = (0.0, None);
         let (center_m, gyration) = if let Some(moment) = &moment {
@@ -69,9 +67,6 @@ impl Reader {
         };
         let inset_m = feet.map_or([0.0; 2], |feet| feet.inset_m);
         let length_m = length?.value - 2.0 * inset_m[0];
-        if masses.is_some() {
-            self.outside(section, sides_m);
-        }
         let total = masses.as_ref().map(|m| m.value.iter().map(|[piece, ..]| mass_of(piece)).sum());
         if let (Some(total), Some(masses)) = (total, &masses)
             && let Err(fault) = check::mass(total)
@@ -83,16 +78,16 @@ impl Reader {
         let center_along = center_m.clone().map(|At { value: [x, _], span }| At { value: x, span });
         let ends = [along.lo(), along.hi()];
         for end in &ends[..if along.is_value() { 0 } else { 2 }] {
-            self.body(length_m, center_along.clone(), &At { value: *end, span: span.clone() })?;
+            self.body(length_m, inset_m[0], center_along.clone(), &At { value: *end, span: span.clone() })?;
         }
         let middle = At { value: along.at(0.5), span: span.clone() };
-        let body = self.body(length_m, center_along, &middle)?;
+        let body = self.body(length_m, inset_m[0], center_along, &middle)?;
         let width = match width {
             Some(width) => {
                 let center_across = center_m.map(|At { value: [_, y], span }| At { value: y, span });
                 let width_m = width.value - 2.0 * inset_m[1];
-                let width = self.width(width_m, center_across, &At { value: across, span: span.clone() })?;
-                let thickness_m = thickness.map(|t| t.value);
+                let width =
+                    self.width(width_m, inset_m[1], center_across, &At { value: across, span: span.clone() })?;
                 let width = Width { product_of_inertia_m2, thickness_m, depth, ..width };
                 Some(width)
             }
@@ -111,7 +106,7 @@ impl Reader {
             contact_time_s: contact_time.map(|t| t.value),
             contact_law: contact_law.and_then(|law| ContactLaw::from_name(law.value)),
         };
-        if let Err(fault @ (DataFault::ProductOfInertia { .. } | DataFault::CenterDeep { .. })) = product.check() {
+        if let Err(fault @ (DataFault::ProductOfInertia { .. } | DataFault::CenterOfMass { .. })) = product.check() {
             self.data(span, &fault, "these together");
         }
         Some(product)
@@ -179,7 +174,7 @@ impl Reader {
     }
 
     /// The side across, with what it asks told in the file's terms.
-    fn width(&mut self, width_m: f64, center: Option<At<f64>>, gyration: &At<Spread>) -> Option<Width> {
+    fn width(&mut self, width_m: f64, inset_m: f64, center: Option<At<f64>>, gyration: &At<Spread>) -> Option<Width> {
         if !gyration.value.is_value() {
             let message = "the radius of gyration of the mass along the width has a range";
             self.fault(
@@ -191,35 +186,7 @@ impl Reader {
             return None;
         }
         let center_m = center.as_ref().map_or(0.0, |c| c.value);
-        width_of(width_m, center_m, gyration.value.lo())
-            .map_err(|fault| match fault {
-                DataFault::CenterAcross { .. } => self.data(center.map_or(0..0, |c| c.span), &fault, "this place"),
-                _ => self.data(gyration.span.clone(), &fault, "from this"),
-            })
-            .ok()
-    }
-
-    /// Warns of masses far outside of the body.
-    fn outside(&mut self, section: &Section<'_>, sides_m: [Option<f64>; 2]) {
-        let items = section.table.get("masses").and_then(|masses| masses.get_ref().as_array());
-        for piece in items.into_iter().flatten().filter_map(|piece| piece.get_ref().as_table()) {
-            for name in ["position", "from", "to"] {
-                let Some(value) = piece.get(name) else { continue };
-                let places: Vec<_> = value.get_ref().as_array().map_or(vec![value], |pair| pair.iter().collect());
-                for (value, side_m) in places.into_iter().zip(sides_m) {
-                    let place = value.get_ref().as_str().and_then(|text| units::LENGTH.read(text).ok());
-                    if let Some(slip) = place.zip(side_m).and_then(|(place, side_m)| slip::outside(&place, side_m)) {
-                        self.warn(value.span(), slip.message, slip.hint);
-                    }
-                }
-            }
-        }
-    }
-
-    /// The body, with what it asks of center of mass and radius of gyration told in the file's terms.
-    fn body(&mut self, length_m: f64, center: Option<At<f64>>, gyration: &At<f64>) -> Option<Body> {
-        let center_m = center.as_ref().map_or(0.0, |c| c.value);
-        body_of(length_m, center_m, gyration.value)
+        width_of(width_m, inset_m, center_m, gyration.value.lo())
             .map_err(|fault| match fault {
                 DataFault::CenterOfMass { .. } => self.data(center.map_or(0..0, |c| c.span), &fault, "this place"),
                 _ => self.data(gyration.span.clone(), &fault, "from this"),
@@ -227,19 +194,30 @@ impl Reader {
             .ok()
     }
 
-    fn masses(&mut self, section: &Section<'_>, thickness_m: Option<f64>) -> Option<At<Vec<[Mass; 3]>>> {
+    /// The body, with what it asks of center of mass and radius of gyration told in the file's terms.
+    fn body(&mut self, length_m: f64, inset_m: f64, center: Option<At<f64>>, gyration: &At<f64>) -> Option<Body> {
+        let center_m = center.as_ref().map_or(0.0, |c| c.value);
+        body_of(length_m, inset_m, center_m, gyration.value)
+            .map_err(|fault| match fault {
+                DataFault::CenterOfMass { .. } => self.data(center.map_or(0..0, |c| c.span), &fault, "this place"),
+                _ => self.data(gyration.span.clone(), &fault, "from this"),
+            })
+            .ok()
+    }
+
+    fn masses(&mut self, section: &Section<'_>, sides_m: [Option<f64>; 3]) -> Option<At<Vec<[Mass; 3]>>> {
         let span = section.table.get("masses")?.span();
         let sections = self.tables(section, "masses");
         let mut masses = Vec::with_capacity(sections.len());
         let count = sections.len();
         for piece in sections {
-            masses.extend(self.mass(&piece, thickness_m));
+            masses.extend(self.mass(&piece, sides_m));
         }
         (count > 0 && masses.len() == count).then_some(At { value: masses, span })
     }
 
     /// A mass along the length, the width and the thickness.
-    fn mass(&mut self, section: &Section<'_>, thickness_m: Option<f64>) -> Option<[Mass; 3]> {
+    fn mass(&mut self, section: &Section<'_>, sides_m: [Option<f64>; 3]) -> Option<[Mass; 3]> {
         self.text(section, "name");
         let mass = self.quantity(section, "mass");
         let position = self.quantity_of_sides(section, "position");
@@ -252,14 +230,21 @@ impl Reader {
             return None;
         }
         let height = self.quantity(section, "height");
-        let half_m = 0.5 * thickness_m.unwrap_or(0.0);
-        if let Some(height) = height.as_ref().filter(|height| height.value.abs() > half_m) {
-            let (message, label) = match thickness_m {
-                Some(_) => (out_of_range("height", format!("{} mm", 1e3 * height.value)), "beyond the thickness"),
-                None => ("a mass has a `height` in a product with a thickness alone".to_owned(), "here"),
-            };
-            let help = "allowed: up to half of the thickness of the product, from its middle";
-            self.fault(height.span.clone(), message, label, help);
+        let half_m = 0.5 * sides_m[2].unwrap_or(0.0);
+        if let (Some(height), None) = (&height, sides_m[2]) {
+            let help = "add the `thickness` to [product], or leave the height out";
+            self.fault(height.span.clone(), "a mass has a `height` in a product with a thickness alone", "here", help);
+        }
+        let in_plane = [&position, &from, &to].into_iter().flatten();
+        let in_plane = in_plane.flat_map(|place| (0..2).map(|k| (k, place.value[k], &place.span)));
+        for (k, place_m, span) in in_plane.chain(height.iter().map(|height| (2, height.value, &height.span))) {
+            let side = ["length", "width", "thickness"][k];
+            if let Some(Err(fault)) =
+                sides_m[k].map(|side_m| check::within("the mass", side, place_m.abs(), side_m, check::WRITTEN))
+            {
+                self.data(span.clone(), &fault, "this place");
+                return None;
+            }
         }
         let mass_kg = mass?.value;
         let depth = match height {

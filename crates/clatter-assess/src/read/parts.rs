@@ -11,8 +11,11 @@ impl Reader {
         let position = self.spread_of_sides(section, "position");
         let extent = self.quantity_of_sides(section, "extent");
         let height_m = self.quantity(section, "height").map_or(0.0, |height| height.value);
-        let axis = self.choice(section, "axis").map_or(Axis::Z, |axis| Axis::of(axis.value));
+        let axis = self.choice(section, "axis").map(|axis| Axis::of(axis.value));
         let mount = self.mount(section);
+        // A box comes down on any side: what is mounted rigidly in it is struck along the blow.
+        let is_struck = self.is_box && mount == Some(Mount::Hard);
+        let axis = axis.unwrap_or(if is_struck { Axis::Any } else { Axis::Z });
         let limits = self.limits(section);
         let (position, [extent_m, extent_across_m]) = (position?, extent.map_or([0.0; 2], |e| e.value));
         let [position_m, across_m] = position.value;
@@ -29,7 +32,9 @@ impl Reader {
             limit_source,
         };
         if let Some(Err(fault)) = product.map(|product| component.fits(product)) {
-            self.data(position.span, &fault, "this position");
+            let is_high = matches!(fault, DataFault::Outside { side: "thickness", .. });
+            let height = section.table.get("height").filter(|_| is_high);
+            self.data(height.map_or(position.span, toml::Spanned::span), &fault, "this position");
             return None;
         }
         if let Err(fault) = component.check_axis(self.is_box) {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clatter_answer::assess::Answer;
 use clatter_assess::{
-    Accuracy, Assessment, Component, ComponentAssessment, LandingAssessment, LimitAssessment, ProductFile, Verdict,
-    repeat,
+    Accuracy, Assessment, Assumed, Component, ComponentAssessment, LandingAssessment, LimitAssessment, ProductFile,
+    Verdict, repeat,
 };
 
 use crate::columns::{Table, sentence};
@@ -62,14 +62,21 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
 fn headline(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     let count = |verdict: Verdict| assessment.components.iter().filter(|c| c.verdict == verdict).count();
     let (product, all) = (shown(&assessment.product, 60), assessment.components.len());
-    match (count(Verdict::Unsafe), count(Verdict::Undecided)) {
-        (0, 0) => writeln!(out, "{product} is safe: every limit holds in the worst drop"),
-        (0, undecided) => writeln!(out, "{product} is undecided: {undecided} of {all} components"),
-        (failing, 0) => writeln!(out, "{product} is UNSAFE: {failing} of {all} components"),
-        (failing, undecided) => {
-            writeln!(out, "{product} is UNSAFE: {failing} of {all} components, {undecided} undecided")
-        }
-    }
+    let verdict = match (count(Verdict::Unsafe), count(Verdict::Undecided)) {
+        (0, 0) => "is safe: every limit holds in the worst drop".to_owned(),
+        (0, undecided) => format!("is undecided: {undecided} of {all} components"),
+        (failing, 0) => format!("is UNSAFE: {failing} of {all} components"),
+        (failing, undecided) => format!("is UNSAFE: {failing} of {all} components, {undecided} undecided"),
+    };
+    let body = as_a(assessment).map_or(String::new(), |said| format!(", {said}"));
+    sentence(out, &format!("{product} "), &format!("{verdict}{body}"))
+}
+
+/// As what body a product is answered whose file does not state it.
+fn as_a(assessment: &Assessment) -> Option<String> {
+    let body = assessment.assumed.iter().find(|assumed| **assumed == Assumed::Bar)?;
+    let [_, taken, why] = body.told();
+    Some(format!("as a {taken}; {why}"))
 }
 
 /// A row for each limit, in the unit in which the file gives it.
@@ -207,7 +214,9 @@ pub(super) fn side_by_side(files: &[PathBuf], answers: &[Answer<'_>], out: &mut 
         if alike(&a.product) { path(file) } else { shown(&a.product, 20) }
     };
     let heads: Vec<_> = assessments.iter().zip(files).map(head).collect();
-    let mut table = vec![["component".to_owned(), "margin of".to_owned()].into_iter().chain(heads).collect::<Vec<_>>()];
+    let mut table = vec![
+        ["component".to_owned(), "margin of".to_owned()].into_iter().chain(heads.iter().cloned()).collect::<Vec<_>>(),
+    ];
     for (name, limit) in &rows {
         let cell = |assessment: &&Assessment| {
             let component = assessment.components.iter().find(|c| c.name == *name);
@@ -219,5 +228,13 @@ pub(super) fn side_by_side(files: &[PathBuf], answers: &[Answer<'_>], out: &mut 
     }
     let verdicts = assessments.iter().map(|a| verdict(a.verdict).to_owned());
     table.push([String::new(), "verdict".to_owned()].into_iter().chain(verdicts).collect());
-    Table { keys: 2, headings: 1, texts: 2, last_is_text: false, least: 10, rows: table }.write(out)
+    Table { keys: 2, headings: 1, texts: 2, last_is_text: false, least: 10, rows: table }.write(out)?;
+    let said = assessments.iter().zip(&heads).filter_map(|(assessment, head)| Some((head, as_a(assessment)?)));
+    for (n, (head, said)) in said.enumerate() {
+        if n == 0 {
+            writeln!(out)?;
+        }
+        sentence(out, &format!("{head}: "), &said)?;
+    }
+    Ok(())
 }

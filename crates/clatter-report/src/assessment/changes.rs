@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn values_have_the_digits_and_units_of_the_file() {
-        let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml").unwrap();
+        let file = ProductFile::read(include_str!("../../../../tests/cases/bar-handheld.toml"), "bar.toml").unwrap();
         let of = Of { product: &file.product, component: &file.components[1] };
         let told = |lever, values| of.value(lever, values);
         assert_eq!(told(Lever::Frequency, [130.0, 160.0]), "130 to 160 Hz");

@@ -192,9 +192,10 @@ fn drop(file: &ProductFile) -> String {
 }
 
 /// Where a part sits and how it is held, in a sentence.
-pub(super) fn held(component: &Component, is_plate: bool) -> String {
-    if is_plate {
+pub(super) fn held(component: &Component, file: &ProductFile) -> String {
+    if file.product.width.is_some() {
         let along = match component.inside.axis {
+            Axis::Z if file.is_box() => " It moves along the thickness.",
             Axis::Z => "",
             Axis::X => " It moves along the length.",
             Axis::Y => " It moves along the width.",
@@ -251,7 +252,8 @@ fn mount(component: &Component) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_assess::EXAMPLE;
+
+    const EXAMPLE: &str = include_str!("../../../../tests/cases/bar-handheld.toml");
 
     #[test]
     fn what_the_file_gives_is_told() {
@@ -281,7 +283,7 @@ mod tests {
         );
         assert_eq!(made(&pages), "assessed on 2026-03-31 from a□.toml, each drop to 1 %,");
         assert_eq!(made(&Pages { date: None, ..pages }), "assessed from a□.toml, each drop to 1 %,");
-        let parts: Vec<String> = file.components.iter().map(|component| held(component, false)).collect();
+        let parts: Vec<String> = file.components.iter().map(|component| held(component, &file)).collect();
         assert!(parts[0].ends_with("and is 80 mm long. Its natural frequency is 220 Hz, with a quality factor of 12."));
         assert_eq!(parts[2], "It sits 20 mm from the middle, towards end a. It is mounted rigidly.");
     }

@@ -86,7 +86,7 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
 }
 
 /// The tightest limit and the drop behind it, in a few sentences.
-fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait, is_plate: bool) -> String {
+fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait, file: &ProductFile) -> String {
     let what = of.limit.words();
     let tightest = if let (Some(demand), Some(margin), Some(worst)) = (of.demand, of.margin, &of.worst_case) {
         format!(
@@ -109,10 +109,12 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait, is_
             )
         }
         Some(_) => String::new(),
-        None if is_plate => portrait.plate.iter().map(|plate| plate::zone(of.limit, plate)).collect(),
+        None if file.product.width.is_some() => {
+            portrait.plate.iter().map(|plate| plate::zone(of.limit, plate)).collect()
+        }
         None => " In the drops of the figures it holds nowhere along the product.".to_owned(),
     };
-    format!("{} {tightest}{zone}", held(component, is_plate))
+    format!("{} {tightest}{zone}", held(component, file))
 }
 
 fn drop(worst: &WorstCase) -> String {
@@ -179,7 +181,7 @@ pub(super) fn part(
         "name": name(&assessed.name),
         "verdict": assessed.verdict.name(),
         "position": if is_plate { place(assessed.position_m.m()) } else { millimeters(assessed.position_m.m()[0]) },
-        "summary": summary(component, tightest, portrait, is_plate),
+        "summary": summary(component, tightest, portrait, pages.file),
         "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.why_undecided().as_deref().map(minus) })).collect::<Vec<_>>(),
         "limits": assessed.limits.iter().map(|l| row(pages, &component.name, l)).collect::<Vec<_>>(),
         "changes": portrait.changes.as_ref().map(|of| changes(Of { product: &pages.file.product, component }, of)),

@@ -228,7 +228,7 @@ mod tests {
     use crate::Pages;
     use clatter_assess::ProductFile;
 
-    const PLATE: &str = include_str!("../../../../reports/examples/handheld-plate.toml");
+    const PLATE: &str = include_str!("../../../../reports/examples/handheld-terminal.toml");
 
     #[test]
     fn the_lowest_corner_lies_opposite_to_where_the_plate_rises() {
