@@ -24,5 +24,6 @@ mod random;
 mod safe;
 mod scatter;
 mod several;
+mod shocks;
 mod spin;
 mod worst_case;
