@@ -124,6 +124,7 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--shocks-file=x.csv"], &["--shocks-file", "cannot be used with"]),
     (&["respond", "--shocks-file=x.csv", "--pulses-file=x.csv", "--omega=1"], &["--pulses-file", "cannot be used with"]),
     (&["respond", "--shocks-file=x.csv", "--omega=1", "-o", "x.svg"], &["--output", "cannot be used with"]),
+    (&["respond", "--product=x.toml", "--component=a", "--worst", "-o", "x.svg"], &["-o writes the rule", "--q and --e"]),
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--shock-table=1:2,3,4"], &["--equivalent-pulse"]),
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--equivalent-pulse", "--shock-table=1,2,3"], &["--shock-table", "SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE"]),
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--equivalent-pulse", "--shock-table=2:1,3,4"], &["--shock-table", "2 ms, is longer than the longest, 1 ms"]),

@@ -365,7 +365,7 @@ fn the_map_in_meters_is_the_bar() {
 /// Every model as an assessment answers it, the center of mass off the middle.
 #[test]
 fn drops_drive_components_as_in_an_assessment() {
-    use clatter_assess::{ContactLaw, Model, SingleDrop};
+    use clatter_assess::{ContactLaw, Model, Part, SingleDrop};
     use clatter_flight::Body;
     use clatter_shock::{DampingRatio, Suspension};
     let contact_s = 4e-4;
@@ -388,7 +388,7 @@ fn drops_drive_components_as_in_an_assessment() {
     for model in Model::FOLLOWED {
         let contact = (model == Model::Compliant).then(|| format!("--contact-time-s={contact_s:?}"));
         for at in [-1.0, -0.4, 0.0, 1.0] {
-            let want = clatter_assess::respond(&drop, [0.07 * at, 0.0], &part, model, 0.01).unwrap();
+            let want = clatter_assess::respond(&drop, &Part::new(0.07 * at, None), &part, model, 0.01).unwrap();
             let arguments = ["respond".to_owned(), format!("--model={}", model.name()), format!("--at={at:?}")];
             let more = DROP.map(str::to_owned).into_iter().chain(["--center-of-mass=0.2".to_owned()]);
             let got = answer(arguments.into_iter().chain(more).chain(contact.clone()));

@@ -144,7 +144,7 @@ fn responses(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
     lines.push(serde_json::to_string(&respond::plate::answer(&question)?)?);
     let handheld = Block::new([0.15, 0.07, 0.015], [0.002, 0.0, 0.001], [0.0207, 0.0435, 0.0478])?;
     let drop = BlockDrop::tilted(handheld, 0.7, 0.4, 4.43, 9.806_65)?;
-    let mut question = respond::block::Question::new(drop, contact, [0.01, 0.02, 0.0], respond::block::Axis::Z);
+    let mut question = respond::block::Question::new(drop, contact, [0.01, 0.02, 0.0], clatter_assess::Axis::Z)?;
     question.suspension = Some(board);
     lines.push(serde_json::to_string(&respond::block::answer(&question)?)?);
     Ok(())

@@ -88,7 +88,8 @@ fn parts_that_no_drop_answers_are_refused() {
     says(respond::plate::answer(&question).expect_err("too slow"), "natural frequency in rad/s = 1e-13");
     let block = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478]).expect("a box");
     let drop = BlockDrop::tilted(block, 0.5, 0.0, 1.0, 9.806_65).expect("a drop");
-    let mut question = respond::block::Question::new(drop, contact, [0.0, 0.04, 0.0], respond::block::Axis::Any);
+    let question = respond::block::Question::new(drop, contact, [0.0, 0.04, 0.0], clatter_assess::Axis::Any);
+    let mut question = question.expect("a question");
     says(respond::block::answer(&question).expect_err("beyond the box"), "position in m = 0.04");
     (question.at_m, question.suspension) = ([0.0; 3], Some(part(100.0)));
     says(respond::block::answer(&question).expect_err("no axis"), "100.0");

@@ -36,6 +36,10 @@ pub(crate) struct BlockMotion {
     times_s: Vec<f64>,
     /// Along each axis of the box, what the center of mass feels, and what a meter along x, y and z adds.
     felt: Vec<[[f64; 4]; 3]>,
+    /// The vertical in axes of the box.
+    upward: Vec<[f64; 3]>,
+    /// Whether a corner is pressed from a sample to the next.
+    pressed: Vec<bool>,
 }
 
 /// Contacts that push a box, one after the other or at once.
@@ -53,12 +57,14 @@ const LINES: u32 = 4;
 
 impl BlockMotion {
     pub(crate) fn new(drop: &BlockDrop, contacts: &[Contact; 8]) -> Result<Self, Error> {
-        let (mut times_s, mut felt) = (Vec::new(), Vec::new());
+        let (mut times_s, mut felt, mut upward, mut pressed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let flight = drop.own_contacts(contacts, |step| {
             for k in 0..=LINES {
                 let share = f64::from(k) / f64::from(LINES);
                 times_s.push(step.from_s + share * step.length_s);
                 felt.push(step.felt_everywhere(share));
+                upward.push(step.upward(share));
+                pressed.push(step.presses());
             }
         })?;
         let most_e = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.restitution()));
@@ -70,28 +76,47 @@ impl BlockMotion {
             }
             stop => (if matches!(stop, Stop::BouncedClear { .. }) { 0.0 } else { f64::INFINITY }, stop),
         };
-        Ok(Self { contacts: *contacts, gravity_m_s2: drop.gravity_m_s2(), flight, stop, center_m_s, times_s, felt })
+        let gravity_m_s2 = drop.gravity_m_s2();
+        Ok(Self { contacts: *contacts, gravity_m_s2, flight, stop, center_m_s, times_s, felt, upward, pressed })
     }
 
+    /// The samples between which the motion goes on, each with the next.
+    fn steps(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        (1..self.times_s.len()).map(|k| [k - 1, k]).filter(|[j, k]| self.times_s[*j] < self.times_s[*k])
+    }
     /// A value of every sample as straight lines.
-    fn lines(&self, of: impl Fn(&[[f64; 4]; 3]) -> f64) -> Excitation {
-        let values: Vec<f64> = self.felt.iter().map(of).collect();
+    fn lines(&self, of: impl Fn(usize) -> f64) -> Excitation {
+        let values: Vec<f64> = (0..self.felt.len()).map(of).collect();
         let mut all = Excitation::with_capacity(values.len());
-        for (times, ends) in self.times_s.windows(2).zip(values.windows(2)).filter(|(times, _)| times[0] < times[1]) {
-            let section = Section::shock(times[0], times[1] - times[0], 0.0);
-            all.push(Section { acceleration: [ends[0], ends[1]], ..section });
+        for [j, k] in self.steps() {
+            let section = Section::shock(self.times_s[j], self.times_s[k] - self.times_s[j], 0.0);
+            all.push(Section { acceleration: [values[j], values[k]], free: !self.pressed[j], ..section });
         }
         all
     }
+    /// What a place from the center of mass feels along an axis of the box at a sample.
+    fn felt_at(&self, [x, y, z]: [f64; 3], sample: usize, axis: usize) -> f64 {
+        let of = &self.felt[sample][axis];
+        of[0] + x * of[1] + y * of[2] + z * of[3]
+    }
     /// What a place feels along an axis, from the center of mass.
-    pub(crate) fn felt(&self, [x, y, z]: [f64; 3], axis: Axis) -> Excitation {
-        let along = |of: &[f64; 4]| of[0] + x * of[1] + y * of[2] + z * of[3];
+    pub(crate) fn felt(&self, place: [f64; 3], axis: Axis) -> Excitation {
         match axis {
-            Axis::X | Axis::Y | Axis::Z => self.lines(|felt| along(&felt[axis as usize])),
-            Axis::Any => self.lines(|felt| {
-                let [x, y, z] = [0, 1, 2].map(|i| along(&felt[i]));
+            Axis::X | Axis::Y | Axis::Z => self.lines(|k| self.felt_at(place, k, axis as usize)),
+            Axis::Any => self.lines(|k| {
+                let [x, y, z] = [0, 1, 2].map(|i| self.felt_at(place, k, i));
                 libm::hypot(libm::hypot(x, y), z)
             }),
+        }
+    }
+    /// The acceleration of a place from the center of mass along an axis, of any along all three: what it feels but for the share of
+    /// gravity there, which follows the attitude.
+    pub(crate) fn moved(&self, place: [f64; 3], axis: Axis) -> Vec<Excitation> {
+        let along =
+            |axis: usize| self.lines(|k| self.felt_at(place, k, axis) - self.gravity_m_s2 * self.upward[k][axis]);
+        match axis {
+            Axis::X | Axis::Y | Axis::Z => vec![along(axis as usize)],
+            Axis::Any => (0..3).map(along).collect(),
         }
     }
     /// What a place from the center of mass feels along an axis once the box lies as it does at the end.
@@ -122,10 +147,10 @@ impl BlockMotion {
     }
     /// The angular acceleration about an axis.
     pub(crate) fn turned_about(&self, about: [f64; 3]) -> Excitation {
-        self.lines(|felt| angular_acceleration(felt).iter().zip(about).map(|(a, b)| a * b).sum())
+        self.lines(|k| angular_acceleration(&self.felt[k]).iter().zip(about).map(|(a, b)| a * b).sum())
     }
-    /// The most that the angular velocity about each axis changes by while it keeps on growing or falling, which no shock about it
-    /// exceeds: the most first, with the axis.
+    /// The most that the angular velocity about each axis changes by while it keeps on growing or falling under the presses, which no
+    /// shock about it exceeds: the most first, with the axis.
     pub(crate) fn swings(&self) -> Vec<(f64, [f64; 3])> {
         let turned: Vec<[f64; 3]> = self.felt.iter().map(angular_acceleration).collect();
         let of = |about: [f64; 3]| {
@@ -135,10 +160,11 @@ impl BlockMotion {
                 swing = if swing * change > 0.0 { swing + change } else { change };
                 most = most.max(swing.abs());
             };
-            for (times, ends) in self.times_s.windows(2).zip(turned.windows(2)).filter(|(times, _)| times[0] < times[1])
-            {
-                let (length, [a, b]) = (times[1] - times[0], [&ends[0], &ends[1]].map(along));
-                if a * b < 0.0 {
+            for [j, k] in self.steps() {
+                let (length, [a, b]) = (self.times_s[k] - self.times_s[j], [&turned[j], &turned[k]].map(along));
+                if !self.pressed[j] {
+                    goes_on(0.0);
+                } else if a * b < 0.0 {
                     // It turns around on the way.
                     goes_on(0.5 * length * a * a / (a - b));
                     goes_on(-0.5 * length * b * b / (a - b));

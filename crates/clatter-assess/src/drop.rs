@@ -13,7 +13,7 @@ use crate::assess::THIN;
 use crate::attitude::{turned_off, turns_off};
 use crate::course::Course;
 use crate::engine::Spot;
-use crate::{Axis, Error, Feet, OwnContacts, Width};
+use crate::{Axis, Depth, Error, Feet, OwnContacts, Width};
 
 pub(crate) use followed::{Followed, PRECISION, Until};
 
@@ -207,6 +207,40 @@ impl SingleDrop {
             own_contacts: OwnContacts::NONE,
         })
     }
+    /// The drop of a box as flights take it, with contacts that take time.
+    ///
+    /// # Errors
+    /// [`Error::Bar`] for a center of mass on a face.
+    pub fn of_block(drop: &BlockDrop, contact: &Contact) -> Result<Self, Error> {
+        let block = drop.block();
+        let ([length, width, thickness_m], [x, y, center_m]) = (block.size_m(), block.center_of_mass_m());
+        let [a, b, c] = block.gyration_m().map(|about| about * about);
+        let along = |own: f64, others: f64| (0.5 * (others - own)).max(0.0).sqrt();
+        let [kx, ky, kz] = [along(a, b + c), along(b, c + a), along(c, a + b)];
+        let [product_of_inertia_m2, xz, yz] = block.products_of_inertia_m2();
+        let depth = Some(Depth { center_m, gyration_m: kz, products_of_inertia_m2: [xz, yz] });
+        let edges_m = [0.5 * width + y, 0.5 * width - y];
+        let width = Width { edges_m, gyration_m: ky, product_of_inertia_m2, thickness_m: Some(thickness_m), depth };
+        let spin = drop.spin_rad_s();
+        let spin_rad_s = spin.iter().map(|about| about * about).sum::<f64>().sqrt();
+        let about = (spin_rad_s > 0.0).then(|| spin.map(|about| about / spin_rad_s));
+        let posture = Some(Posture { upward: drop.upward(), thickness_m, about });
+        Ok(Self {
+            body: Body::off_center(0.5 * length + x, 0.5 * length - x, kx)?,
+            across: Some(Across { width, direction_rad: 0.0, posture }),
+            first: End::A,
+            tilt_rad: 0.0,
+            flat: false,
+            speed_m_s: drop.speed_m_s(),
+            spin_rad_s,
+            restitution: contact.restitution(),
+            gravity_m_s2: drop.gravity_m_s2(),
+            contact_time_s: Some(contact.time_s()),
+            contact_law: contact.law(),
+            feet: None,
+            own_contacts: OwnContacts::NONE,
+        })
+    }
     /// The model with the most physics that the data allow: contacts where their time is known, else real tilt.
     #[must_use]
     pub fn fullest(&self) -> Model {
@@ -329,11 +363,14 @@ impl SingleDrop {
     }
     /// When a box lies as a rule: after all of its bounces and ten times of falling over. One that balances on an edge is left then.
     fn settled_s(&self) -> f64 {
+        // The same however the drop is said: about whatever it is tilted and turns.
+        let ([length_m, width_m], turned) = (self.sides_m(), Self { spin_rad_s: self.spin_rad_s.abs(), ..*self });
+        let reach_m = libm::hypot(length_m, width_m);
         // What it turns with may lift it as well.
-        let speed_m_s = libm::hypot(self.speed_m_s, self.spin_rad_s * self.reach_m());
+        let speed_m_s = libm::hypot(self.speed_m_s, self.spin_rad_s * reach_m);
         let bounces_s = 2.0 * self.restitution / (1.0 - self.restitution) * speed_m_s / self.gravity_m_s2;
         // Without gravity and restitution there are none.
-        self.clatter_s() + bounces_s.max(0.0) + 10.0 * (self.reach_m() / self.gravity_m_s2).sqrt()
+        turned.clatter_s() + bounces_s.max(0.0) + 10.0 * (reach_m / self.gravity_m_s2).sqrt()
     }
     /// When a body has bounced clear: after its clatter and a quarter of the flight of 2 e v0/g.
     pub(crate) fn clear_s(&self) -> f64 {
@@ -508,7 +545,7 @@ impl SingleDrop {
         }
     }
     /// A place in a box from the center of mass.
-    fn place_in_box(&self, spot: &Spot) -> [f64; 3] {
+    pub(crate) fn place_in_box(&self, spot: &Spot) -> [f64; 3] {
         let [x, y] = self.about_center(spot.at_m);
         let thickness_m = self.across.and_then(|across| across.posture).map(|posture| posture.thickness_m);
         let depth = self.across.zip(thickness_m).map(|(across, thickness_m)| across.width.depth_of(thickness_m));
@@ -675,7 +712,7 @@ mod tests {
             let most = followed.largest_turn(0.0).unwrap().change;
             // About each axis one by one.
             let each =
-                followed.motion.turned().map(|about| crate::shock::largest(&crate::shock::shocks(&about, 0.0)).change);
+                followed.motion.turned().map(|about| crate::shock::largest(&followed.shocks_of_turning(&about)).change);
             assert_eq!(each.fold(0.0, f64::max).to_bits(), most.to_bits());
             assert!(most > 1.0 && followed.largest_turn(0.999 * most).is_some(), "{tilt_rad}: {most}");
             assert!(followed.largest_turn(1.001 * most).is_none(), "{tilt_rad}: {most}");

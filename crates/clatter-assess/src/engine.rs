@@ -265,20 +265,22 @@ fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> R
     })
 }
 
-/// The response of a suspended part in one drop, with all its peaks; its place is along the product and, of a plate, across it.
+/// The response of a suspension at the place of a part in one drop, with all its peaks.
 ///
 /// # Errors
 /// As [`answer`].
 pub fn respond(
     drop: &SingleDrop,
-    at_m: [f64; 2],
-    part: &Suspension,
+    place: &Part,
+    suspension: &Suspension,
     model: Model,
     tolerance: f64,
 ) -> Result<Response, Error> {
-    drop.check(at_m)?;
+    drop.check(place.at_m())?;
     let followed = Followed::new(drop, model, tolerance)?;
-    Ok(PlaceHistory::new(&followed, at_m)?.pulses.respond(part))
+    let pulses = PlaceHistory::new(&followed, place.spot())?.pulses;
+    // What comes after a motion that was left early is no ring-down.
+    Ok(if followed.is_early() { pulses.respond_within(suspension) } else { pulses.respond(suspension) })
 }
 
 /// What one place of a followed drop feels.
@@ -407,7 +409,7 @@ impl<'a> PlaceHistory<'a> {
     }
     /// The velocity shocks.
     pub(crate) fn shocks(&self) -> &[Shock] {
-        self.shocks.get_or_init(|| self.followed.shocks(self.spot.at_m[0], &self.history))
+        self.shocks.get_or_init(|| self.followed.shocks(&self.spot, &self.history))
     }
     /// Peak of a suspended part where it passes `above`: value, time and what it may be off by.
     fn peak(&self, of: ResponsePeak, part: &Suspension, above: f64) -> Option<(f64, f64, f64)> {

@@ -195,10 +195,7 @@ impl WorstCase {
         }
         add("gravity-m-s2", &[drop.gravity_m_s2]);
         add("at-m", &[self.part.position_m, self.part.across_m, self.part.inside.height_m]);
-        if let Some(part) = self.part.suspension {
-            add("omega", &[part.omega()]);
-            add("damping", &[part.damping().get()]);
-        }
+        self.of_part(&mut command);
         command.extend([" --axis=", self.part.inside.axis.name()]);
         if let Some(time) = drop.contact_time_s {
             command.extend([" --contact-time-s=", &format!("{time:?}")]);

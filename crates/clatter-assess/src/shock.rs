@@ -1,15 +1,20 @@
 //! What one shock is, at a place and of the turning of the product: one definition for every command and page.
 //!
 //! Of contacts that take time, shocks are taken from the largest peak of the felt acceleration down. Each reaches on both sides as
-//! long as the sign is kept and a tenth of its peak is exceeded, and from there as long as it goes on falling; never into an
-//! earlier one. Its change of velocity is that of the place over it: the integral of what is felt, less g times its length. So a lone
-//! contact gives (1 + e) v, two presses are one shock where the push between them never falls below a tenth, and a long gentle tail
-//! is none. In free flight nothing is felt. Instant impacts are each a shock; those at one instant add up.
+//! long as the sign is kept and a tenth of its peak, at least 2 g, is exceeded, and from there as long as it goes on falling; never into
+//! an earlier one, and never beyond the presses that overlap there: what a turning body feels in flight is no shock. A push below 2 g is
+//! the weight that it pivots under and no shock, unless nothing of the history is more. The change of velocity is that of the place over
+//! it: the integral of what is felt, less the share of g along its axis. So a lone contact gives (1 + e) v, two presses are one shock
+//! where the push between them never falls below a tenth, and a long gentle tail is none. Of turning the same holds for the angular
+//! acceleration, with 2 g over the least radius of gyration. Instant impacts are each a shock; those at one instant add up.
+
+use std::slice::from_ref;
 
 use clatter::{Excitation, Section};
 
 use crate::course::{BlockMotion, Course, DIRECTIONS};
 use crate::drop::Followed;
+use crate::engine::Spot;
 
 /// One shock.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,23 +36,41 @@ const NEAR_AT_ALL: f64 = 0.7;
 
 /// Share of its peak down to which a shock reaches, whatever the acceleration does in between.
 const TENTH: f64 = 0.1;
+/// Over g, what it reaches down to at least, by definition: a push of that size changes the velocity of a place by no more than its weight
+/// does in flight.
+const WEIGHTS: f64 = 2.0;
 
 impl Followed {
     /// The shocks of a place that feels this, in order of time.
-    pub(crate) fn shocks(&self, position_m: f64, felt: &Excitation) -> Vec<Shock> {
-        let Course::Bar(motion) = &self.motion else { return shocks(felt, self.drop.gravity_m_s2) };
-        if motion.contact().is_some() {
-            return shocks(felt, self.drop.gravity_m_s2);
+    pub(crate) fn shocks(&self, spot: &Spot, felt: &Excitation) -> Vec<Shock> {
+        let (gravity, least) = (self.drop.gravity_m_s2, WEIGHTS * self.drop.gravity_m_s2);
+        match &self.motion {
+            Course::Bar(motion) if motion.contact().is_none() => {
+                let s = self.drop.relative(spot.at_m[0]);
+                at_instants(motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
+            }
+            Course::Bar(_) | Course::Plate(_) => shocks(&Pushed { felt, moved: from_ref(felt), gravity, least }),
+            Course::Block(motion) => {
+                let moved = motion.moved(self.drop.place_in_box(spot), spot.inside.axis);
+                shocks(&Pushed { felt, moved: &moved, gravity: 0.0, least })
+            }
         }
-        let s = self.drop.relative(position_m);
-        at_instants(motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
+    }
+
+    /// The shocks of an angular acceleration.
+    pub(crate) fn shocks_of_turning(&self, turned: &Excitation) -> Vec<Shock> {
+        shocks(&Pushed { felt: turned, moved: from_ref(turned), gravity: 0.0, least: self.least_turn() })
+    }
+    /// What pushes below this turn the body by.
+    fn least_turn(&self) -> f64 {
+        WEIGHTS * self.drop.gravity_m_s2 / self.drop.least_gyration_m()
     }
 
     /// The largest of the turning of the product, where it passes `above`.
     pub(crate) fn largest_turn(&self, above: f64) -> Option<Shock> {
         let passes = |shock: &Shock| shock.change > above;
         match &self.motion {
-            Course::Block(motion) => Some(largest(&turns_of_box(motion, above))).filter(passes),
+            Course::Block(motion) => Some(largest(&self.turns_of_box(motion, above))).filter(passes),
             Course::Plate(_) => self.largest_turn_of_plate(above).filter(passes),
             Course::Bar(_) => Some(largest(&self.turns())).filter(passes),
         }
@@ -57,7 +80,7 @@ impl Followed {
     /// them. Others follow next to those that come near the largest.
     fn largest_turn_of_plate(&self, above: f64) -> Option<Shock> {
         let in_direction =
-            |k: u32| self.motion.turned_in(k).map_or(Shock::NONE, |turned| largest(&shocks(&turned, 0.0)));
+            |k: u32| self.motion.turned_in(k).map_or(Shock::NONE, |turned| largest(&self.shocks_of_turning(&turned)));
         let apart = DIRECTIONS / 4;
         let first: Vec<Shock> = (0..4).map(|n| in_direction(n * apart)).collect();
         let most = largest(&first);
@@ -73,33 +96,37 @@ impl Followed {
     /// The same of the turning of the product; of a plate about the axis of the largest.
     pub(crate) fn turns(&self) -> Vec<Shock> {
         if let Course::Block(motion) = &self.motion {
-            return turns_of_box(motion, 0.0);
+            return self.turns_of_box(motion, 0.0);
         }
         let contacts = self.motion.has_contacts();
         let of = |turned: &Excitation| {
-            if contacts { shocks(turned, 0.0) } else { at_instants(turned.sections().map(|k| (k.from, k.delta_v))) }
+            if contacts {
+                self.shocks_of_turning(turned)
+            } else {
+                at_instants(turned.sections().map(|k| (k.from, k.delta_v)))
+            }
         };
         let more = |a: Vec<Shock>, b: Vec<Shock>| if largest(&b).change > largest(&a).change { b } else { a };
         self.motion.turned().map(|turned| of(&turned)).reduce(more).unwrap_or_default()
     }
-}
 
-/// The shocks of a box about the axis of the largest; none where that is not above `above`. An axis about which the angular velocity swings
-/// by no more than the largest shock so far is passed over.
-fn turns_of_box(motion: &BlockMotion, above: f64) -> Vec<Shock> {
-    let (mut most, mut found) = (above, Vec::new());
-    for (swing, about) in motion.swings() {
-        // Sums of the same terms, but for roundings.
-        if swing * (1.0 + 1e-9) < most {
-            break;
+    /// The shocks of a box about the axis of the largest; none where that is not above `above`. An axis about which the angular velocity
+    /// swings by no more than the largest shock so far is passed over.
+    fn turns_of_box(&self, motion: &BlockMotion, above: f64) -> Vec<Shock> {
+        let (mut most, mut found) = (above, Vec::new());
+        for (swing, about) in motion.swings() {
+            // Sums of the same terms, but for roundings.
+            if swing * (1.0 + 1e-9) < most {
+                break;
+            }
+            let about = self.shocks_of_turning(&motion.turned_about(about));
+            let change = largest(&about).change;
+            if change > most {
+                (most, found) = (change, about);
+            }
         }
-        let about = shocks(&motion.turned_about(about), 0.0);
-        let change = largest(&about).change;
-        if change > most {
-            (most, found) = (change, about);
-        }
+        found
     }
-    found
 }
 
 impl Shock {
@@ -135,16 +162,28 @@ struct Sample {
     felt: f64,
 }
 
-/// A felt acceleration in sections, with the change of velocity of the place until each begins.
+/// What pushes a place, or turns a body.
+pub(crate) struct Pushed<'a> {
+    /// What is felt.
+    pub(crate) felt: &'a Excitation,
+    /// What that changes the velocity by, along one axis or along three, in the same sections, besides `gravity`.
+    pub(crate) moved: &'a [Excitation],
+    pub(crate) gravity: f64,
+    /// Below this nothing is a shock.
+    pub(crate) least: f64,
+}
+
+/// A felt acceleration in sections, with the changes of velocity of the place until each begins.
 struct History<'a> {
     felt: &'a Excitation,
-    velocity: Vec<f64>,
+    moved: &'a [Excitation],
+    velocity: Vec<Vec<f64>>,
     gravity: f64,
 }
 
-/// The shocks of a felt acceleration, which falls with `gravity` besides.
-pub(crate) fn shocks(felt: &Excitation, gravity: f64) -> Vec<Shock> {
-    let history = History::new(felt, gravity);
+/// The shocks of a felt acceleration.
+pub(crate) fn shocks(pushed: &Pushed<'_>) -> Vec<Shock> {
+    let history = History::new(pushed);
     let samples = history.sampled();
     let size = |k: usize| samples[k].felt.abs();
     let is_peak = |k: &usize| {
@@ -155,6 +194,9 @@ pub(crate) fn shocks(felt: &Excitation, gravity: f64) -> Vec<Shock> {
         size(k) > 0.0 && rises && falls
     };
     let mut peaks: Vec<usize> = (0..samples.len()).filter(is_peak).collect();
+    if peaks.iter().any(|k| size(*k) > pushed.least) {
+        peaks.retain(|k| size(*k) > pushed.least);
+    }
     peaks.sort_by(|&j, &k| size(k).total_cmp(&size(j)).then(j.cmp(&k)));
     let mut taken = vec![false; samples.len()];
     let mut found = Vec::new();
@@ -164,12 +206,13 @@ pub(crate) fn shocks(felt: &Excitation, gravity: f64) -> Vec<Shock> {
         }
         let back = |k: usize| k.checked_sub(1);
         let on = |k: usize| Some(k + 1).filter(|k| *k < samples.len());
-        let [first, last] = [reach(&samples, &taken, peak, back), reach(&samples, &taken, peak, on)];
+        let least = pushed.least.max(TENTH * size(peak));
+        let [first, last] = [reach(&samples, &taken, least, peak, back), reach(&samples, &taken, least, peak, on)];
         let begin = history.end_of(&samples, &taken, first, [back(first), on(first).filter(|k| *k <= last)]);
         let end = history.end_of(&samples, &taken, last, [on(last), back(last).filter(|k| *k >= first)]);
         taken[first..=last].fill(true);
         let (peak, time_s) = history.crest(&samples, peak);
-        let change = (history.velocity_at(&end) - history.velocity_at(&begin)).abs();
+        let change = history.change(&begin, &end);
         found.push(Shock { span_s: [begin.time_s, end.time_s], change, peak, time_s });
     }
     found.sort_by(|a, b| a.span_s[0].total_cmp(&b.span_s[0]));
@@ -177,8 +220,8 @@ pub(crate) fn shocks(felt: &Excitation, gravity: f64) -> Vec<Shock> {
 }
 
 /// The last sample to which the shock of a peak reaches on one side.
-fn reach(samples: &[Sample], taken: &[bool], peak: usize, next: impl Fn(usize) -> Option<usize>) -> usize {
-    let (least, mut at) = (TENTH * samples[peak].felt.abs(), peak);
+fn reach(samples: &[Sample], taken: &[bool], least: f64, peak: usize, next: impl Fn(usize) -> Option<usize>) -> usize {
+    let mut at = peak;
     while let Some(k) = next(at).filter(|&k| !taken[k]) {
         let (here, there) = (samples[at].felt, samples[k].felt);
         let keeps_its_sign = here * there > 0.0;
@@ -195,14 +238,17 @@ fn reach(samples: &[Sample], taken: &[bool], peak: usize, next: impl Fn(usize) -
 const STEPS: u32 = 48;
 
 impl<'a> History<'a> {
-    fn new(felt: &'a Excitation, gravity: f64) -> Self {
-        let mut now = 0.0;
-        let begins = |section: Section<'_>| {
-            let begin = now;
-            now += section.velocity_after(section.length) - gravity * section.length;
-            begin
+    fn new(&Pushed { felt, moved, gravity, .. }: &Pushed<'a>) -> Self {
+        let begins = |moved: &Excitation| {
+            let mut now = 0.0;
+            let begin = |section: Section<'_>| {
+                let begin = now;
+                now += section.velocity_after(section.length) - gravity * section.length;
+                begin
+            };
+            moved.sections().map(begin).collect()
         };
-        Self { velocity: felt.sections().map(begins).collect(), felt, gravity }
+        Self { velocity: moved.iter().map(begins).collect(), felt, moved, gravity }
     }
     /// A section at a time of it.
     fn at(&self, section: usize, t: f64) -> Sample {
@@ -210,12 +256,18 @@ impl<'a> History<'a> {
         let felt = if of.free { 0.0 } else { of.acceleration_at(t) };
         Sample { section, t, time_s: of.from + t, felt }
     }
-    /// The change of velocity until a sample.
-    fn velocity_at(&self, &Sample { section, t, .. }: &Sample) -> f64 {
-        self.velocity[section] + self.felt.section(section).velocity_after(t) - self.gravity * t
+    /// The change of velocity from one sample to another, without its sign.
+    fn change(&self, begin: &Sample, end: &Sample) -> f64 {
+        let along = |(moved, velocity): (&Excitation, &Vec<f64>)| {
+            let until = |&Sample { section, t, .. }: &Sample| {
+                velocity[section] + moved.section(section).velocity_after(t) - self.gravity * t
+            };
+            until(end) - until(begin)
+        };
+        self.moved.iter().zip(&self.velocity).map(along).fold(0.0, libm::hypot)
     }
     fn sampled(&self) -> Vec<Sample> {
-        let mut all: Vec<Sample> = Vec::with_capacity(8 * self.velocity.len());
+        let mut all: Vec<Sample> = Vec::with_capacity(8 * self.felt.sections().len());
         for (n, section) in self.felt.sections().enumerate() {
             let count = if section.free { 1 } else { samples(&section) };
             for k in 0..=count {
@@ -332,10 +384,43 @@ mod tests {
             let sine = Sine { amplitude: 900.0, rate: 2000.0, phase };
             let mut felt = Excitation::default();
             felt.push(Section { sines: &[sine], ..Section::shock(0.0, (3.1 - phase) / 2000.0, 0.0) });
-            let found = largest(&shocks(&felt, 0.0));
+            let found = largest(&shocks(&Pushed { felt: &felt, moved: from_ref(&felt), gravity: 0.0, least: 0.0 }));
             let time_s = (std::f64::consts::FRAC_PI_2 - phase) / 2000.0;
             assert!((found.peak / 900.0 - 1.0).abs() < 1e-5, "{phase}: {}", found.peak);
             assert!((found.time_s - time_s).abs() < 0.01 * 0.2 / 2000.0, "{phase}: {}, not {time_s}", found.time_s);
+        }
+    }
+
+    /// Half-sines of these peaks over 1 ms and a millisecond of flight, in which it turns, after each.
+    fn pushes(peaks: &[f64]) -> Excitation {
+        let mut felt = Excitation::default();
+        for (k, peak) in (0..).zip(peaks) {
+            let from = 2e-3 * f64::from(k);
+            let sine = Sine { amplitude: *peak, rate: std::f64::consts::PI / 1e-3, phase: 0.0 };
+            felt.push(Section { sines: &[sine], ..Section::shock(from, 1e-3, 0.0) });
+            felt.push(Section { acceleration: [300.0; 2], free: true, ..Section::shock(from + 1e-3, 1e-3, 0.0) });
+        }
+        felt
+    }
+
+    /// 1.5 g beside 3 g is the weight under which a body pivots; alone it is all that there is. What is felt in flight is none. Each changes
+    /// the velocity by 2/π of its peak and less g over its time.
+    #[test]
+    fn a_push_below_two_weights_is_a_shock_where_it_is_all() {
+        let g = 9.81;
+        let of = |peaks: &[f64]| {
+            let felt = pushes(&peaks.iter().map(|peak| peak * g).collect::<Vec<_>>());
+            shocks(&Pushed { felt: &felt, moved: from_ref(&felt), gravity: g, least: WEIGHTS * g })
+        };
+        for (peaks, found) in
+            [(&[1.5, 3.0, 1.9][..], &[3.0][..]), (&[1.5, 1.2], &[1.5, 1.2]), (&[3.0, 2.5], &[3.0, 2.5])]
+        {
+            let shocks = of(peaks);
+            assert_eq!(shocks.len(), found.len(), "{shocks:?}");
+            for (shock, peak) in shocks.iter().zip(found) {
+                let change = (peak * std::f64::consts::FRAC_2_PI - 1.0) * g * 1e-3;
+                assert!((shock.change - change.abs()).abs() < 1e-6, "{shock:?}, not {change}");
+            }
         }
     }
 }

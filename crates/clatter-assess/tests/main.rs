@@ -26,5 +26,6 @@ mod random;
 mod safe;
 mod scatter;
 mod several;
+mod shocks;
 mod spin;
 mod worst_case;

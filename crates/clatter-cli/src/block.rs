@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 use std::io::{self, Write};
 
-use clatter_answer::respond::block;
 use clatter_flight::{BlockDrop, Contact, LEAST_OF_BLOCKS, Stop};
 
 use crate::Failure;
@@ -26,7 +25,7 @@ pub(crate) enum Axis {
     Any,
 }
 
-impl From<Axis> for block::Axis {
+impl From<Axis> for clatter_assess::Axis {
     fn from(axis: Axis) -> Self {
         match axis {
             Axis::X => Self::X,

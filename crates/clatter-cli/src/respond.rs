@@ -169,7 +169,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME:TIME,ACCELERATION,VELOCITY", default_value = "0.2ms:20ms,5000g,20m/s", allow_hyphen_values = true, value_parser = excitation::shock_table, requires = "equivalent_pulse")]
     shock_table: ShockTable,
     /// Also write the rule over W h0/v0 to this file, ending in .csv, .json or .svg
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target, conflicts_with_all = ["followed", "shocks_file", "pulses_file"])]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target, conflicts_with_all = ["shocks_file", "pulses_file"])]
     output: Option<Target>,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -282,6 +282,11 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        if self.output.is_some() && (self.model.is_some() || self.drop.product.is_some()) {
+            return Err(Failure::Usage(
+                "-o writes the rule over W h0/v0 of a bar from --q and --e: --output cannot be used with --model or --product",
+            ));
+        }
         if self.drop.is_block() {
             return self.block(streams);
         }

@@ -152,6 +152,12 @@ impl Block {
         self.gyration
     }
 
+    /// ∫x y dm/m, ∫x z dm/m and ∫y z dm/m about the center of mass.
+    #[must_use]
+    pub fn products_of_inertia_m2(&self) -> [f64; 3] {
+        [[0, 1], [0, 2], [1, 2]].map(|[i, j]| 0.0 - self.inertia[i][j])
+    }
+
     /// The smallest radius of gyration about any axis through the center of mass.
     #[must_use]
     pub fn least_gyration_m(&self) -> f64 {

@@ -332,12 +332,22 @@ impl Pulses {
     /// ```
     #[must_use]
     pub fn respond(&self, suspension: &Suspension) -> Response {
+        self.response(suspension, true)
+    }
+    /// The same until the end of the history, without the ring-down after it, as [`peak_within`](Self::peak_within).
+    #[must_use]
+    pub fn respond_within(&self, suspension: &Suspension) -> Response {
+        self.response(suspension, false)
+    }
+    fn response(&self, suspension: &Suspension, rings_down: bool) -> Response {
         let mut ranges = [Range::default(); 3];
         let modes = Modes::new(suspension.damping());
         let omega = suspension.omega();
         let last = self.drive(&modes, omega, &[0, 1, 2], &mut ranges);
-        for (k, range) in ranges.iter_mut().enumerate() {
-            range.note_carried(&modes, k, last, -self.carried / omega, self.pieces.len());
+        if rings_down {
+            for (k, range) in ranges.iter_mut().enumerate() {
+                range.note_carried(&modes, k, last, -self.carried / omega, self.pieces.len());
+            }
         }
         Response::from_ranges(omega, &ranges, |i| self.begin(i))
     }

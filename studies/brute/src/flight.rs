@@ -82,6 +82,8 @@ pub struct Flight {
     pub at_rest: bool,
     /// Gravity.
     pub gravity: f64,
+    /// Radius of gyration about the center of mass, the least of all.
+    pub gyration: f64,
     /// Energy per mass when it was left.
     pub energy: f64,
 }
@@ -221,7 +223,7 @@ impl Bar {
 
     fn leave(&self, mut flight: Flight, s: &State, time: f64, at_rest: bool) -> Flight {
         flight.end = time;
-        (flight.at_rest, flight.gravity) = (at_rest, self.drop.gravity);
+        (flight.at_rest, flight.gravity, flight.gyration) = (at_rest, self.drop.gravity, self.drop.gyration);
         flight.energy = self.energy(s);
         flight
     }

@@ -229,16 +229,35 @@ pub fn felt(flight: &Flight, place: f64) -> Peak {
 /// The shocks of a place from the center of mass, from the largest peak down.
 #[must_use]
 pub fn shocks(flight: &Flight, place: f64, motion: Motion) -> Vec<Shock> {
-    let value = |step: &Step, j: usize| match motion {
-        Motion::Velocity => step.push[j] + place * step.lift[j],
-        Motion::Turning => step.turn[j],
+    let is_velocity = motion == Motion::Velocity;
+    let (fall, least) = if is_velocity { (flight.gravity, 1.0) } else { (0.0, flight.gyration) };
+    let push = |step: &Step| {
+        let felt = [0, 1, 2].map(|j| if is_velocity { step.push[j] + place * step.lift[j] } else { step.turn[j] });
+        Push { time: step.time, length: step.length, felt, moved: [felt.map(|felt| felt - fall), [0.0; 3], [0.0; 3]] }
     };
-    let steps: Vec<(&Step, [f64; 3])> =
-        flight.steps.iter().filter(|step| !step.flying).map(|step| (step, [0, 1, 2].map(|j| value(step, j)))).collect();
-    if steps.iter().any(|(step, _)| step.length == 0.0) {
-        return strikes(&steps);
+    let pushes: Vec<Push> = flight.steps.iter().filter(|step| !step.flying).map(push).collect();
+    if pushes.iter().any(|push| push.length == 0.0) {
+        return strikes(&pushes);
     }
-    pulses(&steps, if motion == Motion::Velocity { flight.gravity } else { 0.0 })
+    pulses(&pushes, 2.0 * flight.gravity / least)
+}
+
+/// A step in which something presses: what is felt at its begin, middle and end, and by what the velocity changes, along one axis or
+/// along three.
+pub(crate) struct Push {
+    pub(crate) time: f64,
+    pub(crate) length: f64,
+    pub(crate) felt: [f64; 3],
+    pub(crate) moved: [[f64; 3]; 3],
+}
+
+impl Push {
+    /// The change of velocity from its begin to a share of it: the integral of a parabola.
+    fn moved_by(&self, u: f64) -> [f64; 3] {
+        self.moved.map(|[p, q, r]| {
+            self.length * u * (p + u * ((4.0 * q - 3.0 * p - r) / 2.0 + u * 2.0 * (p + r - 2.0 * q) / 3.0))
+        })
+    }
 }
 
 /// The largest change of all shocks.
@@ -252,15 +271,15 @@ pub fn largest(shocks: &[Shock]) -> Peak {
 }
 
 /// Changes by instant impacts; those at one instant add up.
-fn strikes(steps: &[(&Step, [f64; 3])]) -> Vec<Shock> {
-    let mut list: Vec<Shock> = Vec::with_capacity(steps.len());
-    for (step, jump) in steps {
+fn strikes(pushes: &[Push]) -> Vec<Shock> {
+    let mut list: Vec<Shock> = Vec::with_capacity(pushes.len());
+    for &Push { time, felt: [jump, ..], .. } in pushes {
         match list.last_mut() {
-            Some(last) if step.time - last.time < INSTANT => {
-                last.change += jump[0];
-                last.time = step.time;
+            Some(last) if time - last.time < INSTANT => {
+                last.change += jump;
+                last.time = time;
             }
-            _ => list.push(Shock { time: step.time, change: jump[0], acceleration: f64::INFINITY }),
+            _ => list.push(Shock { time, change: jump, acceleration: f64::INFINITY }),
         }
     }
     list
@@ -280,47 +299,59 @@ fn crest([p, q, r]: [f64; 3]) -> f64 {
     most
 }
 
+/// A moment of a history: when, what is felt, and the velocity gained by then.
+struct Point {
+    time: f64,
+    felt: f64,
+    gained: [f64; 3],
+}
+
 /// Shocks of a history: they are taken from the largest peak down; each reaches on both sides as
-/// long as the sign is kept and a tenth of its peak is exceeded, and from there as long as it goes on falling, never into
-/// an earlier one.
-fn pulses(steps: &[(&Step, [f64; 3])], gravity: f64) -> Vec<Shock> {
-    // Time, value, and what the integral grew by since the point before.
-    let mut points: Vec<[f64; 3]> = Vec::with_capacity(3 * steps.len() + 2);
-    for &(step, [p, q, r]) in steps {
-        let (h, t) = (step.length, step.time);
-        let before = points.last().map_or(t, |point| point[0]);
+/// long as the sign is kept and a tenth of its peak, at least `least`, is exceeded, and from there as long as it goes on falling,
+/// never into an earlier one, nor beyond what presses without a gap. Peaks below `least` are none beside others above it.
+pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
+    let mut points: Vec<Point> = Vec::with_capacity(3 * pushes.len() + 2);
+    let mut gained = [0.0; 3];
+    for push in pushes {
+        let (h, t, [p, q, r]) = (push.length, push.time, push.felt);
+        let before = points.last().map_or(t, |point| point.time);
         if t > before + 1e-12 {
-            points.extend([[before, 0.0, 0.0], [t, 0.0, 0.0]]);
+            points.extend([before, t].map(|time| Point { time, felt: 0.0, gained }));
         }
-        let halves = [h / 24.0 * (5.0 * p + 8.0 * q - r), h / 24.0 * (5.0 * r + 8.0 * q - p)];
-        points.push([t, p, 0.0]);
-        for (from, to, end, area) in [(p, q, t + h / 2.0, halves[0]), (q, r, t + h, halves[1])] {
+        let at = |u: f64, felt: f64| {
+            let moved = push.moved_by(u);
+            Point { time: t + u * h, felt, gained: std::array::from_fn(|i| gained[i] + moved[i]) }
+        };
+        points.push(at(0.0, p));
+        for (from, to, half) in [(p, q, 0.5), (q, r, 1.0)] {
             if from * to < 0.0 {
-                // Where the sign changes, between two triangles.
-                let share = from / (from - to);
-                points.push([end - h / 2.0 * (1.0 - share), 0.0, h / 4.0 * share * from]);
-                points.push([end, to, h / 4.0 * (1.0 - share) * to]);
-            } else {
-                points.push([end, to, area]);
+                // Where the sign changes.
+                points.push(at(half - 0.5 * to / (to - from), 0.0));
             }
+            points.push(at(half, to));
         }
+        gained = at(1.0, r).gained;
     }
-    let size = |i: usize| points[i][1].abs();
+    let size = |i: usize| points[i].felt.abs();
     let mut crests: Vec<usize> = (0..points.len())
         .filter(|&i| {
             size(i) > 0.0 && (i == 0 || size(i) >= size(i - 1)) && (i + 1 == points.len() || size(i) >= size(i + 1))
         })
         .collect();
     crests.sort_by(|&i, &j| size(j).total_cmp(&size(i)));
+    if crests.first().is_some_and(|&highest| size(highest) > least) {
+        crests.retain(|&top| size(top) > least);
+    }
     let mut taken = vec![false; points.len()];
     let mut list = Vec::new();
     for &top in &crests {
         if taken[top] {
             continue;
         }
+        let down_to = least.max(0.1 * size(top));
         let goes_on = |from: usize, to: usize| {
-            let kept = !taken[to] && size(from) > 0.0 && points[to][1] * points[top][1] >= 0.0;
-            kept && (size(from) > 0.1 * size(top) || size(to) <= size(from))
+            let kept = !taken[to] && size(from) > 0.0 && points[to].felt * points[top].felt >= 0.0;
+            kept && (size(from) > down_to && size(to) > down_to || size(to) <= size(from))
         };
         let (mut low, mut high) = (top, top);
         while low > 0 && goes_on(low, low - 1) {
@@ -330,9 +361,9 @@ fn pulses(steps: &[(&Step, [f64; 3])], gravity: f64) -> Vec<Shock> {
             high += 1;
         }
         taken[low..=high].fill(true);
-        let area: f64 = points[low + 1..=high].iter().map(|point| point[2]).sum();
-        let change = area - gravity * (points[high][0] - points[low][0]);
-        list.push(Shock { time: points[top][0], change, acceleration: size(top) });
+        let moved = [0, 1, 2].map(|i| points[high].gained[i] - points[low].gained[i]);
+        let change = moved.iter().map(|by| by * by).sum::<f64>().sqrt();
+        list.push(Shock { time: points[top].time, change, acceleration: size(top) });
     }
     list
 }

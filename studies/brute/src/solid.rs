@@ -2,6 +2,7 @@
 
 use crate::flight::{Flight, Step, Until};
 use crate::ground::{Contact, Ground, Law, Own, Phase, fine};
+use crate::part::{Push, Shock, pulses};
 
 /// A vector.
 pub type Vector = [f64; 3];
@@ -43,6 +44,8 @@ struct Moment {
     length: f64,
     flying: bool,
     felt: [(Vector, Matrix); 3],
+    /// The vertical in axes of the box.
+    up: [Vector; 3],
 }
 
 /// A drop that was followed.
@@ -331,8 +334,10 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
         if h > 0.0 {
             let (from, to) = (body.rate(&s), body.rate(&next));
             let middle: State = std::array::from_fn(|i| f64::midpoint(s[i], next[i]) + h / 8.0 * (from[i] - to[i]));
-            let felt = [&s, &middle, &next].map(|s| body.felt(s));
-            moments.push(Moment { time, length: h, flying, felt });
+            let all = [&s, &middle, &next];
+            let (felt, up) = (all.map(|s| body.felt(s)), all.map(|s| Body::attitude(s)[2]));
+            let flying = body.contacts.iter().all(|contact| contact.phase == Phase::Free);
+            moments.push(Moment { time, length: h, flying, felt, up });
         }
         (s, time) = (next, time + h);
         for k in (0..8).filter(|&k| over[k]) {
@@ -359,12 +364,7 @@ impl Course {
     /// What a place from the center of mass felt along an axis of the box, or of any by its size.
     #[must_use]
     pub fn at(&self, place: Vector, axis: Option<usize>) -> Flight {
-        let seen = |(center, lift): &(Vector, Matrix)| {
-            let felt: Vector = std::array::from_fn(|i| {
-                center[i] + place[0] * lift[0][i] + place[1] * lift[1][i] + place[2] * lift[2][i]
-            });
-            axis.map_or_else(|| dot(felt, felt).sqrt(), |axis| felt[axis])
-        };
+        let seen = |felt: &(Vector, Matrix)| size(there(felt, place), axis);
         let step = |moment: &Moment| Step {
             time: moment.time,
             length: moment.length,
@@ -382,4 +382,30 @@ impl Course {
             ..Flight::default()
         }
     }
+
+    /// The shocks of a place from the center of mass along an axis of the box, or along any: velocities change by what is felt but for
+    /// gravity, which has its share along each axis.
+    #[must_use]
+    pub fn shocks(&self, place: Vector, axis: Option<usize>) -> Vec<Shock> {
+        let push = |moment: &Moment| {
+            let felt: [Vector; 3] = [0, 1, 2].map(|j| there(&moment.felt[j], place));
+            let moved = [0, 1, 2].map(|i| {
+                let counts = axis.is_none_or(|axis| axis == i);
+                [0, 1, 2].map(|j| if counts { felt[j][i] - self.gravity * moment.up[j][i] } else { 0.0 })
+            });
+            Push { time: moment.time, length: moment.length, felt: felt.map(|felt| size(felt, axis)), moved }
+        };
+        let pushes: Vec<Push> = self.moments.iter().filter(|moment| !moment.flying).map(push).collect();
+        pulses(&pushes, 2.0 * self.gravity)
+    }
+}
+
+/// What a place feels.
+fn there((center, lift): &(Vector, Matrix), place: Vector) -> Vector {
+    std::array::from_fn(|i| center[i] + place[0] * lift[0][i] + place[1] * lift[1][i] + place[2] * lift[2][i])
+}
+
+/// Along an axis, or in all.
+fn size(felt: Vector, axis: Option<usize>) -> f64 {
+    axis.map_or_else(|| dot(felt, felt).sqrt(), |axis| felt[axis])
 }

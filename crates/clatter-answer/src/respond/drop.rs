@@ -190,14 +190,13 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, suspension)).transpose()?;
     let tightest = limits.as_ref().and_then(|limits| Limit::tightest(limits));
     let at = tightest.map_or(at_first, |limit| at[limit.place]);
-    let at_m = [side * at * half_m, 0.0];
-    let place = Part::new(at_m[0], None);
+    let place = Part::new(side * at * half_m, None);
     let largest = |kind, part| asked.largest(kind, &place, part);
     let velocity_change = largest(LimitKind::VelocityChange, None)?;
     let acceleration = question.contact_time_s.map_or(Ok(None), |_| largest(LimitKind::Acceleration, None))?;
     let angular_velocity_change = largest(LimitKind::AngularVelocityChange, None)?;
     let of_part = |part: Suspension| {
-        let response = clatter_assess::respond(&asked.drop, at_m, &part, model, tolerance)?;
+        let response = clatter_assess::respond(&asked.drop, &place, &part, model, tolerance)?;
         let equivalent = question.shock_table.map(|table| Equivalent::new(&table, &part, &response)).transpose()?;
         let values = [largest(LimitKind::Acceleration, suspension)?, largest(LimitKind::RattleSpace, suspension)?];
         let at_once = Factors::at_once(part.damping(), scene.e(), scene.speed_m_s());

@@ -191,8 +191,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, *suspension)).transpose()?;
     let tightest = limits.as_ref().and_then(|limits| Limit::tightest(limits));
     let at = tightest.map_or(at_first, |limit| at[limit.place]);
-    let at_m = in_scene(at);
-    let there = part(at_m);
+    let there = part(in_scene(at));
     let largest = |kind, part| asked.largest(kind, &there, part);
     let answers = LargestValues {
         velocity_change: largest(LimitKind::VelocityChange, None)?,
@@ -201,7 +200,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         part_acceleration: suspension.map_or(Ok(None), |_| largest(LimitKind::Acceleration, *suspension))?,
         part_displacement: suspension.map_or(Ok(None), |_| largest(LimitKind::RattleSpace, *suspension))?,
     };
-    let response = |part| clatter_assess::respond(&asked.drop, at_m, &part, Model::Compliant, *tolerance);
+    let response = |part| clatter_assess::respond(&asked.drop, &there, &part, Model::Compliant, *tolerance);
     let response = suspension.map(response).transpose()?;
     let part = suspension.as_ref().zip(response.as_ref());
     let equivalent = part.zip(question.shock_table);

@@ -2,11 +2,13 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::respond::block::{self, Answer, Limits, Question};
+use clatter_answer::respond::Largest;
+use clatter_answer::respond::block::{self, Answer, Question};
 use clatter_assess::{Part, WorstCase};
 use clatter_flight::Contact;
 use clatter_shock::Suspension;
 
+use super::peaks::doubts;
 use super::{Args, limits};
 use crate::block::{Axis, Setup};
 use crate::drop_args::BesideBlock;
@@ -14,6 +16,7 @@ use crate::inputs::Format;
 use crate::numbers::{figures, given};
 use crate::one_drop::{OneDrop, PartSetup};
 use crate::quantities::{Show, neat};
+use crate::words::in_words;
 use crate::{Failure, Streams};
 
 impl Args {
@@ -40,8 +43,8 @@ impl Args {
         worst: &WorstCase,
         streams: &mut Streams<'_>,
     ) -> Result<(), Failure> {
-        if self.output.is_some() || self.flat || self.equivalent_pulse {
-            return Err(Failure::Usage("-o, --flat and --equivalent-pulse do not go with a box"));
+        if self.flat || self.equivalent_pulse {
+            return Err(Failure::Usage("--flat and --equivalent-pulse do not go with a box"));
         }
         let drop = &worst.drop;
         let (Some(of_box), Some(time_s)) = (drop.of_box()?, drop.contact_time_s) else {
@@ -52,16 +55,11 @@ impl Args {
         let part = file.part([0.5 * x, 0.5 * y])?;
         let Part { position_m, across_m, inside, .. } = worst.part;
         let at_m = [position_m, across_m, inside.height_m.clamp(-0.5 * z, 0.5 * z)];
-        let axis = block::Axis::from(inside.axis);
-        let mut question = Question::new(setup.drop, setup.contact, at_m, axis);
-        question.own_contacts = drop.own_contacts;
+        let mut question = Question::new(setup.drop, setup.contact, at_m, inside.axis)?;
+        question.drop = *drop;
         question.suspension = self.suspension(part.as_ref().and_then(|part| part.suspension))?;
-        question.limits = part.as_ref().map(|part| Limits {
-            drop: *drop,
-            part: worst.part,
-            limits: part.allowed.clone(),
-            tolerance: self.tolerance,
-        });
+        question.limits = part.as_ref().map(|part| part.allowed.clone());
+        question.tolerance = self.tolerance;
         let answer = block::answer(&question)?;
         let of_file = part.as_ref().map(|part| (part, Show { unit: file.time_unit(), name: "s" }));
         match self.format {
@@ -71,7 +69,7 @@ impl Args {
         for note in file.into_notes() {
             streams.note("note", note);
         }
-        for warning in setup.warning().into_iter().chain(setup.left(&answer.flight.stop)) {
+        if let Some(warning) = setup.warning() {
             streams.note("warning", warning);
         }
         Ok(())
@@ -81,8 +79,8 @@ impl Args {
         if self.feet_m.is_some() {
             return Err(Failure::Usage("--feet-m are those of a bar or a plate: a box lands on any of its sides"));
         }
-        if self.output.is_some() || self.flat || self.equivalent_pulse {
-            return Err(Failure::Usage("-o, --flat and --equivalent-pulse do not go with a box"));
+        if self.flat || self.equivalent_pulse {
+            return Err(Failure::Usage("--flat and --equivalent-pulse do not go with a box"));
         }
         let gyration = self.inertia.given().map(|radii| radii.of_block(self.inertia.flag())).transpose()?;
         let setup = self.drop.block(&BesideBlock {
@@ -97,8 +95,9 @@ impl Args {
         setup.within(at_m)?;
         let axis = self.axis.unwrap_or(Axis::Z);
         let damping = self.damping.ratio()?;
-        let mut question = Question::new(setup.drop, setup.contact, at_m, axis.into());
-        question.own_contacts = self.own_contacts(None, true)?;
+        let mut question = Question::new(setup.drop, setup.contact, at_m, axis.into())?;
+        question.drop.own_contacts = self.own_contacts(None, true)?;
+        question.tolerance = self.tolerance;
         question.suspension = self.omega().map(|omega| Suspension::new(omega, damping)).transpose()?;
         if axis == Axis::Any && question.suspension.is_some() {
             return Err(Failure::Usage("a part that swings does so along one axis: --axis=x, y or z, or no --omega"));
@@ -108,7 +107,7 @@ impl Args {
             Format::Table => table(&answer, &setup, None, streams.out).map_err(Failure::Answer)?,
             Format::Json => streams.json(&answer)?,
         }
-        for warning in setup.warning().into_iter().chain(setup.left(&answer.flight.stop)) {
+        if let Some(warning) = setup.warning() {
             streams.note("warning", warning);
         }
         self.warn(std::iter::empty(), streams);
@@ -129,24 +128,21 @@ fn table(answer: &Answer, setup: &Setup, of_file: Option<(&PartSetup, Show)>, ou
     if let Some(((part, time), limits)) = of_file.zip(answer.limits.as_ref()) {
         limits::table(part, limits, time, out)?;
     }
-    writeln!(out)?;
-    writeln!(out, "Largest at this place                        when, ms")?;
-    let row = |out: &mut dyn Write, name: &str, value: String, time: f64| {
-        writeln!(out, "  {name:<22}{value:>16}{:>13}", figures(1e3 * time))
+    let row = |out: &mut dyn Write, name: &str, largest: Option<Largest>| {
+        let Some(Largest { value, unit, time_s, impact, .. }) = largest else { return Ok(()) };
+        let (value, when) = (in_words(unit, None, value.0), figures(1e3 * time_s.0));
+        writeln!(out, "  {name:<26}{value:>18}{when:>13}  at impact {impact}")
     };
-    let gn = |x: f64| format!("{} gn", figures(x / clatter_assess::STANDARD_GRAVITY_M_S2));
-    row(out, "acceleration", gn(answer.acceleration.value_m_s2.0), answer.acceleration.time_s.0)?;
-    let Some(part) = &answer.part else { return Ok(()) };
-    writeln!(out)?;
-    writeln!(
-        out,
-        "Peak of the part, W = {} rad/s, damping ratio {}",
-        given(super::six(part.omega.0)),
-        given(super::six(part.damping.0))
-    )?;
-    let omega = part.omega.0;
-    let acceleration = gn(omega * part.peak_absolute_acceleration_over_omega.0);
-    row(out, "acceleration", acceleration, part.time_of_peak.0)?;
-    let displacement = format!("{} mm", figures(1e3 * part.omega_peak_relative_displacement.0 / omega));
-    row(out, "relative displacement", displacement, part.time_of_peak_relative_displacement.0)
+    let of = &answer.answers;
+    writeln!(out, "\nLargest at this place                             when, ms")?;
+    row(out, "change of velocity", of.velocity_change)?;
+    row(out, "acceleration", of.acceleration)?;
+    row(out, "change of angular velocity", of.angular_velocity_change)?;
+    if let Some(part) = &answer.part {
+        let [omega, damping] = [part.omega, part.damping].map(|of| given(super::six(of.0)));
+        writeln!(out, "\nPeak of the part, W = {omega} rad/s, damping ratio {damping}")?;
+        row(out, "acceleration", of.part_acceleration)?;
+        row(out, "relative displacement", of.part_displacement)?;
+    }
+    doubts(answer.tolerance.0, of, out)
 }

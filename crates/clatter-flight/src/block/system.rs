@@ -89,6 +89,10 @@ impl System {
             _ => stiffness * (depth - self.delay * velocity),
         }
     }
+    /// Whether the ground presses on a corner.
+    pub(super) fn presses(&self) -> bool {
+        self.holds.iter().any(Corner::bears)
+    }
     /// Force over the mass, and moment over the mass.
     pub(super) fn load(&self, y: &Vector) -> (f64, [f64; 3]) {
         let (_, _, n, _) = parts(y);
