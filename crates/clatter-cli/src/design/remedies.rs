@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use clatter_answer::design::Answer;
 use clatter_assess::design::{Change, Lever, Outcome, Remedies, Remedy, Together};
-use clatter_assess::{ComponentAssessment, ProductFile, Verdict};
+use clatter_assess::{ComponentAssessment, Model, ProductFile, Verdict};
 
 use crate::numbers::{digits, figures, given};
 use crate::text::{field, shown};
@@ -94,9 +94,11 @@ impl Found<'_> {
         let (wanted, count) = (given(100.0 * self.0.margin), self.0.assessment.components.len());
         if let Some(plane) = &self.0.plane {
             let (model, side) = (plane.model.name(), plane.side);
+            let contacts = plane.model == Model::Compliant;
+            let law = if contacts { format!(", {} contacts", product.law().name()) } else { String::new() };
             writeln!(
                 out,
-                "Plane of q and e: by the model {model}, {side} by {side} values where a border has no closed form"
+                "Plane of q and e: by the model {model}{law}, {side} by {side} values where a border has no closed form"
             )?;
         }
         let mut limits = self.0.assessment.components.iter().flat_map(|component| &component.limits);

@@ -32,7 +32,7 @@ pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
         "Places",
         [
             "Places",
-            "Where a part could sit is told of the drops of the figures. An assessment of the changed file decides; what would make a part safe clatter design tells, which takes longer than this page.",
+            "Where a part could sit is told of the drops of the figures, which are by one contact law. An assessment of the changed file decides; what would make a part safe clatter design tells, which takes longer than this page.",
         ],
     ),
 ];
