@@ -15,7 +15,15 @@ fn the_pages_of_a_plate() {
     let assessment = file.assess().unwrap();
     let portraits = file.portraits(&assessment);
     let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
-    let pages = clatter_report::Pages { file, assessment, portraits, measured: &[], path: "plate.toml", date: None };
+    let pages = clatter_report::Pages {
+        file,
+        assessment,
+        portraits,
+        remedies: &[],
+        measured: &[],
+        path: "plate.toml",
+        date: None,
+    };
     let (bytes, warnings) = clatter_report::assessment_pdf(&pages, &mut |_| ()).unwrap();
     assert!(warnings.is_empty(), "{warnings:?}");
     let pdf = lopdf::Document::load_mem(&bytes).unwrap();

@@ -448,7 +448,7 @@ def design(
     product : Product, path, or dict, optional
         The product.
     margin : float
-        Margin allowed/demand - 1 that every limit is to have.
+        Margin allowed/demand - 1 that every limit is to have. By both contact laws where contacts take time and the file names none.
     q, e, damping, contact_time_s : (lo, hi)
         Inertia ratios, restitutions, damping ratios and contact times [s] that can be had.
     frequency_factor, limit_factor : float

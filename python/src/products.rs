@@ -122,8 +122,10 @@ fn print(
     }
     let portraits = answer.file.portraits(&answer.assessment);
     wanted.or_leave();
+    let remedies = clatter_answer::design::of_pages(answer.file, &answer.assessment, &|_, _| wanted.still());
+    let remedies = remedies.map_err(|error| Refused::Words(error.to_string()))?;
     let assess_of::Answer { file, assessment, measured, .. } = answer;
-    let pages = Pages { file, assessment, portraits: &portraits, measured, path, date };
+    let pages = Pages { file, assessment, portraits: &portraits, remedies: &remedies, measured, path, date };
     clatter_report::write_assessment(&pages, pdf, &mut |_| wanted.or_leave()).map_err(|error| match error {
         ReportError::Io { path, source } => Refused::System(path, source),
         ReportError::Typst(said) => Refused::Outside(said),

@@ -356,7 +356,7 @@ fn a_picture_marks_every_strike_that_can_be_told_apart() {
     assert!(!svg.contains("NaN"), "{svg}");
     let outcome = clatter(arguments("compliant", &["--contact-time-s=5e-4", "--at=0", &output]));
     assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
-    assert!(fs::read_to_string(&file).unwrap().contains("acceleration, g"));
+    assert!(fs::read_to_string(&file).unwrap().contains("acceleration, gn"));
 }
 
 #[test]

@@ -134,9 +134,12 @@ fn accelerations_come_in_the_units_asked_for() {
         serde_json::from_str(&with(&more).stdout).unwrap()
     };
     // A step doubles 1 g.
-    for (more, unit, size) in
-        [(&[][..], "m/s2", 9.806_65), (&["--output-units=si"], "m/s2", 9.806_65), (&["--output-units=g"], "g", 1.0)]
-    {
+    for (more, unit, size) in [
+        (&[][..], "m/s2", 9.806_65),
+        (&["--output-units=si"], "m/s2", 9.806_65),
+        (&["--output-units=gn"], "gn", 1.0),
+        (&["--output-units=g"], "gn", 1.0),
+    ] {
         let got = json(more);
         assert_eq!(got["unit"], json!(unit), "{more:?}");
         for name in ["maximax", "positive", "primary_positive"] {
@@ -150,11 +153,11 @@ fn accelerations_come_in_the_units_asked_for() {
         assert!(close(row[0], 100.0, 0.0) && close(row[3], 2.0 * size, 1e-12), "{csv}");
     }
     // The table as the limit is, unless told otherwise.
-    assert!(with(&[]).stdout.starts_with("Shock response spectrum: acceleration in g,"));
+    assert!(with(&[]).stdout.starts_with("Shock response spectrum: acceleration in gn,"));
     assert!(with(&["--output-units=si"]).stdout.starts_with("Shock response spectrum: acceleration in m/s2,"));
     let refused = clatter(["spectrum", "--shock=1,0", "--quantity=pseudo-velocity", "--output-units=g"]);
     assert_eq!(refused.exit, Exit::BadInput);
-    assert!(refused.stderr.contains("--output-units=g goes with the quantities acceleration"), "{}", refused.stderr);
+    assert!(refused.stderr.contains("--output-units=gn goes with the quantities acceleration"), "{}", refused.stderr);
 }
 
 #[test]
@@ -416,7 +419,7 @@ fn rows_and_pictures_can_be_written() {
     assert!(limited.starts_with(&header.replace("negative,primary", "negative,margin_db,primary")), "{limited}");
     assert_eq!(limited.lines().nth(1).unwrap().split(',').nth(6), Some(""), "no limit at 10 Hz: {limited}");
     for (name, more, words) in [
-        ("a.svg", &["--limit=2000"][..], ["absolute acceleration, g", "least margin"]),
+        ("a.svg", &["--limit=2000"][..], ["absolute acceleration, gn", "least margin"]),
         ("v.svg", &["--quantity=pseudo-velocity"], ["pseudo-velocity, m/s", "10 mm"]),
         (
             "b.svg",

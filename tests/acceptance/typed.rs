@@ -125,7 +125,7 @@ fn pulses_limits_and_lists_take_units_blanks_and_any_case() {
 fn tables_are_in_the_units_that_were_typed() {
     let simulated = clatter(["simulate"].iter().chain(&TYPED).chain(&["--at=35mm"])).stdout;
     for said in [
-        "Any tilt, gravity 1 g, hysteretic contacts of 400 us\n",
+        "Any tilt, gravity 1 gn, hysteretic contacts of 400 us\n",
         "Body of 140 mm, radius of gyration 40.0000 mm, q = 0.507692; e = 0.3\n",
         "End a touches at 300.000 cm/s, tilt 4 degrees; end b is 9.76591 mm higher\n",
         " us\n",
@@ -140,7 +140,7 @@ fn tables_are_in_the_units_that_were_typed() {
         "Component at 35 mm of a body of 140 mm, e = 0.3; 180 Hz, damping ratio 0.05\n",
         "when, us\n",
         "change of velocity, cm/s",
-        "acceleration, g ",
+        "acceleration, gn ",
         "shock, cm/s",
     ] {
         assert!(responded.contains(said), "{said}:\n{responded}");
@@ -148,7 +148,7 @@ fn tables_are_in_the_units_that_were_typed() {
     let spectrum = ["spectrum", "--pulse=half-sine,1000g,1ms", "--frequency=0.1kHz", "--limit=200g"];
     let spectrum = clatter(spectrum.iter().chain(&["--damage-boundary"])).stdout;
     for said in
-        ["acceleration in g,", "kHz           g", " 0.100000 ", "acceleration         1000.00 g\n", "at 0.100000 kHz"]
+        ["acceleration in gn,", "kHz          gn", " 0.100000 ", "acceleration         1000.00 gn\n", "at 0.100000 kHz"]
     {
         assert!(spectrum.contains(said), "{said}:\n{spectrum}");
     }

@@ -3,8 +3,7 @@
 use clatter::End;
 use clatter_answer::assess as assess_of;
 use clatter_assess::{
-    Accuracy, Assessment, Component, LimitAssessment, LimitKind, Model, Portrait, ProductFile, STANDARD_GRAVITY_M_S2,
-    Unit, repeat, visible,
+    Accuracy, Assessment, Component, LimitAssessment, LimitKind, Model, Portrait, ProductFile, repeat, visible,
 };
 use clatter_figures::FigureError;
 use serde::Serialize;
@@ -42,15 +41,8 @@ struct Shown {
 
 /// The unit in which the file gives a limit, else the one that people use, and one of it in SI.
 fn unit_of(component: &Component, limit: &LimitAssessment) -> (&'static str, f64) {
-    if let Some(unit) = component.limits.unit(limit.limit, limit.unit) {
-        return (unit.name, unit.to_si(1.0));
-    }
-    match limit.unit {
-        Unit::MeterPerSecondSquared => ("gn", STANDARD_GRAVITY_M_S2),
-        Unit::Meter => ("mm", 1e-3),
-        Unit::MeterPerSecond => ("m/s", 1.0),
-        Unit::RadianPerSecond => ("rad/s", 1.0),
-    }
+    let unit = component.limits.unit(limit.limit, limit.unit).unwrap_or(limit.unit.customary());
+    (unit.name, unit.to_si(1.0))
 }
 
 /// Of the search of a plate or a box the first answer takes one in so many drops.

@@ -77,10 +77,10 @@ pub(crate) fn record(source: &Source, file: &[u8]) -> Result<Reply, String> {
     })
 }
 
-/// The channels over time, in g where the file is.
+/// The channels over time, in gn where the file is.
 fn picture(record: &Record) -> Result<String, clatter_figures::FigureError> {
     let in_g = record.channels().iter().all(|channel| channel.unit.to_lowercase().contains('g'));
-    let (one, title) = if in_g { (STANDARD_GRAVITY_M_S2, "g") } else { (1.0, "m/s²") };
+    let (one, title) = if in_g { (STANDARD_GRAVITY_M_S2, "gn") } else { (1.0, "m/s²") };
     let longest_s = record.times().iter().map(|times| times.duration_s()).fold(0.0, f64::max);
     let (factor, time) = match longest_s {
         s if s < 1e-3 => (1e6, "time, us"),

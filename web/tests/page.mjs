@@ -68,6 +68,13 @@ async function repeats(place, name) {
   assert.ok(status < 2, `${line}: ${stderr}`);
   assert.equal(await answer(name), stdout.trimEnd(), line);
 }
+// The verdicts that the page shows are those of its answer.
+async function shows() {
+  const told = JSON.parse(await answer('assess'));
+  const cells = await page.$$eval('#limits td.verdict', (cells) => cells.map((cell) => cell.textContent));
+  assert.deepEqual(cells, told.components.flatMap((part) => part.limits.map((limit) => limit.verdict)));
+  assert.equal(await page.getAttribute('#verdict', 'data-verdict'), told.verdict);
+}
 async function saved() {
   const [file] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
   await file.saveAs(join(folder, file.suggestedFilename()));
@@ -192,7 +199,17 @@ for (const name of ['handheld-terminal.toml', 'handheld-transit.toml']) {
     parts.forEach((part) => assert.ok(svg.includes(`>${part}<`), `${part} is in the picture`));
     await saved();
     await repeats('#product-command', 'assess');
+    await shows();
     await page.locator('#product').screenshot({ path: join(target, `web/${name}.png`) });
+  });
+}
+
+for (const [name, product] of [['phone.toml', 'Phone'], ['laptop.toml', 'Laptop'], ['handheld-terminal.toml', 'Handheld terminal']]) {
+  test(`${name}: the answer is that of the command, and its verdicts are shown`, async () => {
+    await changed(() => page.selectOption('#worked', name), `name = "${product}"`);
+    await saved();
+    await repeats('#product-command', 'assess');
+    await shows();
   });
 }
 

@@ -14,7 +14,7 @@
 pub mod goals;
 
 use clatter_assess::design::{Bounds, Change, Lever, Outcome, Plane, Remedies, Remedy, Together};
-use clatter_assess::{Assessment, ComponentAssessment, Error, LimitAssessment, ProductFile, Verdict};
+use clatter_assess::{Assessment, ComponentAssessment, Error, ProductFile, Verdict, Watch};
 use serde::{Serialize, Serializer};
 
 use crate::Json;
@@ -46,10 +46,16 @@ pub fn answer<'a>(file: &'a ProductFile, bounds: &Bounds, margin: f64) -> Result
     Ok(Answer::new(file, assessment, remedies, margin))
 }
 
-/// The smallest margin of a component.
-#[must_use]
-pub fn margin(component: &ComponentAssessment) -> f64 {
-    component.limits.iter().map(LimitAssessment::room).fold(f64::INFINITY, f64::min)
+/// The changes that the printed pages tell, by the bounds and with the margin of a `clatter design` that is asked for none. Of a plate or a
+/// box they are none: to find them takes many times as long as to assess it.
+///
+/// # Errors
+/// As [`ProductFile::remedies_watched`].
+pub fn of_pages(file: &ProductFile, assessment: &Assessment, watch: Watch<'_>) -> Result<Vec<Remedies>, Error> {
+    if file.product.width.is_some() {
+        return Ok(Vec::new());
+    }
+    file.remedies_watched(assessment, &Bounds::default(), 0.1, watch)
 }
 
 impl<'a> Answer<'a> {
@@ -89,12 +95,12 @@ impl<'a> Answer<'a> {
         let together = |together: &Together| TogetherJson {
             changes: together.changes.iter().map(|change| self.change_json(change)).collect(),
             verdict: together.after.verdict,
-            margin_after: Json(margin(&together.after)),
+            margin_after: Json(self.file.least_margin(&together.after)),
         };
         PartJson {
             name: &component.name,
             verdict: component.verdict,
-            margin: Json(margin(component)),
+            margin: Json(self.file.least_margin(component)),
             remedies: part.iter().flat_map(|part| &part.levers).map(|remedy| self.remedy_json(remedy)).collect(),
             pair: part.and_then(|part| part.pair.as_ref()).map(together),
             nearest: part.and_then(|part| part.nearest.as_ref()).map(together),
@@ -133,7 +139,7 @@ impl<'a> Answer<'a> {
                     from: Some(from),
                     to: Some(to),
                     radius_of_gyration_m,
-                    margin_after: Some(Json(margin(after))),
+                    margin_after: Some(Json(self.file.least_margin(after))),
                     warning: (!notes.is_empty()).then(|| notes.join("; ")),
                     ..none
                 }
@@ -179,6 +185,7 @@ struct PlaneJson {
 struct PartJson<'a> {
     name: &'a str,
     verdict: Verdict,
+    /// As [`ProductFile::least_margin`].
     margin: Json,
     remedies: Vec<RemedyJson>,
     /// Where no change alone is enough, the two that are together.

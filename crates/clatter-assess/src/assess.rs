@@ -82,24 +82,12 @@ impl ProductFile {
     /// # Errors
     /// As [`assess_to`](Self::assess_to).
     pub fn assess_watched(&self, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Assessment, Error> {
-        self.assess_within(accuracy, NOTHING_BREAKS, watch)?.map_err(|_| unreachable!("nothing exceeds infinity"))
-    }
-
-    /// The same where only drops are of use that ask for no more than so much of any limit, by the first contact law and by the
-    /// other: the search is left as soon as a drop is answered that asks for more, which is told.
-    pub(crate) fn assess_within(
-        &self,
-        accuracy: &Accuracy,
-        most: [f64; 2],
-        watch: Watch<'_>,
-    ) -> Result<Result<Assessment, Breaker>, Error> {
         let all: Vec<&Component> = self.components.iter().collect();
-        let found = self.assess_these(&all, accuracy, most, watch)?;
-        Ok(found.map(|Found { components, landings }| {
-            let verdict = Verdict::of(components.iter().map(|c| c.verdict));
-            let (product, assumed) = (self.product.name.clone(), Assumed::of(self, accuracy));
-            Assessment { product, verdict, assumed, components, landings, accuracy: *accuracy }
-        }))
+        let found = self.assess_these(&all, accuracy, NOTHING_BREAKS, watch)?;
+        let Found { components, landings } = found.unwrap_or_else(|_| unreachable!("nothing exceeds infinity"));
+        let verdict = Verdict::of(components.iter().map(|c| c.verdict));
+        let (product, assumed) = (self.product.name.clone(), Assumed::of(self, accuracy));
+        Ok(Assessment { product, verdict, assumed, components, landings, accuracy: *accuracy })
     }
 
     /// What [`assess_watched`](Self::assess_watched) says of one component, found in the same drops.
@@ -128,7 +116,10 @@ impl ProductFile {
         Ok(found.map_or_else(|_| unreachable!("nothing exceeds infinity"), |mut found| found.components.remove(0)))
     }
 
-    fn assess_these(
+    /// What [`assess_watched`](Self::assess_watched) says of some components, found in the drops of all, where only drops are of use
+    /// that ask for no more than `most` of any of their limits, by the first contact law and by the other: the search is left as soon as
+    /// a drop is answered that asks for more, which is told.
+    pub(crate) fn assess_these(
         &self,
         these: &[&Component],
         accuracy: &Accuracy,
@@ -449,8 +440,8 @@ impl SideBySide<'_> {
 }
 
 /// What was found of components, and of each drop of a box.
-struct Found {
-    components: Vec<ComponentAssessment>,
+pub(crate) struct Found {
+    pub(crate) components: Vec<ComponentAssessment>,
     landings: Vec<LandingAssessment>,
 }
 

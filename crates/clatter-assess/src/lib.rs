@@ -94,7 +94,7 @@ pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use own::{OwnContact, OwnContacts};
-pub use portrait::{Changes, CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
+pub use portrait::{CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
 pub use product::{Depth, Drop, DropName, Fall, Feet, First, Landing, Product, ProductFile, RecordFile, Width};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::{Family, GridAxis, LARGEST_FILE, Plan};

@@ -1,10 +1,9 @@
 //! What a page shows of a part beside its verdict: its response in the worst drop, its demand over the tilt, its safe
-//! places, what would make it safe.
+//! places.
 //!
-//! Curves, places and changes are taken from one set of drops over all tilts, each followed once for all parts. What they ask at a
+//! Curves and places are taken from one set of drops over all tilts, each followed once for all parts. What they ask at a
 //! part's own place is held beside what the assessment says there, and all else is scaled alike.
 
-mod changes;
 mod curves;
 mod drops;
 mod plate;
@@ -15,18 +14,15 @@ use clatter::End;
 use clatter_shock::{State, Suspension};
 use rayon::prelude::*;
 
-use crate::design::{Bounds, Change, Lever};
 use crate::drop::{Followed, Model, SingleDrop, Until};
 use crate::engine::PlaceHistory;
 use crate::quantity::Source;
-use crate::reason::Doubt;
 use crate::search::{Ranges, rough_to_rad_s};
 use crate::shock::Shock;
 use crate::{
     Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, Part, ProductFile, Unit,
-    Verdict, WorstCase,
+    WorstCase,
 };
-use changes::{Failing, Shared};
 use drops::{Drops, Places, Tilt, along, parts, tilts};
 pub use plate::{CornerStrike, PlaceMap, PlatePortrait};
 use scale::Scale;
@@ -47,15 +43,6 @@ pub struct Point {
     pub share: f64,
 }
 
-/// What would make a part hold with a margin of 10 %, by the drops of the pictures. `clatter design` assesses such changes.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Changes {
-    /// Each is enough alone.
-    pub enough: Vec<Change>,
-    /// Those that are not enough alone, with the values between which they were tried.
-    pub not: Vec<(Lever, [f64; 2])>,
-}
-
 /// A part to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Portrait {
@@ -68,10 +55,7 @@ pub struct Portrait {
     /// Where the middle of the part could be, and every limit hold in the drops that were followed, in m from the middle of the
     /// product.
     pub zone_m: Option<[f64; 2]>,
-    /// Changes within [`Bounds::default`]; none for a part that is safe, and for one of which the assessment does not know how much
-    /// may be asked.
-    pub changes: Option<Changes>,
-    /// What is drawn of a plate in place of curves over the tilt, of zones and of changes; none of a bar, and where no drop is answered.
+    /// What is drawn of a plate in place of curves over the tilt and of zones; none of a bar, and where no drop is answered.
     pub plate: Option<PlatePortrait>,
 }
 
@@ -80,8 +64,6 @@ pub struct Portrait {
 const POINTS: f64 = 600.0;
 const IN_A_PERIOD: f64 = 16.0;
 const MOST_POINTS: f64 = 12_000.0;
-/// Margin that changes are to leave.
-const MARGIN: f64 = 0.1;
 
 impl ProductFile {
     /// Portraits of all components of an assessment of this file.
@@ -90,7 +72,7 @@ impl ProductFile {
     /// Drops at some forty tilts with either end first are followed until the product lands again, or past the peak of the worst
     /// cases: at the highest speed and the ends of the ranges of spin, restitution and contact time. All parts are asked in the same drops.
     /// The curve over the tilt holds besides the drops with the speed, spin, restitution and contact time of the worst case, and the worst
-    /// case itself. Safe places and changes are those where no drop asks more than at the part's own place, but for what the
+    /// case itself. Safe places are those where no drop asks more than at the part's own place, but for what the
     /// assessment leaves room for there: they are as good as these drops, and an assessment decides.
     /// Of a plate that has no contact law of its own the drops are those of the hysteretic one. What is not answered is not drawn;
     /// nothing is of an assessment of another product, or of data that [`check`](Self::check) refuses.
@@ -113,7 +95,7 @@ impl ProductFile {
                 let given =
                     |worst: &WorstCase| each[worst.listed].drop.direction_rad.map(|given| [given.lo(), given.hi()]);
                 let plate = plate::portrait(component, assessed, given, until);
-                Portrait { history, impacts_s, plate, over_tilt: Vec::new(), zone_m: None, changes: None }
+                Portrait { history, impacts_s, plate, over_tilt: Vec::new(), zone_m: None }
             };
             return self.components.par_iter().zip(&assessment.components).map(portrait).collect();
         }
@@ -129,28 +111,17 @@ impl ProductFile {
         let fastest = self.components.iter().map(rough_to_rad_s).fold(0.0, f64::max);
         let places = zone::grid(self.product.sides_m()[0]);
         let grids: Vec<_> = drops.iter().map(|drops| Places::new(drops, places.clone(), fastest)).collect();
-        let bounds = Bounds::default();
-        let (file, accuracy) = (self, assessment.accuracy);
-        let (tilts, laws, grids, changed) = (&tilts[..], &laws[..], &grids[..], Default::default());
-        let shared = Shared { file, accuracy, bounds: &bounds, tilts, until, laws, grids, changed }.with_room();
         let each = self.components.par_iter().zip(&assessment.components);
         let portrait = |(component, assessed)| {
             let tightest: &LimitAssessment = ComponentAssessment::tightest(assessed);
             let (ranges, own) = (at_worst(tightest), tightest.worst_case.map_or(0, |worst| worst.listed));
             let (history, impacts_s) = Self::history(tightest, &ranges).unwrap_or_default();
             let over_tilt = curves::over_tilt(&ranges, &drops[0], (component, tightest), &tilts[own], until);
-            let fastest = bounds.frequency_factor * rough_to_rad_s(component);
+            let fastest = rough_to_rad_s(component);
             let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, along(component), fastest)).collect();
-            let (mut zone_m, mut changes) = (None, None);
-            if let Some(scales) = scales(component, assessed, &ends) {
-                zone_m = zone::zone(grids, component, assessed, &scales, 0.0);
-                let failing = Failing { component, assessed, scales: &scales, ends: &ends };
-                // Where drops are not answered no change is known to be enough.
-                let mut doubts = assessed.limits.iter().flat_map(|limit| &limit.undecided);
-                let is_of_demand = doubts.all(Doubt::is_of_demand);
-                changes = (assessed.verdict != Verdict::Safe && is_of_demand).then(|| shared.changes(&failing));
-            }
-            Portrait { history, impacts_s, over_tilt, zone_m, changes, plate: None }
+            let scales = scales(component, assessed, &ends);
+            let zone_m = scales.and_then(|scales| zone::zone(&grids, component, assessed, &scales));
+            Portrait { history, impacts_s, over_tilt, zone_m, plate: None }
         };
         each.map(portrait).collect()
     }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use clatter_shock::{DampingRatio, Extremes, Peaked, Pulse, Pulses, Response, Shape, State, Suspension};
 use serde::Serialize;
 
-use crate::{Component, DataFault, Error, Mount, Product};
+use crate::{Component, DataFault, Error, Mount, Product, units};
 
 /// What is limited. A new kind stands last: which random numbers are drawn for a limit follows from its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -39,6 +39,20 @@ pub enum Unit {
     /// rad/s
     #[serde(rename = "rad/s")]
     RadianPerSecond,
+}
+
+impl Unit {
+    /// The unit that engineers use for it: gn, mm, m/s and rad/s.
+    #[must_use]
+    pub fn customary(self) -> &'static units::Unit {
+        let (dimension, name) = match self {
+            Self::MeterPerSecondSquared => (&units::ACCELERATION, "gn"),
+            Self::Meter => (&units::LENGTH, "mm"),
+            Self::MeterPerSecond => (&units::SPEED, "m/s"),
+            Self::RadianPerSecond => (&units::ANGULAR_VELOCITY, "rad/s"),
+        };
+        dimension.unit(name).unwrap_or_else(|| unreachable!("{name} is no unit of {}", dimension.name))
+    }
 }
 
 /// What a limited quantity is taken from.

@@ -69,23 +69,6 @@ pub enum Doubt {
     },
 }
 
-impl Doubt {
-    /// Whether a part that is asked for less leaves it behind: not where drops are not answered.
-    pub(crate) fn is_of_demand(&self) -> bool {
-        match self {
-            Self::Others { .. } | Self::Friction { .. } | Self::Laws(_) | Self::ExceededByOtherLaw(_) | Self::Stop { .. } => true,
-            Self::OtherLaw { doubts, .. } => doubts.iter().all(Self::is_of_demand),
-            Self::Unanswered(_)
-            | Self::Refused { .. }
-            | Self::Stopped { .. }
-            | Self::NoTilt(_)
-            | Self::Fullest(..)
-            | Self::Contradiction(_)
-            | Self::NoBound => false,
-        }
-    }
-}
-
 impl Display for Doubt {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         match self {

@@ -88,7 +88,7 @@ fn shown(quantity: &Quantity, dimension: &Dimension) -> (f64, String) {
 /// A value in the largest unit in which it is 1 or more.
 fn in_words(si: f64, dimension: &Dimension) -> String {
     let metric =
-        |unit: &&Unit| ["m", "mm", "kg", "g", "mg", "s", "ms", "us", "Hz", "kHz", "m/s", "g"].contains(&unit.name);
+        |unit: &&Unit| ["m", "mm", "kg", "g", "mg", "s", "ms", "us", "Hz", "kHz", "m/s", "gn"].contains(&unit.name);
     let all = dimension.units.iter().filter(metric).filter(|unit| unit.of_si(si) >= 1.0 - 1e-9);
     let unit = all.min_by(|a, b| a.of_si(si).total_cmp(&b.of_si(si))).or(dimension.si_unit());
     with(unit.map_or(si, |unit| unit.of_si(si)), unit)
@@ -136,7 +136,7 @@ mod tests {
                 "acceleration_limit",
                 &ACCELERATION,
                 "4e5 g",
-                "an acceleration limit of 400000 g is none that products have, from 1 g to 100000 g: 400000 m/s2?",
+                "an acceleration limit of 400000 gn is none that products have, from 1 gn to 100000 gn: 400000 m/s2?",
             ),
             ("mass", &MASS, "250 kg", "a mass of 250 kg is none that products have, from 10 mg to 200 kg: 250 g?"),
         ] {

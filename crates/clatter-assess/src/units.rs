@@ -134,10 +134,10 @@ pub static ANGLE: Dimension = Dimension {
 /// Accelerations; a gram cannot be meant here, so that `g` is standard gravity.
 pub static ACCELERATION: Dimension = Dimension {
     name: "acceleration",
-    example: "400 g",
+    example: "400 gn",
     plain: false,
-    units: units!(Acceleration, acceleration: "m/s2" meter_per_second_squared, "g" standard_gravity,
-        "gn" standard_gravity, "G" standard_gravity),
+    units: units!(Acceleration, acceleration: "m/s2" meter_per_second_squared, "gn" standard_gravity,
+        "g" standard_gravity, "G" standard_gravity),
 };
 /// Frequencies.
 pub static FREQUENCY: Dimension = Dimension {
@@ -166,6 +166,12 @@ impl Dimension {
     pub fn names(&self) -> String {
         let names: Vec<_> = self.units.iter().map(|unit| unit.name).collect();
         names.join(", ")
+    }
+    /// The unit of this name; of several spellings of one unit the first, in which answers are told.
+    #[must_use]
+    pub fn unit(&self, name: &str) -> Option<&'static Unit> {
+        let named = self.units.iter().find(|unit| unit.name == name)?;
+        self.units.iter().find(|unit| unit.to_si(1.0).to_bits() == named.to_si(1.0).to_bits())
     }
     /// The SI unit; none of a kind that has plain numbers.
     #[must_use]
@@ -201,8 +207,7 @@ impl Dimension {
             ("", _) => Err(format!("{text:?} has no unit: one of {}, as in \"{example}\"", self.names())),
             (_, []) => Err(format!("{text:?} has a unit, and this is a plain number")),
             _ => {
-                let spelled = spelled(unit);
-                let found = self.units.iter().find(|known| known.name == spelled);
+                let found = self.unit(&spelled(unit));
                 let unit =
                     found.ok_or_else(|| format!("{unit:?} is no unit of {}: one of {}", self.name, self.names()))?;
                 Ok(Quantity { si: unit.to_si(number), unit: Some(unit) })
@@ -300,7 +305,7 @@ mod tests {
             (&LENGTH, "1,2 m", "\",2 m\" is no unit"),
             (&LENGTH, "nan m", "does not begin with a number"),
             (&LENGTH, "1e999 m", "beyond the range"),
-            (&ACCELERATION, "400 kg", "\"kg\" is no unit of acceleration: one of m/s2, g, gn, G"),
+            (&ACCELERATION, "400 kg", "\"kg\" is no unit of acceleration: one of m/s2, gn, g, G"),
             (&SHARE, "5 %%", "\"%%\" is no unit of number"),
             (&LENGTH, "1 m^2", "\"m^2\" is no unit of length"),
             (&NUMBER, "0.3 m", "has a unit"),

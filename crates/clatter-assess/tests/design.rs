@@ -2,7 +2,9 @@
 //! against scans of what is nearer.
 
 use clatter_assess::design::{Bounds, Change, Lever, Outcome, Remedies, Together};
-use clatter_assess::{Accuracy, ComponentAssessment, LimitKind, Model, ProductFile, Verdict};
+use clatter_assess::{
+    Accuracy, ComponentAssessment, Damping, EXAMPLE, Law, LimitKind, Model, Mount, ProductFile, Spread, Verdict,
+};
 
 /// A number without the digits that a conversion adds.
 fn neat(x: f64) -> f64 {
@@ -104,7 +106,8 @@ impl Text {
     /// The part, assessed in the file with these changes, is what is told of it.
     fn is_told(&self, changes: &[Change], after: &ComponentAssessment, accuracy: &Accuracy) -> ComponentAssessment {
         let again = changes.iter().fold(self.clone(), |text, change| text.with(change)).assessed(accuracy);
-        let (now, told) = (again.tightest().room(), after.tightest().room());
+        let file = self.read();
+        let (now, told) = (file.least_margin(&again), file.least_margin(after));
         // The same drops, of a file that has been written and read: but for roundings the same answers.
         assert!((now - told).abs() < 1e-9, "{changes:?}: {now}, told {told}");
         assert_eq!(again.verdict, after.verdict, "{changes:?}");
@@ -183,7 +186,8 @@ fn remedies_put_into_the_file_have_the_margin() {
             let has = |changes: &[Change], after: &ComponentAssessment| {
                 let again = text.is_told(changes, after, &Accuracy::default());
                 assert_eq!(again.verdict, Verdict::Safe, "{changes:?}");
-                assert!(again.tightest().room() >= margin, "{changes:?}: {} of {margin}", again.tightest().room());
+                let left = text.read().least_margin(&again);
+                assert!(left >= margin, "{changes:?}: {left} of {margin}");
             };
             let mut found = 0;
             for remedy in &remedies.levers {
@@ -202,13 +206,13 @@ fn remedies_put_into_the_file_have_the_margin() {
             if let Some(Together { changes, after }) = &remedies.nearest {
                 assert!(found == 0 && remedies.pair.is_none());
                 let again = text.is_told(changes, after, &Accuracy::default());
-                assert!(again.verdict != Verdict::Safe || again.tightest().room() < margin, "{again:?}");
+                assert!(again.verdict != Verdict::Safe || text.read().least_margin(&again) < margin, "{again:?}");
                 nearest += 1;
             }
             assert!(found > 0 || remedies.pair.is_some() || remedies.nearest.is_some(), "{remedies:?}");
         }
     }
-    assert!(alone >= 10 && pairs > 0 && nearest > 0, "{alone} {pairs} {nearest}");
+    assert!(alone >= 8 && pairs > 0 && nearest > 0, "{alone} {pairs} {nearest}");
 }
 
 /// Two digits, places and radii to 1 mm of 150 mm and 300 mm, no mass outside of the body; a range covers the one that was moved.
@@ -375,8 +379,9 @@ fn no_smaller_change_is_enough() {
             for k in 1..=12 {
                 let share = ends * f64::from(k) / 12.0;
                 let to = std::array::from_fn(|n| change.from[n] + share * (change.to[n] - change.from[n]));
-                let tried = text.with(&Change { to, ..change }).assessed(&accuracy);
-                let enough = tried.verdict == Verdict::Safe && tried.tightest().room() >= margin;
+                let tried = text.with(&Change { to, ..change });
+                let after = tried.assessed(&accuracy);
+                let enough = after.verdict == Verdict::Safe && tried.read().least_margin(&after) >= margin;
                 assert!(!enough, "{to:?} is short of {change:?}");
                 scanned += 1;
             }
@@ -457,4 +462,100 @@ component = [{ name = "part", position = "30 mm", mount = "hard", velocity_chang
     for (bound, want) in bounds.into_iter().zip([0.2e-3, 2e-3]) {
         assert!((bound / want - 1.0).abs() < 1e-9, "{bounds:?}");
     }
+}
+
+/// The product with a change of one of its parts.
+fn changed(file: &ProductFile, part: usize, change: &Change) -> ProductFile {
+    let mut file = file.clone();
+    let [lo, hi] = change.to;
+    let to = Spread::new(lo, hi, if lo < hi { Law::Range } else { Law::Value }).unwrap();
+    let component = &mut file.components[part];
+    match (change.lever, &mut component.mount) {
+        (Lever::InertiaRatio, _) => file.product = file.product.with_inertia_ratio(lo).unwrap(),
+        (Lever::Restitution, _) => file.product.restitution = to,
+        (Lever::ContactTime, _) => file.product.contact_time_s = Some(to),
+        (Lever::Position, _) => component.position_m = to,
+        (Lever::Across, _) => component.across_m = to,
+        (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => *frequency_hz = to,
+        (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = Damping::Ratio(to),
+        (Lever::Limit(kind), _) => component.limits = component.limits.with(kind, to),
+        (lever, mount) => panic!("{lever:?} of {mount:?}"),
+    }
+    file
+}
+
+/// The least of what is allowed over what is asked, less 1, by each contact law that the verdict counts with.
+fn least_margin(file: &ProductFile, of: &ComponentAssessment) -> f64 {
+    let by_both = file.product.contact_law.is_none();
+    let asked = of.limits.iter().flat_map(|limit| {
+        let other = limit.other_law.filter(|_| by_both);
+        limit.demand.into_iter().chain(other).map(|asked| limit.allowed / asked - 1.0)
+    });
+    asked.fold(f64::INFINITY, f64::min)
+}
+
+/// Products as they are handed out, one of them with a contact law that is named; a plate, a box and a list of drops.
+fn worked() -> Vec<(&'static str, String)> {
+    let plate = r#"
+product = { name = "plate", length = "150 mm", width = "70 mm", radius_of_gyration = ["43 mm", "20 mm"], restitution = 0.3, contact_time = "0.5 ms" }
+drop = { speed = "4 m/s", tilt = "5 deg", direction = "60 deg" }
+component = [{ name = "part", position = ["30 mm", "0 mm"], natural_frequency = "200 Hz", damping_ratio = 0.05, acceleration_limit = "400 gn" }]
+"#;
+    let block = r#"
+product = { name = "box", length = "150 mm", width = "70 mm", thickness = "30 mm", masses = [{ name = "all", mass = "200 g", from = ["-75 mm", "-35 mm"], to = ["75 mm", "35 mm"] }], restitution = 0.2, contact_time = "1 ms" }
+drop = [{ height = "0.5 m", face = "bottom", attitude_tolerance = "2 deg" }]
+component = [{ name = "part", position = ["30 mm", "0 mm"], mount = "hard", acceleration_limit = "500 gn" }]
+"#;
+    let list = r#"
+product = { name = "list", length = "150 mm", radius_of_gyration = "43 mm", restitution = 0.3, contact_time = "0.5 ms" }
+drop = [{ speed = "4 m/s", tilt = "3 deg" }, { speed = "2 m/s", tilt = ["10 deg", "20 deg"], first = "b" }]
+component = [{ name = "part", position = "30 mm", natural_frequency = "200 Hz", damping_ratio = 0.05, acceleration_limit = "400 gn" }]
+"#;
+    let terminal = include_str!("../../../reports/examples/handheld-terminal.toml");
+    let named = terminal.replace("contact_time = ", "contact_law = \"dashpot\"\ncontact_time = ");
+    vec![
+        ("example", EXAMPLE.to_owned()),
+        ("terminal", terminal.to_owned()),
+        ("named", named),
+        ("phone", include_str!("../../../reports/examples/phone.toml").to_owned()),
+        ("laptop", include_str!("../../../reports/examples/laptop.toml").to_owned()),
+        ("plate", plate.to_owned()),
+        ("block", block.to_owned()),
+        ("list", list.to_owned()),
+    ]
+}
+
+/// A change that is told is what an assessment of the whole file with it says: safe, with the margin that is told, which counts both
+/// contact laws where the file names none.
+#[test]
+fn a_told_change_is_what_an_assessment_of_the_changed_file_says() {
+    let margin = 0.1;
+    let mut two_laws = 0;
+    for (name, text) in worked() {
+        let file = ProductFile::read(&text, name).unwrap_or_else(|faults| panic!("{faults}"));
+        let assessment = file.assess().unwrap();
+        let all = file.remedies(&assessment, &Bounds::default(), margin).unwrap();
+        let mut count = 0;
+        for remedies in &all {
+            let part = remedies.component;
+            let alone = remedies.levers.iter().filter_map(|remedy| match &remedy.outcome {
+                Outcome::Change { change, after } => Some((vec![*change], after)),
+                _ => None,
+            });
+            let pair = remedies.pair.iter().map(|pair| (pair.changes.clone(), &pair.after));
+            for (changes, told) in alone.chain(pair) {
+                let changed = changes.iter().fold(file.clone(), |file, change| changed(&file, part, change));
+                let after = changed.assess().unwrap().components.remove(part);
+                let (now, said) = (least_margin(&changed, &after), file.least_margin(told));
+                assert_eq!(after.verdict, Verdict::Safe, "{name}: {changes:?}");
+                // The same drops of a file that was written and read: but for roundings the same answers.
+                assert!((now - said).abs() < 1e-9, "{name}: {changes:?}: {now}, told {said}");
+                assert!(said >= margin, "{name}: {changes:?}: {said}");
+                two_laws += usize::from(after.tightest().margin.unwrap() > now + 1e-3);
+                count += 1;
+            }
+        }
+        assert!(count > 0 || all.is_empty(), "{name}");
+    }
+    assert!(two_laws > 0, "of no change the other law asks more");
 }

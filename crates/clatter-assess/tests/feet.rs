@@ -230,21 +230,6 @@ fn a_model_with_less_physics_is_no_way_around() {
     }
 }
 
-/// Where drops are not answered no page says what would make a part safe.
-#[test]
-fn no_change_is_enough_for_drops_that_are_not_answered() {
-    let tells = |allowed: &str, height: &str| {
-        let failing = bar(LAPTOP).replace("\"900 gn\"", allowed).replace("\"6 mm\"", height);
-        let file = read(&failing.replace("[\"1 deg\", \"8 deg\"]", "[\"1 deg\", \"3 deg\"]"));
-        let assessment = file.assess().expect("an assessment");
-        let why = assessment.components[0].limits[0].why_undecided().unwrap_or_default();
-        (file.portraits(&assessment)[0].changes.is_some(), why.contains("are not answered"))
-    };
-    // Asked for 270 gn.
-    assert_eq!(tells("\"200 gn\"", "\"20 mm\""), (true, false));
-    assert_eq!(tells("\"900 gn\"", "\"2.5 mm\""), (false, true));
-}
-
 /// By how much drops that are not answered may exceed the demand, energy says, and where it does not nothing does.
 #[test]
 fn what_is_not_answered_may_ask_for_all_that_energy_allows() {

@@ -154,10 +154,17 @@ impl Args {
         let drawing = Counted::begin("drawing", 0);
         let portraits = file.portraits(assessment);
         drop(drawing);
+        let remedies = {
+            let changes = Counted::begin("changing", 0);
+            clatter_answer::design::of_pages(file, assessment, &|done, all| {
+                changes.of(done, all);
+                budget::go_on()
+            })?
+        };
         let name = self.products[0].file_name().map_or(&*self.products[0], Path::new);
         let path = text::path(name);
         let date = self.date.as_deref();
-        let pages = Pages { file, assessment, portraits: &portraits, measured, path: &path, date };
+        let pages = Pages { file, assessment, portraits: &portraits, remedies: &remedies, measured, path: &path, date };
         let printing = Counted::begin("making the printed report", 0);
         let mut progress = |step: &str| {
             printing.step(step);

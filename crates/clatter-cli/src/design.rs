@@ -71,7 +71,8 @@ pub(crate) struct Args {
     /// Largest factor on what a part stands and on the room that it has, above 1
     #[arg(long, value_name = "F", default_value = "4", allow_hyphen_values = true, value_parser = factor)]
     limit_factor: f64,
-    /// Margin allowed/demand - 1 that every limit of a part is to have: 0.2 or 20%
+    /// Margin allowed/demand - 1 that every limit of a part is to have: 0.2 or 20%; by
+    /// both contact laws where contacts take time and the file names none
     #[arg(long, value_name = "SHARE", default_value = "10%", allow_hyphen_values = true, value_parser = margin)]
     margin: f64,
     /// Write the plane of q and e to this file: .svg a picture, .csv its borders or margins. Of a product within --q and

@@ -57,7 +57,7 @@ pub(crate) struct DropArgs {
     /// Tilt when end a touches, below 90deg; 0deg for a flat drop, in which end a counts as the first
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = quantities::tilt, requires = "followed", conflicts_with = "tilt_deg")]
     tilt: Option<Quantity>,
-    /// Acceleration of gravity; the model map leaves it out [default: 1g]
+    /// Acceleration of gravity; the model map leaves it out [default: 1gn]
     #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true, value_parser = quantities::gravity, requires = "followed", conflicts_with = "gravity_m_s2")]
     gravity: Option<Quantity>,
     /// How long a lone contact of one end takes, from touch to parting; for compliant, and in `clatter respond` for the

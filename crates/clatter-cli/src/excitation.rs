@@ -67,12 +67,12 @@ pub(crate) fn shape(text: &str) -> Result<Shape, String> {
 /// By the keyword of a standard, or by shape, amplitude, duration and starts.
 pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
     if let Some(standard) = clatter_shock::standard_pulse(text) {
-        return Ok(PulseArg { pulses: vec![standard.pulse()], unit: plain_or_typed(&ACCELERATION, "1g")?.unit });
+        return Ok(PulseArg { pulses: vec![standard.pulse()], unit: plain_or_typed(&ACCELERATION, "1gn")?.unit });
     }
     let [name, amplitude, duration, starts @ ..] = &parts(text, ',')[..] else {
         let known: Vec<_> = clatter_shock::STANDARD_PULSES.iter().map(|pulse| pulse.keyword).collect();
         return Err(format!(
-            "a pulse is SHAPE,AMPLITUDE,DURATION,START, such as half-sine,1500g,0.5ms,0s; numbers without a unit are in \
+            "a pulse is SHAPE,AMPLITUDE,DURATION,START, such as half-sine,1500gn,0.5ms,0s; numbers without a unit are in \
              SI: SHAPE,AMPLITUDE_M_S2,DURATION_S,START_S. Levels that are built in: {}; those of other standards, IEC 60068-2-27 among \
              them, are given so",
             known.join(", ")
@@ -160,7 +160,7 @@ fn allowed(text: &str) -> Result<(f64, Option<Typed>), String> {
     LIMITED.into_iter().find_map(read).ok_or_else(|| {
         let units: Vec<_> = LIMITED.iter().map(|dimension| dimension.names()).collect();
         format!(
-            "'{}' is not a number such as 4000, in the unit of the quantity, or one with its unit such as 1500g: {}",
+            "'{}' is not a number such as 4000, in the unit of the quantity, or one with its unit such as 1500gn: {}",
             visible(text),
             units.join(", ")
         )
@@ -170,7 +170,7 @@ fn allowed(text: &str) -> Result<(f64, Option<Typed>), String> {
 pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
     if let Some(standard) = clatter_shock::standard_curve(text) {
         let curve = standard.limit_curve().map_err(|error| error.to_string())?;
-        let unit = ACCELERATION.units.iter().find(|unit| unit.name == standard.unit);
+        let unit = ACCELERATION.unit(standard.unit);
         return Ok(LimitArg { curve, level: None, typed: unit.map(|unit| (&ACCELERATION, unit)) });
     }
     if !text.contains(':') {
@@ -223,10 +223,10 @@ pub(crate) fn tolerance(text: &str) -> Result<Tolerance, String> {
     }
 }
 
-/// What a shock table can do; in ms, g and m/s where no unit is given.
+/// What a shock table can do; in ms, gn and m/s where no unit is given.
 pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
-    let form = "a shock table is SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE in ms, g and m/s, such as 0.2:20,5000,20 or \
-                0.2ms:20ms,5000g,20m/s";
+    let form = "a shock table is SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE in ms, gn and m/s, such as 0.2:20,5000,20 or \
+                0.2ms:20ms,5000gn,20m/s";
     let [durations, acceleration, velocity_change] = parts(text, ',')[..] else {
         return Err(form.to_owned());
     };
@@ -244,7 +244,7 @@ pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
     let table = ShockTable {
         shortest: positive("shortest half-sine in ms", &TIME, 1e-3, shortest)?,
         longest: positive("longest half-sine in ms", &TIME, 1e-3, longest)?,
-        acceleration: positive("acceleration in g", &ACCELERATION, STANDARD_GRAVITY_M_S2, acceleration)?,
+        acceleration: positive("acceleration in gn", &ACCELERATION, STANDARD_GRAVITY_M_S2, acceleration)?,
         velocity_change: positive("velocity change in m/s", &SPEED, 1.0, velocity_change)?,
     };
     if table.shortest > table.longest {

@@ -44,7 +44,7 @@ end b when end a first touches. One time unit is what end b would still need
 to the ground if the bar did not turn: 0.5 ms for h0 = 2 mm at v0 = 4 m/s.
 
 Quantities are numbers with their unit: 150mm, 0.4 ms, 4.85 m/s, 180Hz, 5deg,
-1500g or 15 m/s^2, 5 %. For accelerations g and gn are standard gravity,
+1500gn or 15 m/s^2, 5 %. For accelerations gn, g and G are standard gravity,
 9.80665 m/s². A contact time is that of a lone contact of one end, from touch
 to parting; 'clatter init -' tells what is known of it, and of e. A file named
 - is standard input.

@@ -86,7 +86,7 @@ pub(crate) fn limit(path: &Path, dimension: &'static Dimension) -> Result<LimitA
     }
     let curve = LimitCurve::new(read.points).map_err(|reason| bad(reason.into()))?;
     let spelled = read.unit.map(|unit| unit.to_lowercase());
-    let unit = spelled.and_then(|spelled| dimension.units.iter().find(|unit| unit.name == spelled));
+    let unit = spelled.and_then(|spelled| dimension.unit(&spelled));
     Ok(LimitArg { curve, level: None, typed: unit.map(|unit| (dimension, unit)) })
 }
 

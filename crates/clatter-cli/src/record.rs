@@ -45,7 +45,7 @@ Examples:
   clatter record drop.csv --acceleration=az -o drop.svg
   clatter record logger.txt --units=ms,g -o drop.csv
   clatter record day.csv --detrend=mean --find --format=csv
-  clatter record table.csv --low-pass=1650 --fit-pulse --nominal=half-sine,50g,11ms -o pulse.svg")]
+  clatter record table.csv --low-pass=1650 --fit-pulse --nominal=half-sine,50gn,11ms -o pulse.svg")]
 pub(crate) struct Args {
     /// A file of measured accelerations; - is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -60,7 +60,7 @@ pub(crate) struct Args {
     /// standards
     #[arg(long)]
     fit_pulse: bool,
-    /// The pulse that tolerances are about, such as half-sine,50g,11ms or JESD22-B110/B [default: the best that fits]
+    /// The pulse that tolerances are about, such as half-sine,50gn,11ms or JESD22-B110/B [default: the best that fits]
     #[arg(long, value_name = "PULSE", requires = "fit_pulse", value_parser = nominal)]
     nominal: Option<Pulse>,
     /// Also velocity and displacement, integrated from rest: their last values, and in files a column each
@@ -287,11 +287,11 @@ impl Whole<'_> {
         write_parquet(&series.collect::<Vec<_>>()).map_err(io::Error::other)
     }
 
-    /// All channels over time; in g where the file is. With a fitted pulse the part around it, and the pulse beside.
+    /// All channels over time; in gn where the file is. With a fitted pulse the part around it, and the pulse beside.
     fn picture(&self) -> Result<String, FigureError> {
         let record = self.record;
         let in_g = record.channels().iter().all(|channel| channel.unit.to_lowercase().contains('g'));
-        let unit = if in_g { ACCELERATION.units.iter().find(|unit| unit.name == "g") } else { None };
+        let unit = if in_g { ACCELERATION.unit("gn") } else { None };
         let value = Show { unit, name: "m/s²" };
         let span = self.span();
         let longest_s = record.times().iter().map(|times| times.duration_s()).fold(0.0, f64::max);

@@ -165,8 +165,8 @@ pub(crate) struct Args {
     #[arg(long)]
     equivalent_pulse: bool,
     /// What the shock table can do: its shortest and longest half-sine, its highest acceleration, its largest velocity
-    /// change; in ms, g and m/s where no unit is given
-    #[arg(long, value_name = "TIME:TIME,ACCELERATION,VELOCITY", default_value = "0.2ms:20ms,5000g,20m/s", allow_hyphen_values = true, value_parser = excitation::shock_table, requires = "equivalent_pulse")]
+    /// change; in ms, gn and m/s where no unit is given
+    #[arg(long, value_name = "TIME:TIME,ACCELERATION,VELOCITY", default_value = "0.2ms:20ms,5000gn,20m/s", allow_hyphen_values = true, value_parser = excitation::shock_table, requires = "equivalent_pulse")]
     shock_table: ShockTable,
     /// Also write the rule over W h0/v0 to this file, ending in .csv, .json or .svg
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target, conflicts_with_all = ["shocks_file", "pulses_file"])]

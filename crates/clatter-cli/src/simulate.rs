@@ -66,7 +66,7 @@ Examples:
 Add --at=0 -o drop.svg for a picture, with the shocks of the middle. 'clatter simulate
 --product=phone.toml --component=camera' takes the drop and the part from a product file.
 
-Units: m, mm, cm, um, in, ft; s, ms, us; m/s, mm/s, cm/s, km/h, in/s, ft/s; m/s2 or m/s^2, g; deg,
+Units: m, mm, cm, um, in, ft; s, ms, us; m/s, mm/s, cm/s, km/h, in/s, ft/s; m/s2 or m/s^2, gn; deg,
 rad; Hz, kHz; kg, g, mg, lb, oz. The answer is given in the units that are typed, JSON and CSV in SI.
 
 The motion ends at rest (proven, with bounds on what is left), bounced clear (without gravity, where

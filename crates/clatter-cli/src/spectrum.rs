@@ -69,20 +69,20 @@ use records::Several;
 Examples:
   clatter spectrum drop.csv                                     Q = 10, 10 Hz to 10 kHz
   clatter spectrum drop.csv --units=ms,g --quantity=pseudo-velocity -o drop.svg
-  clatter spectrum --pulse=half-sine,500g,0.5ms --frequency=10Hz:10kHz:12 --damping=5%
+  clatter spectrum --pulse=half-sine,500gn,0.5ms --frequency=10Hz:10kHz:12 --damping=5%
   clatter spectrum --pulse=half-sine,5000,0.0005,0,0.002 --frequency=100,180 --limit=4000
   clatter spectrum --shock=2.5m/s,0s --shock=-1m/s,4ms --frequency=180Hz --quantity=pseudo-velocity
-  clatter spectrum --pulse=half-sine,1000g,1ms --frequency=100Hz --limit=200g \\
+  clatter spectrum --pulse=half-sine,1000gn,1ms --frequency=100Hz --limit=200gn \\
       --damage-boundary -o boundary.svg
   clatter spectrum --pulse=rectangle,600,0.004 --damage-boundary --tests=tests.csv
   clatter spectrum --shocks-file=shocks.csv --frequency=180Hz
   clatter spectrum drop.csv --find --envelope --enveloping-pulse=half-sine
   clatter spectrum drop.csv --frequency=180Hz --history=felt.csv
-  clatter spectrum drop.csv --required=10:9g,80:75g,2000:75g --tolerance=-1.5,6
-  clatter spectrum drop.csv --q-factor=5,10,25 --output-units=g --format=csv
+  clatter spectrum drop.csv --required=10:9gn,80:75gn,2000:75gn --tolerance=-1.5,6
+  clatter spectrum drop.csv --q-factor=5,10,25 --output-units=gn --format=csv
 
-Numbers without a unit are in SI. A limit in g, or where there is none a pulse in g, has the table in
-g; JSON and CSV stay in SI. --output-units has all of them in one.
+Numbers without a unit are in SI. A limit in gn, or where there is none a pulse in gn, has the table in
+gn; JSON and CSV stay in SI. --output-units has all of them in one.
 
 Exit status: 0 done, 1 the limit or the damage boundary is exceeded or the required spectrum not
 seen to be reached all over its range, 2 bad input."
@@ -110,7 +110,7 @@ pub(crate) struct Args {
     /// Which quantity of the component
     #[arg(long, value_enum, default_value_t = QuantityName::Acceleration)]
     quantity: QuantityName,
-    /// What the component stands, with its unit or in SI: one value, such as 1500g, or points of a curve that is
+    /// What the component stands, with its unit or in SI: one value, such as 1500gn, or points of a curve that is
     /// straight on log-log paper
     #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
     limit: Option<LimitArg>,
@@ -197,6 +197,7 @@ impl From<Interpolation> for Between {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum OutputUnits {
     /// Standard gravity, 9.80665 m/s²
+    #[value(name = "gn", alias = "g")]
     G,
     /// m/s²
     Si,
@@ -291,7 +292,7 @@ impl Args {
         let is_acceleration = self.quantity.dimension().name == ACCELERATION.name;
         if self.output_units == Some(OutputUnits::G) && !is_acceleration {
             return Err(Failure::Usage(
-                "--output-units=g goes with the quantities acceleration and equivalent-static-acceleration alone",
+                "--output-units=gn goes with the quantities acceleration and equivalent-static-acceleration alone",
             ));
         }
         if self.history.is_some() && self.excitation.records.is_empty() {
@@ -383,10 +384,10 @@ impl Args {
         Show { unit: typed.or(pulse), name: self.quantity.name()[1] }
     }
 
-    /// How CSV and JSON have the quantity: in SI unless g is asked for.
+    /// How CSV and JSON have the quantity: in SI unless gn is asked for.
     fn written(&self) -> Show {
         let in_g = self.output_units == Some(OutputUnits::G);
-        let unit: Option<&'static Unit> = ACCELERATION.units.iter().find(|unit| in_g && unit.name == "g");
+        let unit = if in_g { ACCELERATION.unit("gn") } else { None };
         Show { unit, name: self.quantity.name()[1] }
     }
 

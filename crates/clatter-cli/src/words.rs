@@ -1,22 +1,14 @@
 //! Values as people say them: in common units, with as many digits as they are good for.
 
 use clatter_answer::significant;
-use clatter_assess::{Axis, DropName, STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
+use clatter_assess::{Axis, DropName, Unit, WorstCase, units};
 
 use crate::inputs;
 
 /// A value in the unit that it was written in, or else in the one that people use for it.
 pub(crate) fn in_words(unit: Unit, written: Option<&units::Unit>, value: f64) -> String {
-    if let Some(written) = written {
-        return format!("{} {}", four(written.of_si(value)), written.name);
-    }
-    let (factor, name) = match unit {
-        Unit::MeterPerSecondSquared => (1.0 / STANDARD_GRAVITY_M_S2, "gn"),
-        Unit::Meter => (1e3, "mm"),
-        Unit::MeterPerSecond => (1.0, "m/s"),
-        Unit::RadianPerSecond => (1.0, "rad/s"),
-    };
-    format!("{} {name}", four(factor * value))
+    let unit = written.unwrap_or(unit.customary());
+    format!("{} {}", four(unit.of_si(value)), unit.name)
 }
 
 /// Four significant digits: more no drop is known to.

@@ -5,6 +5,7 @@
 
 mod channels;
 mod command;
+mod doors;
 mod files;
 mod repeat;
 mod time_limit;

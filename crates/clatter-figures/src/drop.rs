@@ -327,7 +327,7 @@ fn pulses(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2], 
     let bounds = range(rows().flat_map(|(_, forces)| forces.force_per_mass_m_s2.into_iter().chain(positions(forces))));
     let time = time_title(column);
     let unit = Unit { factor: 1.0 / STANDARD_GRAVITY_M_S2, prefix: "" };
-    let panel = panel(paper, column, corner, high, bounds, unit, [&time, "acceleration, g"]);
+    let panel = panel(paper, column, corner, high, bounds, unit, [&time, "acceleration, gn"]);
     panel.chart.level(paper, 0.0, Ink::line(GRAY, 0.6));
     for end in [1, 0] {
         panel.curve(paper, rows().map(|(t, forces)| (t, forces.force_per_mass_m_s2[end])), Ink::line(ENDS[end], 1.8));

@@ -41,7 +41,7 @@ pub fn fit(fit: &Fit) -> Result<String, FigureError> {
         match record.curves.len() {
             0 => strikes(&mut paper, top, record, &fit.computed),
             2 => values(&mut paper, top, record, 1e3, "height, mm"),
-            _ => values(&mut paper, top, record, 1.0 / STANDARD_GRAVITY_M_S2, "acceleration, g"),
+            _ => values(&mut paper, top, record, 1.0 / STANDARD_GRAVITY_M_S2, "acceleration, gn"),
         }
         top += HIGH + GAP;
     }

@@ -489,7 +489,7 @@ mod tests {
                 others: &[&other],
                 map: &map,
                 allowed: 300.0,
-                title: "g",
+                title: "gn",
                 reach_m,
                 place_m,
             })

@@ -35,7 +35,7 @@ const CORNER: [f64; 2] = [52.0, 16.0];
 /// ```
 /// use clatter_figures::{Trace, record};
 /// let points = vec![(0.0, 0.0), (1.0, 50.0), (2.0, 0.0)];
-/// let trace = Trace { name: "ax", title: "g", points, marks: vec![], beside: None };
+/// let trace = Trace { name: "ax", title: "gn", points, marks: vec![], beside: None };
 /// assert!(record(&[trace], "time, ms")?.contains("ax"));
 /// # Ok::<(), clatter_figures::FigureError>(())
 /// ```

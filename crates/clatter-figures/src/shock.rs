@@ -37,11 +37,11 @@ const SLANT: Ink = Ink::line("#c6ced6", 0.4);
 /// The quantity and its unit, in figure markup.
 fn title(quantity: Quantity) -> &'static str {
     match quantity {
-        Quantity::AbsoluteAcceleration => "absolute acceleration, g",
+        Quantity::AbsoluteAcceleration => "absolute acceleration, gn",
         Quantity::RelativeDisplacement => "relative displacement, m",
         Quantity::RelativeVelocity => "relative velocity, m/s",
         Quantity::PseudoVelocity => "pseudo-velocity, m/s",
-        Quantity::EquivalentStaticAcceleration => "equivalent static acceleration, g",
+        Quantity::EquivalentStaticAcceleration => "equivalent static acceleration, gn",
     }
 }
 
@@ -384,7 +384,7 @@ pub fn boundary(
         corner: [52.0, 12.0],
         size,
         x: Axis::log(least(0, v / 5.0), right, "velocity change of the base, m/s"),
-        y: Axis::log(least(1, a / 5.0), most(1, 30.0 * a), "peak acceleration of the base, g"),
+        y: Axis::log(least(1, a / 5.0), most(1, 30.0 * a), "peak acceleration of the base, gn"),
     };
     let mut paper = Paper::new(size[0] + 66.0, size[1] + 42.0);
     let axes = axes.on(&mut paper, 38.0);
@@ -411,7 +411,7 @@ pub fn boundary(
     word(&mut paper, [0.5 * (vx + left + wide), ay + 0.5 * (top + high - ay)], &["no damage: too little acceleration"]);
     word(&mut paper, [vx + 0.6 * (left + wide - vx), top + 0.3 * (ay - top)], &["damage"]);
     let small = Label { color: GRAY, ..SMALL };
-    paper.text([left + 4.0, ay - 3.0], &format!("critical {} g", three(a)), Label { anchor: Anchor::Start, ..small });
+    paper.text([left + 4.0, ay - 3.0], &format!("critical {} gn", three(a)), Label { anchor: Anchor::Start, ..small });
     paper.text(
         [vx + 3.0, top + high - 4.0],
         &format!("critical {} m/s", three(v)),

@@ -13,7 +13,7 @@ use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, sh
 use serde_json::{Value, json};
 
 use crate::Pages;
-use crate::words::{customary, hundredths, name, percent, sure_name};
+use crate::words::{hundredths, name, percent, sure_name};
 
 /// What the models leave out, in plain words.
 const NOT_COVERED: [[&str; 2]; 10] = [
@@ -50,8 +50,8 @@ const NOT_COVERED: [[&str; 2]; 10] = [
         "The worst drop is searched, and the share by which others may ask for more is told with it. How a product lands once more after it has bounced clear hangs on every input: such drops are a sample.",
     ],
     [
-        "Places and changes",
-        "Where a part could sit and what would make it safe is told of the drops of the figures. An assessment of the changed file decides; clatter design assesses changes, and two together.",
+        "Places",
+        "Where a part could sit is told of the drops of the figures. An assessment of the changed file decides.",
     ],
     ["Damage by repetition", "Each limit is on the worst moment of one drop. Fatigue over many drops is not counted."],
 ];
@@ -130,7 +130,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "undecided": with(Verdict::Undecided),
         "unsafe": with(Verdict::Unsafe),
         "hardest": hardest(assessment),
-        "parts": parts.iter().map(|(of, portrait)| part::part(pages, *of, portrait)).collect::<Vec<_>>(),
+        "parts": parts.iter().enumerate().map(|(i, (of, portrait))| part::part(pages, i, *of, portrait)).collect::<Vec<_>>(),
         "inputs": inputs::rows(file, assessment),
         "differences": measured::differences(file, drops),
         "measured": measured::sections(file, drops),
@@ -175,23 +175,23 @@ fn title(of: &LimitAssessment) -> String {
         LimitKind::AngularVelocityChange => "change of *ω*",
         kind => kind.measured(of.unit),
     };
-    format!("{what}, {}", customary(of.unit).1)
+    format!("{what}, {}", of.unit.customary().name)
 }
 
 /// The response over time of one part.
 fn over_time(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<(String, String), FigureError> {
     let tightest = assessed.tightest();
-    let (factor, _) = customary(tightest.unit);
-    let points: Vec<(f64, f64)> = portrait.history.iter().map(|p| (1e3 * p.0, p.1 / factor)).collect();
+    let unit = tightest.unit.customary();
+    let points: Vec<(f64, f64)> = portrait.history.iter().map(|p| (1e3 * p.0, unit.of_si(p.1))).collect();
     let impacts: Vec<f64> = portrait.impacts_s.iter().map(|t| 1e3 * t).collect();
     let titles = ["time since the first touch, ms", &title(tightest)];
-    Ok((format!("history-{number}.svg"), history(&points, &impacts, tightest.allowed / factor, titles)?))
+    Ok((format!("history-{number}.svg"), history(&points, &impacts, unit.of_si(tightest.allowed), titles)?))
 }
 
 /// The demand of one part of a bar over the tilt.
 fn tilts(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<(String, String), FigureError> {
     let tightest = assessed.tightest();
-    let allowed = tightest.allowed / customary(tightest.unit).0;
+    let allowed = tightest.unit.customary().of_si(tightest.allowed);
     let curves = portrait.over_tilt.iter().map(|(first, curve)| {
         let points: Vec<_> = curve.iter().map(|p| (p.tilt_rad.to_degrees(), allowed * p.share)).collect();
         (if *first == End::A { "end *a* first" } else { "end *b* first" }, points)
@@ -221,6 +221,7 @@ fn share<'a>(((_, assessed), portrait): &Part<'_>, name: &'a str) -> Share<'a> {
 mod tests {
     use super::*;
     use clatter_assess::ProductFile;
+    use clatter_assess::design::{Bounds, Outcome, Remedies, Remedy};
 
     /// A bar.
     const EXAMPLE: &str = include_str!("../../../tests/cases/bar-handheld.toml");
@@ -233,6 +234,7 @@ mod tests {
             file: &file,
             assessment: &assessment,
             portraits: &portraits,
+            remedies: &[],
             measured: &[],
             path: "test.toml",
             date: None,
@@ -264,31 +266,41 @@ mod tests {
         }
     }
 
+    /// A page prints the changes that were found, each in the unit of the file; where none is known it says where to ask.
     #[test]
-    fn a_failing_part_is_told_what_would_make_it_safe() {
-        let file = ProductFile::read(include_str!("../../../tests/cases/bar-phone.toml"), "phone.toml").unwrap();
+    fn a_part_is_told_what_would_make_it_safe() {
+        let file = ProductFile::read(include_str!("../../../tests/cases/bar-laptop.toml"), "laptop.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment);
-        let pages = Pages {
-            file: &file,
-            assessment: &assessment,
-            portraits: &portraits,
-            measured: &[],
-            path: "phone.toml",
-            date: None,
+        let found = file.remedies(&assessment, &Bounds::default(), 0.1).unwrap();
+        let told = |remedies: &[Remedies]| {
+            let (file, assessment) = (&file, &assessment);
+            let portraits = &file.portraits(assessment)[..];
+            let pages = Pages { file, assessment, portraits, remedies, measured: &[], path: "laptop.toml", date: None };
+            let data = data(&files(&pages).unwrap());
+            data["parts"].as_array().unwrap().iter().map(|part| part["changes"].clone()).collect::<Vec<_>>()
         };
-        let data = data(&files(&pages).unwrap());
-        for (part, found) in data["parts"].as_array().unwrap().iter().zip(&assessment.components) {
-            let changes = &part["changes"];
-            assert_eq!(changes.is_null(), found.verdict == Verdict::Safe, "{part}");
-            if changes.is_null() {
-                continue;
-            }
-            for row in changes["rows"].as_array().unwrap() {
-                assert!(row["from"] != row["to"], "{row}");
-            }
-            assert!(changes["say"].as_str().unwrap().contains("10 %"), "{changes}");
+        let all = told(&found);
+        for (part, remedies) in all.iter().zip(&found) {
+            let enough = |remedy: &&Remedy| matches!(remedy.outcome, Outcome::Change { .. });
+            let alone = remedies.levers.iter().filter(enough).count();
+            let together = remedies.pair.as_ref().map_or(0, |pair| pair.changes.len());
+            assert_eq!(part["rows"].as_array().unwrap().len(), alone + together, "{part}");
         }
+        let [disk, fan, _] = &all[..] else { panic!("{all:?}") };
+        assert!(
+            disk["say"].as_str().unwrap().starts_with("No single change is enough; these two together are"),
+            "{disk}"
+        );
+        let place = |row: &&Value| row["what"] == "place";
+        let place = fan["rows"].as_array().unwrap().iter().find(place).expect("its place");
+        assert_eq!((&place["from"], &place["to"]), (&json!("100 mm"), &json!("80 mm")));
+        assert!(told(&[])[0]["say"].as_str().unwrap().contains("clatter design"));
+        let stopped = |remedies: &Remedies| {
+            let levers = remedies.levers.iter().map(|remedy| Remedy { outcome: Outcome::Stopped, ..remedy.clone() });
+            Remedies { levers: levers.collect(), pair: None, nearest: None, ..remedies.clone() }
+        };
+        let stopped = told(&found.iter().map(stopped).collect::<Vec<_>>());
+        assert!(stopped[0]["not"].as_str().unwrap().contains("the time was over"), "{stopped:?}");
     }
 
     /// The share of the tightest limit is demand over allowed; over the tilt the worse of both ends counts; and up to the tilt at which the
@@ -302,6 +314,7 @@ mod tests {
             file: &file,
             assessment: &assessment,
             portraits: &portraits,
+            remedies: &[],
             measured: &[],
             path: "laptop.toml",
             date: None,
@@ -342,6 +355,7 @@ mod tests {
             file: &close,
             assessment: &assessment,
             portraits: &portraits,
+            remedies: &[],
             measured: &[],
             path: "close.toml",
             date: None,
@@ -415,7 +429,8 @@ mod tests {
         let portraits = file.portraits(&assessment);
         let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
         let files =
-            files(&Pages { file, assessment, portraits, measured: &[], path: "many.toml", date: None }).unwrap();
+            files(&Pages { file, assessment, portraits, remedies: &[], measured: &[], path: "many.toml", date: None })
+                .unwrap();
         let drawn = |name: &str| files.iter().find(|(file, _)| file == name).map(|(_, svg)| svg.as_str());
         let rows = (1..=3).map(|k| drawn(&format!("product-{k}.svg")).unwrap().matches(">part ").count());
         assert_eq!(rows.collect::<Vec<_>>(), [32, 32, 6]);
@@ -443,6 +458,7 @@ mod tests {
             file: &file,
             assessment: &assessment,
             portraits: &portraits,
+            remedies: &[],
             measured: &drops,
             path: "test.toml",
             date: None,
@@ -492,6 +508,7 @@ mod tests {
             file: &file,
             assessment: &assessment,
             portraits: &portraits,
+            remedies: &[],
             measured: &[],
             path: "C\u{485}.toml",
             date: None,

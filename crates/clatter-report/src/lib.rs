@@ -18,6 +18,9 @@ pub mod words;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
+use clatter_assess::design::Remedies;
+use clatter_assess::{Assessment, ProductFile};
+
 pub use file::{create, differ_by_case_alone, directory_of, is_protected, place_of, replace, takes_files};
 pub use leftovers::remove_leftovers;
 pub use page::{File, write_pages};
@@ -56,11 +59,13 @@ pub enum ReportError {
 #[derive(Debug, Clone, Copy)]
 pub struct Pages<'a> {
     /// The product.
-    pub file: &'a clatter_assess::ProductFile,
+    pub file: &'a ProductFile,
     /// What was found of it.
-    pub assessment: &'a clatter_assess::Assessment,
+    pub assessment: &'a Assessment,
     /// What there is to draw of each part.
     pub portraits: &'a [clatter_assess::Portrait],
+    /// What would make parts safe with a margin of 10 %; where nothing is told of a part that is not safe, the pages name the command that does.
+    pub remedies: &'a [Remedies],
     /// What was measured of it; a section stands for each drop.
     pub measured: &'a [clatter_assess::fit::MeasuredDrop],
     /// Where the product was read from, as it is to be told.
@@ -81,7 +86,9 @@ pub struct Pages<'a> {
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
 /// let assessment = file.assess()?;
 /// let portraits = file.portraits(&assessment);
-/// let pages = clatter_report::Pages { file: &file, assessment: &assessment, portraits: &portraits, measured: &[], path: "example.toml", date: None };
+/// let remedies = file.remedies(&assessment, &clatter_assess::design::Bounds::default(), 0.1)?;
+/// let (file, assessment, portraits, remedies) = (&file, &assessment, &portraits, &remedies);
+/// let pages = clatter_report::Pages { file, assessment, portraits, remedies, measured: &[], path: "example.toml", date: None };
 /// clatter_report::write_assessment(&pages, "report.pdf".as_ref(), &mut |_| ())?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -1,7 +1,7 @@
 //! How numbers, limits and names are told in running text.
 
 use clatter::End;
-use clatter_assess::{Model, STANDARD_GRAVITY_M_S2, Spread, Unit};
+use clatter_assess::{Model, Spread, Unit};
 
 use clatter_figures::three;
 
@@ -10,18 +10,8 @@ const LONGEST_NAME: usize = 60;
 
 /// A value in the unit that engineers use for it.
 pub(crate) fn shown(unit: Unit, value: f64) -> String {
-    let (factor, name) = customary(unit);
-    if value.is_finite() { format!("{} {name}", three(value / factor)) } else { "∞".to_owned() }
-}
-
-/// What one customary unit is in SI, and its name.
-pub(crate) fn customary(unit: Unit) -> (f64, &'static str) {
-    match unit {
-        Unit::MeterPerSecondSquared => (STANDARD_GRAVITY_M_S2, "g"),
-        Unit::Meter => (1e-3, "mm"),
-        Unit::MeterPerSecond => (1.0, "m/s"),
-        Unit::RadianPerSecond => (1.0, "rad/s"),
-    }
+    let unit = unit.customary();
+    if value.is_finite() { format!("{} {}", three(unit.of_si(value)), unit.name) } else { "∞".to_owned() }
 }
 
 /// A share as one of a hundred.

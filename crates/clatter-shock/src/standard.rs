@@ -47,14 +47,14 @@ const MIL_STD_810: StandardCurve = StandardCurve {
     keyword: "",
     title: "",
     points: &[],
-    unit: "g",
+    unit: "gn",
     quantity: Quantity::AbsoluteAcceleration,
     quality_factor: 10.0,
     source: "MIL-STD-810F, method 516.5, table 516.5-I and figure 516.5-8 (table 516.8-III of MIL-STD-810H): for use if \
              measured data are not available",
 };
 
-/// The limit curves that are built in; levels in g at Q = 10.
+/// The limit curves that are built in; levels in gn at Q = 10.
 pub const STANDARD_CURVES: [StandardCurve; 4] = [
     StandardCurve {
         keyword: "MIL-STD-810/516/functional-flight",
@@ -220,7 +220,7 @@ mod tests {
         // Level and crossover frequency as the table prints them.
         let table = [(20.0, 45.0), (40.0, 45.0), (40.0, 45.0), (75.0, 80.0)];
         for (curve, (level, crossover)) in STANDARD_CURVES.iter().zip(table) {
-            assert_eq!((curve.unit, curve.quality_factor), ("g", 10.0));
+            assert_eq!((curve.unit, curve.quality_factor), ("gn", 10.0));
             let limit = curve.limit_curve().expect("a curve");
             let at = |hz| limit.at(hz).map(|a| a / STANDARD_GRAVITY_M_S2);
             for (hz, want) in [

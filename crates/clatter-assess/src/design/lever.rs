@@ -55,6 +55,20 @@ impl Lever {
             Self::Limit(kind) => kind.lever(),
         }
     }
+    /// What it is called in tables and pages.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::InertiaRatio => "radius of gyration",
+            Self::Restitution => "restitution e",
+            Self::Position => "place",
+            Self::Across => "place across",
+            Self::Frequency => "natural frequency",
+            Self::Damping => "damping ratio",
+            Self::ContactTime => "contact time",
+            Self::Limit(kind) => kind.allowed(),
+        }
+    }
     /// SI unit of its values: empty, `m`, `Hz`, `s` or that of the limit.
     #[must_use]
     pub fn unit(self) -> &'static str {

@@ -8,5 +8,4 @@ mod values;
 
 pub use lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
 pub use plane::{Border, Plane, PlaneComponent};
-pub(crate) use remedies::Case;
 pub use remedies::STEPS;

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
-use super::trial::{Breakers, is_enough, is_known_enough};
+use super::trial::Breakers;
 use crate::quantity::Source;
 use crate::search::Watch;
 use crate::{Accuracy, Assessment, Component, ComponentAssessment, Error, Mount, ProductFile, Verdict};
@@ -27,7 +27,7 @@ impl ProductFile {
     /// Values are tried outward from the present one, in steps of 1/48 of the bounds (frequencies: of their logarithm); the
     /// step in which safety begins is bisected to 1/256. Every value is rounded before it is assessed to what can be specified,
     /// as [`Change::to`] says: [`assess_to`](Self::assess_to) finds the part safe with the margin, of the file with the value as it is
-    /// printed. No mass is put outside of the body, ρ² ≤ `L_a L_b`. A value is passed over at once where a drop that broke the part before still does, and a search for its worst drop
+    /// printed; by both contact laws where contacts take time and the file names none. No mass is put outside of the body, ρ² ≤ `L_a L_b`. A value is passed over at once where a drop that broke the part before still does, and a search for its worst drop
     /// is left as soon as one breaks it: what takes its time is to find nothing. So the first value that no known drop breaks is
     /// searched, and what breaks it tells of the next. Two levers go from their present values to the best of each together.
     ///
@@ -63,7 +63,7 @@ impl ProductFile {
         bounds.check()?;
         assessment.accuracy.check()?;
         assessment.is_of(self)?;
-        let wanting = |c: &ComponentAssessment| !is_enough(c, margin);
+        let wanting = |c: &ComponentAssessment| !self.is_enough(c, margin);
         let failing = assessment.components.iter().enumerate().filter(|(_, found)| wanting(found));
         let levers = |i: usize| Lever::of(&self.product, &self.components[i]);
         let tasks: Vec<_> =
@@ -76,7 +76,8 @@ impl ProductFile {
         };
         let case = |i: usize| {
             let component = &self.components[i];
-            Case { file: self, component, accuracy: assessment.accuracy, bounds, margin, go_on: &go_on }
+            let accuracy = assessment.accuracy;
+            Case { file: self, number: i, component, accuracy, bounds, margin, go_on: &go_on }
         };
         let solve = |&(i, found, lever): &(usize, &ComponentAssessment, Lever)| {
             let outcome = if go_on() { case(i).solve(lever, found) } else { Err(Error::Stopped) };
@@ -106,14 +107,16 @@ impl ProductFile {
 
 /// One part that is to be made safe.
 #[derive(Clone, Copy)]
-pub(crate) struct Case<'a> {
-    pub(crate) file: &'a ProductFile,
-    pub(crate) component: &'a Component,
-    pub(crate) accuracy: Accuracy,
-    pub(crate) bounds: &'a Bounds,
-    pub(crate) margin: f64,
+pub(super) struct Case<'a> {
+    pub(super) file: &'a ProductFile,
+    /// Which component of the file.
+    pub(super) number: usize,
+    pub(super) component: &'a Component,
+    pub(super) accuracy: Accuracy,
+    pub(super) bounds: &'a Bounds,
+    pub(super) margin: f64,
     /// Whether there is time.
-    pub(crate) go_on: &'a (dyn Fn() -> bool + Sync),
+    pub(super) go_on: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Case<'_> {
@@ -170,7 +173,7 @@ impl Case<'_> {
         let mut nearest: Option<Together> = None;
         let mut pair: Option<(u32, Together)> = None;
         for (i, (one, x, after)) in best.iter().enumerate() {
-            nearer(&mut nearest, &[self.change(*one, *x)], after);
+            self.nearer(&mut nearest, &[self.change(*one, *x)], after);
             for (two, y, _) in &best[i + 1..] {
                 let at = |k: u32| {
                     let share = f64::from(k) / f64::from(SHARES);
@@ -185,10 +188,10 @@ impl Case<'_> {
                     // Of use where it takes a smaller share.
                     if *least > 1 { self.first(least - 1, None, &at, &mut breakers)? } else { None }
                 } else {
-                    let room = nearest.as_ref().map(|nearest| nearest.after.tightest().room().min(self.margin));
+                    let room = nearest.as_ref().map(|nearest| self.file.least_margin(&nearest.after).min(self.margin));
                     let Some(all) = self.with_room(&at(SHARES), room, &mut breakers)? else { continue };
-                    if !is_known_enough(&all, self.margin) {
-                        nearer(&mut nearest, &changes(SHARES), &all);
+                    if !self.file.is_known_enough(&all, self.margin) {
+                        self.nearer(&mut nearest, &changes(SHARES), &all);
                         continue;
                     }
                     self.first(SHARES, Some(all), &at, &mut breakers)?
@@ -217,7 +220,7 @@ impl Case<'_> {
         let mut order: Vec<(f64, u32)> = (0..=TRIES).rev().map(asked).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(u32, ComponentAssessment)> = None;
-        let room = |after: &ComponentAssessment| after.tightest().room();
+        let room = |after: &ComponentAssessment| self.file.least_margin(after);
         for (_, k) in order {
             let least = best.as_ref().map(|(_, best)| room(best));
             let Some(after) = self.with_room(&[(lever, at(k))], least, breakers)? else { continue };
@@ -233,7 +236,7 @@ impl Case<'_> {
     }
 
     /// Whether a limit of the part depends on a lever.
-    pub(crate) fn matters(&self, lever: Lever) -> bool {
+    fn matters(&self, lever: Lever) -> bool {
         let kinds = self.component.limits.kinds();
         let suspended = matches!(self.component.mount, Mount::Suspended { .. });
         let responds = kinds.iter().any(|kind| kind.is_response());
@@ -243,13 +246,12 @@ impl Case<'_> {
             Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime | Lever::Limit(_) => true,
         }
     }
-}
-
-/// Keeps the changes that leave the largest margin. Of a limit without an answer nobody knows how near it is.
-fn nearer(nearest: &mut Option<Together>, changes: &[Change], after: &ComponentAssessment) {
-    let unknown = after.limits.iter().any(|l| l.verdict == Verdict::Undecided && l.uncertainty.is_infinite());
-    let closer = |last: &Together| after.tightest().room() > last.after.tightest().room();
-    if !unknown && nearest.as_ref().is_none_or(closer) {
-        *nearest = Some(Together { changes: changes.to_vec(), after: Box::new(after.clone()) });
+    /// Keeps the changes that leave the largest margin. Of a limit without an answer nobody knows how near it is.
+    fn nearer(&self, nearest: &mut Option<Together>, changes: &[Change], after: &ComponentAssessment) {
+        let unknown = after.limits.iter().any(|l| l.verdict == Verdict::Undecided && l.uncertainty.is_infinite());
+        let room = |after: &ComponentAssessment| self.file.least_margin(after);
+        if !unknown && nearest.as_ref().is_none_or(|last| room(after) > room(&last.after)) {
+            *nearest = Some(Together { changes: changes.to_vec(), after: Box::new(after.clone()) });
+        }
     }
 }

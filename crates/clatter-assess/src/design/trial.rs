@@ -2,18 +2,31 @@
 
 use super::lever::Lever;
 use super::remedies::Case;
-use crate::assess::{Breaker, Listed};
+use crate::assess::{Breaker, Found, Listed};
 use crate::search::{Ranges, Task};
-use crate::{ComponentAssessment, Error, Limit, ProductFile, Verdict, WorstCase};
+use crate::{ComponentAssessment, Error, Limit, LimitAssessment, ProductFile, Verdict, WorstCase};
 
-/// Whether a part is safe with a margin.
-pub(super) fn is_enough(found: &ComponentAssessment, margin: f64) -> bool {
-    found.verdict == Verdict::Safe && found.tightest().room() >= margin
-}
+impl ProductFile {
+    /// The least margin of a part that was assessed, allowed/demand − 1: by both contact laws where contacts take time and the file
+    /// names none, for a verdict counts with both then; infinite where no drop was answered.
+    #[must_use]
+    pub fn least_margin(&self, found: &ComponentAssessment) -> f64 {
+        let of = |limit: &LimitAssessment| {
+            let other = limit.other_law.filter(|_| self.product.contact_law.is_none());
+            other.map_or(f64::INFINITY, |other| limit.allowed / other - 1.0).min(limit.room())
+        };
+        found.limits.iter().map(of).fold(f64::INFINITY, f64::min)
+    }
 
-/// The same where every margin is known: of a change, drops that nothing answers show nothing.
-pub(super) fn is_known_enough(found: &ComponentAssessment, margin: f64) -> bool {
-    is_enough(found, margin) && found.limits.iter().all(|limit| limit.margin.is_some())
+    /// Whether a part is safe with a margin.
+    pub(super) fn is_enough(&self, found: &ComponentAssessment, margin: f64) -> bool {
+        found.verdict == Verdict::Safe && self.least_margin(found) >= margin
+    }
+
+    /// The same where every margin is known: of a change, drops that nothing answers show nothing.
+    pub(super) fn is_known_enough(&self, found: &ComponentAssessment, margin: f64) -> bool {
+        self.is_enough(found, margin) && found.limits.iter().all(|limit| limit.margin.is_some())
+    }
 }
 
 /// The same share but for roundings.
@@ -44,9 +57,11 @@ impl Breakers {
     }
 }
 
-/// A product with the part alone, and what is asked of that.
+/// A product with a part that is changed, and what is asked of that.
 struct Changed {
     file: ProductFile,
+    /// Which part.
+    number: usize,
     /// Its drops.
     listed: Vec<Listed>,
     limits: Vec<Limit>,
@@ -54,7 +69,7 @@ struct Changed {
 
 impl Changed {
     fn tasks(&self) -> impl Iterator<Item = Task<'_>> {
-        let component = &self.file.components[0];
+        let component = &self.file.components[self.number];
         self.limits.iter().map(move |limit| Task { component, limit: *limit })
     }
 }
@@ -67,26 +82,26 @@ fn most(margin: f64) -> f64 {
 impl Case<'_> {
     fn with(&self, values: &[(Lever, f64)]) -> Option<Changed> {
         let file = self.changed(values)?;
-        let limits = Limit::of(file.components.first()?);
-        Some(Changed { listed: file.listed(), file, limits })
+        let limits = Limit::of(&file.components[self.number]);
+        Some(Changed { listed: file.listed(), file, number: self.number, limits })
     }
 
     fn ranges<'b>(&self, file: &'b ProductFile, listed: &'b Listed) -> Ranges<'b> {
         file.ranges_of(&listed.drop, listed.posture, &self.accuracy)
     }
 
-    /// The law by which a drop breaks the part, and what it may ask by it: where the file names no law, the part is to be safe by both.
-    fn by_law<'b>(&self, changed: &'b Changed, breaker: &Breaker) -> (Ranges<'b>, f64) {
+    /// The law by which a drop breaks the part.
+    fn by_law<'b>(&self, changed: &'b Changed, breaker: &Breaker) -> Ranges<'b> {
         let own = self.ranges(&changed.file, &changed.listed[breaker.listed]);
-        if breaker.other_law { (Ranges { law: own.law.other(), ..own }, 1.0) } else { (own, most(self.margin)) }
+        if breaker.other_law { Ranges { law: own.law.other(), ..own } } else { own }
     }
 
     /// Whether a drop that is known breaks the part with these values, or they cannot be had.
     fn is_broken(&self, values: &[(Lever, f64)], breakers: &mut Breakers) -> bool {
         let Some(changed) = self.with(values) else { return true };
         let breaks = |breaker: &Breaker| {
-            let (ranges, most) = self.by_law(&changed, breaker);
-            changed.tasks().any(|task| ranges.in_one(&task, &breaker.place) > most)
+            let ranges = self.by_law(&changed, breaker);
+            changed.tasks().any(|task| ranges.in_one(&task, &breaker.place) > most(self.margin))
         };
         let by = breakers.0.iter().rposition(breaks);
         if let Some(n) = by {
@@ -96,12 +111,11 @@ impl Case<'_> {
         by.is_some()
     }
 
-    /// The most that known drops ask of the part with these values, by its own law.
+    /// The most that known drops ask of the part with these values.
     pub(super) fn asked(&self, values: &[(Lever, f64)], breakers: &Breakers) -> f64 {
         let Some(changed) = self.with(values) else { return f64::INFINITY };
-        let own = breakers.0.iter().filter(|breaker| !breaker.other_law);
-        let asked = own.flat_map(|b| {
-            let (ranges, _) = self.by_law(&changed, b);
+        let asked = breakers.0.iter().flat_map(|b| {
+            let ranges = self.by_law(&changed, b);
             changed.tasks().map(move |task| ranges.in_one(&task, &b.place))
         });
         asked.fold(0.0, f64::max)
@@ -120,29 +134,31 @@ impl Case<'_> {
         let most = room.map_or(f64::INFINITY, |room| most(room) * ALIKE);
         let Some(changed) = self.with(values) else { return Ok(None) };
         let asks_more = |breaker: &Breaker| {
-            let (ranges, _) = self.by_law(&changed, breaker);
+            let ranges = self.by_law(&changed, breaker);
             changed.tasks().any(|task| ranges.asks_more(&task, &breaker.place, most))
         };
-        if breakers.0.iter().rev().filter(|breaker| !breaker.other_law).any(asks_more) {
+        if breakers.0.iter().rev().any(asks_more) {
             return Ok(None);
         }
-        self.searched(&changed, [most, f64::INFINITY], breakers)
+        self.searched(&changed, most, breakers)
     }
 
-    /// The part with these values, unless a drop is found that asks for more, by its own law and by the other.
+    /// The part with these values, unless a drop is found that asks for more, by any law that its verdict counts with.
     fn searched(
         &self,
         changed: &Changed,
-        most: [f64; 2],
+        most: f64,
         breakers: &mut Breakers,
     ) -> Result<Option<ComponentAssessment>, Error> {
-        let found = changed.file.assess_within(&self.accuracy, most, &|_, _| (self.go_on)());
+        let by_other = if self.file.product.contact_law.is_some() { f64::INFINITY } else { most };
+        let part = &changed.file.components[self.number];
+        let found = changed.file.assess_these(&[part], &self.accuracy, [most, by_other], &|_, _| (self.go_on)());
         if !(self.go_on)() {
             return Err(Error::Stopped);
         }
         match found {
-            Ok(Ok(assessment)) => {
-                let found = assessment.components.into_iter().next();
+            Ok(Ok(Found { components, .. })) => {
+                let found = components.into_iter().next();
                 if let Some(found) = &found {
                     breakers.learn(&changed.file, self, found);
                 }
@@ -163,9 +179,8 @@ impl Case<'_> {
         breakers: &mut Breakers,
     ) -> Result<Option<Box<ComponentAssessment>>, Error> {
         let Some(changed) = self.with(values) else { return Ok(None) };
-        let by_other = if self.file.product.contact_law.is_some() { f64::INFINITY } else { 1.0 };
-        let found = self.searched(&changed, [most(self.margin) * ALIKE, by_other], breakers)?;
-        Ok(found.filter(|found| is_known_enough(found, self.margin)).map(Box::new))
+        let found = self.searched(&changed, most(self.margin) * ALIKE, breakers)?;
+        Ok(found.filter(|found| self.file.is_known_enough(found, self.margin)).map(Box::new))
     }
 
     /// The first step of those up to `last` that makes the part safe with the margin, where the steps before fail and those after do not;

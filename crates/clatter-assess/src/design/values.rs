@@ -25,12 +25,12 @@ impl Case<'_> {
     }
 
     /// The same as the lever counts: a range by its low end, what is multiplied by the logarithm of its factor.
-    pub(crate) fn here(&self, lever: Lever) -> f64 {
+    pub(super) fn here(&self, lever: Lever) -> f64 {
         if multiplied(lever) { 0.0 } else { self.present(lever)[0] }
     }
 
     /// The bounds, as the lever counts.
-    pub(crate) fn reach(&self, lever: Lever) -> [f64; 2] {
+    pub(super) fn reach(&self, lever: Lever) -> [f64; 2] {
         let [lo, hi] = self.present(lever);
         match lever {
             // With mass inside the body alone.
@@ -51,7 +51,7 @@ impl Case<'_> {
     }
 
     /// A bound as it is shown.
-    pub(crate) fn shown(&self, lever: Lever, x: f64) -> f64 {
+    pub(super) fn shown(&self, lever: Lever, x: f64) -> f64 {
         match lever {
             Lever::Restitution => x.clamp(self.bounds.e[0], self.bounds.e[1]),
             _ if multiplied(lever) => self.value(lever, x)[usize::from(x > 0.0)],
@@ -59,12 +59,12 @@ impl Case<'_> {
         }
     }
 
-    pub(crate) fn change(&self, lever: Lever, x: f64) -> Change {
+    pub(super) fn change(&self, lever: Lever, x: f64) -> Change {
         Change { lever, from: self.present(lever), to: self.value(lever, x) }
     }
 
     /// What a value of the lever means, low and high end, as it can be specified.
-    pub(crate) fn value(&self, lever: Lever, x: f64) -> [f64; 2] {
+    pub(super) fn value(&self, lever: Lever, x: f64) -> [f64; 2] {
         let [lo, hi] = self.present(lever);
         let [lo, hi] = match lever {
             Lever::InertiaRatio => return [self.with_ratio(x).map_or(x, |product| product.inertia_ratio()); 2],
@@ -108,8 +108,8 @@ impl Case<'_> {
         Some(Product { body: Body::off_center(a, b, gyration).ok()?, gyration_m, ..product })
     }
 
-    /// The product with these values, and the part alone.
-    pub(crate) fn changed(&self, values: &[(Lever, f64)]) -> Option<ProductFile> {
+    /// The file with these values; without its records, which a verdict is not made from.
+    pub(super) fn changed(&self, values: &[(Lever, f64)]) -> Option<ProductFile> {
         let mut component = self.component.clone();
         let mut product = self.file.product.clone();
         for &(lever, x) in values {
@@ -136,8 +136,10 @@ impl Case<'_> {
         if component.ends_m().iter().any(|end| end[0].abs() > most[0] || end[1].abs() > most[1]) {
             return None;
         }
-        let (drop, landings) = (self.file.drop, self.file.landings.clone());
-        Some(ProductFile { product, drop, landings, components: vec![component], records: Vec::new() })
+        let (drop, landings, mut components) =
+            (self.file.drop, self.file.landings.clone(), self.file.components.clone());
+        components[self.number] = component;
+        Some(ProductFile { product, drop, landings, components, records: Vec::new() })
     }
 }
 

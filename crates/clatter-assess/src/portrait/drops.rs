@@ -1,4 +1,4 @@
-//! Drops over all tilts, each followed once for all parts: curves, safe places and changes are taken from them.
+//! Drops over all tilts, each followed once for all parts: curves and safe places are taken from them.
 
 use std::sync::OnceLock;
 
@@ -12,7 +12,7 @@ use crate::{Component, Limit, Mount, Part, WorstCase};
 /// Steps of the tilt over its range; they are twice as close at its low end as at its high end.
 const STEPS: u32 = 40;
 
-/// A tilt in rad, and whether places and changes count with it: of the tilts of a range every second one, and of one stated tilt, whose
+/// A tilt in rad, and whether places count with it: of the tilts of a range every second one, and of one stated tilt, whose
 /// neighbors the curves show as well, itself.
 pub(super) type Tilt = (f64, bool);
 
@@ -102,7 +102,7 @@ impl Drops {
         self.all.iter().enumerate().flat_map(of).collect()
     }
 
-    /// Those that places and changes count with.
+    /// Those that places count with.
     pub(super) fn counted(&self) -> Vec<View> {
         self.views().into_iter().filter(|view| self.tilt(*view).1).collect()
     }

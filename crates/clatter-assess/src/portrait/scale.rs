@@ -3,16 +3,14 @@
 use crate::{ComponentAssessment, LimitAssessment, LimitKind, Verdict};
 
 /// How much more the assessment counts with than the most that the drops of the pictures ask at the part's own place: its search
-/// climbs to the worst drop, and it adds what that may miss, what rebounds may ask and what another contact law asks. Other places
-/// and changed parts are held to the same.
+/// climbs to the worst drop, and it adds what that may miss, what rebounds may ask and what another contact law asks. Other places are
+/// held to the same.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
-    /// The share that the worst drop by one contact law asks.
-    pub(super) demand: f64,
     /// The share that counts for the verdict.
-    pub(super) counted: f64,
+    counted: f64,
     /// The most that the drops ask at the part's own place.
-    pub(super) here: f64,
+    here: f64,
 }
 
 impl Scale {
@@ -24,7 +22,7 @@ impl Scale {
             let demand = demand? / limit.allowed;
             let counted = demand * (1.0 + limit.uncertainty);
             let known = counted.is_finite() && (*here > 0.0 || demand == 0.0);
-            scales.push(known.then_some(Self { demand, counted, here: *here })?);
+            scales.push(known.then_some(Self { counted, here: *here })?);
         }
         // What a part that hits its stop does besides is undecided by its rattle space.
         let stops = |l: &LimitAssessment| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe;
@@ -42,14 +40,9 @@ impl Scale {
         Some(scales)
     }
 
-    /// The share that the limit has to be raised by, to leave room of `margin` between the demand and what is allowed.
-    pub(super) fn needs(&self, margin: f64) -> f64 {
-        self.counted.max((1.0 + margin) * self.demand)
-    }
-
-    /// The most that a drop of the pictures may ask where the limit holds with that margin.
-    pub(super) fn most(&self, margin: f64) -> f64 {
+    /// The most that a drop of the pictures may ask where the limit holds.
+    pub(super) fn most(&self) -> f64 {
         // A demand of nothing holds anywhere.
-        if self.counted == 0.0 { f64::INFINITY } else { self.here / self.needs(margin) }
+        if self.counted == 0.0 { f64::INFINITY } else { self.here / self.counted }
     }
 }

@@ -12,7 +12,7 @@ pub(super) fn grid(length_m: f64) -> Vec<f64> {
     (0..PLACES).map(|i| length_m * (f64::from(i) / f64::from(PLACES - 1) - 0.5)).collect()
 }
 
-/// Where the middle of a part may be, so that no drop asks more than 1/(1 + margin) of any limit.
+/// Where the middle of a part may be, so that no drop asks more than what any limit allows.
 ///
 /// What a drop asks is convex along the product, the largest absolute value of functions linear in the place. So the places that
 /// hold are one stretch, what lies between two of them holds, and the edges taken from straight lines lie within it.
@@ -21,14 +21,13 @@ pub(super) fn zone(
     component: &Component,
     assessed: &ComponentAssessment,
     scales: &[Vec<Scale>],
-    margin: f64,
 ) -> Option<[f64; 2]> {
     let half = 0.5 * component.extent_m;
     let reach = 0.5 * grids.first()?.drops.length_m();
     let (mut lo, mut hi) = (-reach, reach);
     for ((limit, found), scales) in Limit::of(component).iter().zip(&assessed.limits).zip(scales) {
         for (grid, scale) in grids.iter().zip(scales) {
-            let [from, to] = stretch(grid, component, (limit, found), scale.most(margin))?;
+            let [from, to] = stretch(grid, component, (limit, found), scale.most())?;
             (lo, hi) = (lo.max(from), hi.min(to));
         }
     }

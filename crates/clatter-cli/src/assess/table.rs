@@ -45,7 +45,10 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     writeln!(out, "Flat drop: what the worst drop would ask if {flat}")?;
     let all = assessment.components.iter().flat_map(|component| &component.limits);
     if all.clone().any(|limit| limit.other_law.is_some()) {
-        writeln!(out, "Other law: what the worst drop by the other contact law asks for.")?;
+        let asks = "what the worst drop by the other contact law asks for";
+        let named = file.product.contact_law.is_some();
+        let both = if named { "." } else { "; the file names no law, and a limit has to hold by both." };
+        sentence(out, "Other law: ", &format!("{asks}{both}"))?;
     }
     if let Some(limit) = all.clone().next() {
         writeln!(out)?;

@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Write};
 
-use clatter_answer::design::{Answer, margin};
+use clatter_answer::design::Answer;
 use clatter_assess::design::{Change, Lever, Outcome, Remedies, Remedy, Together};
-use clatter_assess::{ComponentAssessment, ProductFile, Verdict};
+use clatter_assess::{ComponentAssessment, Model, ProductFile, Verdict};
 
 use crate::numbers::{digits, figures, given};
 use crate::text::{field, shown};
@@ -13,20 +13,6 @@ use crate::words;
 
 /// How changes are shown.
 pub(super) struct Found<'a>(pub(super) &'a Answer<'a>);
-
-/// What a lever is called.
-fn called(lever: Lever) -> &'static str {
-    match lever {
-        Lever::InertiaRatio => "radius of gyration",
-        Lever::Restitution => "restitution e",
-        Lever::Position => "place",
-        Lever::Across => "place across",
-        Lever::Frequency => "natural frequency",
-        Lever::Damping => "damping ratio",
-        Lever::ContactTime => "contact time",
-        Lever::Limit(kind) => kind.allowed(),
-    }
-}
 
 /// At most so many significant digits.
 fn digits_of(x: f64, digits: usize) -> String {
@@ -48,18 +34,6 @@ fn in_percent(margin: f64) -> String {
     if margin.is_infinite() { "no margin known".to_owned() } else { format!("margin {}", words::margin(margin)) }
 }
 
-/// The margin of a changed part in words.
-fn left(after: &ComponentAssessment) -> String {
-    let undecided = if after.verdict == Verdict::Safe { "" } else { ", not safe" };
-    format!("then {}{undecided}", in_percent(margin(after)))
-}
-
-/// What follows lever and unit in a row.
-fn cells(outcome: &str, Change { from, to, .. }: &Change, after: &ComponentAssessment) -> String {
-    let numbers = [from[0], from[1], to[0], to[1], margin(after)].map(digits);
-    format!("{outcome},{}", numbers.join(","))
-}
-
 /// The highest speed at the first touch, in any of its drops.
 fn fastest(file: &ProductFile) -> f64 {
     let listed = file.landings.iter().map(|landing| landing.drop.speeds_m_s()[1]).reduce(f64::max);
@@ -67,6 +41,18 @@ fn fastest(file: &ProductFile) -> f64 {
 }
 
 impl Found<'_> {
+    /// The margin of a changed part in words.
+    fn left(&self, after: &ComponentAssessment) -> String {
+        let undecided = if after.verdict == Verdict::Safe { "" } else { ", not safe" };
+        format!("then {}{undecided}", in_percent(self.0.file.least_margin(after)))
+    }
+
+    /// What follows lever and unit in a row.
+    fn cells(&self, outcome: &str, Change { from, to, .. }: &Change, after: &ComponentAssessment) -> String {
+        let numbers = [from[0], from[1], to[0], to[1], self.0.file.least_margin(after)].map(digits);
+        format!("{outcome},{}", numbers.join(","))
+    }
+
     /// A value of a lever of a part in words, a range where it is one, in the unit of the file.
     fn value(&self, part: &Remedies, lever: Lever, value: [f64; 2]) -> String {
         if lever == Lever::InertiaRatio {
@@ -108,34 +94,39 @@ impl Found<'_> {
         let (wanted, count) = (given(100.0 * self.0.margin), self.0.assessment.components.len());
         if let Some(plane) = &self.0.plane {
             let (model, side) = (plane.model.name(), plane.side);
+            let contacts = plane.model == Model::Compliant;
+            let law = if contacts { format!(", {} contacts", product.law().name()) } else { String::new() };
             writeln!(
                 out,
-                "Plane of q and e: by the model {model}, {side} by {side} values where a border has no closed form"
+                "Plane of q and e: by the model {model}{law}, {side} by {side} values where a border has no closed form"
             )?;
         }
+        let mut limits = self.0.assessment.components.iter().flat_map(|component| &component.limits);
+        let both = product.contact_law.is_none() && limits.any(|limit| limit.other_law.is_some());
+        let by = if both { " by both contact laws" } else { "" };
         if self.0.remedies.is_empty() {
-            return writeln!(out, "Every part is safe with a margin of {wanted} %: nothing has to change");
+            return writeln!(out, "Every part is safe with a margin of {wanted} %{by}: nothing has to change");
         }
         let failing = self.0.remedies.len();
         let are = if failing == 1 { "is" } else { "are" };
         writeln!(
             out,
-            "{failing} of {count} parts {are} not safe with a margin of {wanted} %; what would make it so, one change at a time:"
+            "{failing} of {count} parts {are} not safe with a margin of {wanted} %{by}; what would make it so, one change at a time:"
         )?;
         self.0.remedies.iter().try_for_each(|part| self.part(part, out))
     }
 
     fn part(&self, part: &Remedies, out: &mut dyn Write) -> io::Result<()> {
         let Some(component) = self.0.assessment.components.get(part.component) else { return Ok(()) };
-        let (verdict, before) = (component.verdict.name(), in_percent(margin(component)));
+        let (verdict, before) = (component.verdict.name(), in_percent(self.0.file.least_margin(component)));
         writeln!(out, "\n{} ({verdict}, {before})", shown(&component.name, 60))?;
-        let width = part.levers.iter().map(|remedy| called(remedy.lever).len()).max().unwrap_or(0);
+        let width = part.levers.iter().map(|remedy| remedy.lever.words().len()).max().unwrap_or(0);
         let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
         for Remedy { lever, outcome } in &part.levers {
-            let name = called(*lever);
+            let name = lever.words();
             match outcome {
                 Outcome::Change { change, after } => {
-                    writeln!(out, "  {name:<width$} {}   ({})", self.said(part, change), left(after))?;
+                    writeln!(out, "  {name:<width$} {}   ({})", self.said(part, change), self.left(after))?;
                     for note in after.tightest().notes.iter().map(ToString::to_string) {
                         match notes.iter_mut().find(|(known, _)| *known == note) {
                             Some((_, levers)) => levers.push(name),
@@ -165,11 +156,11 @@ impl Found<'_> {
 
     fn together(&self, part: &Remedies, head: &str, together: &Together, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "  {head}")?;
-        let width = together.changes.iter().map(|change| called(change.lever).len()).max().unwrap_or(0);
+        let width = together.changes.iter().map(|change| change.lever.words().len()).max().unwrap_or(0);
         for change in &together.changes {
-            writeln!(out, "    {:<width$} {}", called(change.lever), self.said(part, change))?;
+            writeln!(out, "    {:<width$} {}", change.lever.words(), self.said(part, change))?;
         }
-        writeln!(out, "    ({})", left(&together.after))
+        writeln!(out, "    ({})", self.left(&together.after))
     }
 
     /// Changes that go together have one name as outcome and the margin that all of them leave.
@@ -177,10 +168,10 @@ impl Found<'_> {
         writeln!(out, "component,margin,lever,unit,outcome,from_lo,from_hi,to_lo,to_hi,margin_after")?;
         for part in &self.0.remedies {
             let Some(component) = self.0.assessment.components.get(part.component) else { continue };
-            let before = format!("{},{}", field(&component.name), digits(margin(component)));
+            let before = format!("{},{}", field(&component.name), digits(self.0.file.least_margin(component)));
             for Remedy { lever, outcome } in &part.levers {
                 let rest = match outcome {
-                    Outcome::Change { change, after } => cells("change", change, after),
+                    Outcome::Change { change, after } => self.cells("change", change, after),
                     Outcome::Nowhere { .. } => "nowhere,,,,,".to_owned(),
                     Outcome::NoEffect => "no-effect,,,,,".to_owned(),
                     Outcome::Stopped => "stopped,,,,,".to_owned(),
@@ -189,7 +180,7 @@ impl Found<'_> {
             }
             for (outcome, together) in [("pair", &part.pair), ("nearest", &part.nearest)] {
                 for (change, after) in together.iter().flat_map(|all| all.changes.iter().map(|one| (one, &all.after))) {
-                    let (lever, rest) = (change.lever, cells(outcome, change, after));
+                    let (lever, rest) = (change.lever, self.cells(outcome, change, after));
                     writeln!(out, "{before},{},{},{rest}", lever.name(), lever.unit())?;
                 }
             }

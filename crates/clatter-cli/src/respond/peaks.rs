@@ -30,7 +30,7 @@ fn half_sine(pulse: &HalfSine, out: &mut dyn Write) -> io::Result<()> {
     let off = figures(100.0 * displacement_mismatch.0);
     writeln!(
         out,
-        "\nShock table: a half-sine of {g} g and {ms} ms (velocity change {velocity} m/s) gives the component the\n\
+        "\nShock table: a half-sine of {g} gn and {ms} ms (velocity change {velocity} m/s) gives the component the\n\
          same acceleration, and a relative displacement that differs by {off} %"
     )
 }
@@ -41,7 +41,7 @@ fn covered(of: &ServiceCondition, out: &mut dyn Write) -> io::Result<()> {
     let [g, ms, a, z] = [acceleration_g.0, 1e3 * duration_s.0, acceleration_ratio.0, displacement_ratio.0].map(figures);
     writeln!(
         out,
-        "Shock test: {pulse} ({g} g, {ms} ms) is the least service condition that covers it, with {a} times the\n\
+        "Shock test: {pulse} ({g} gn, {ms} ms) is the least service condition that covers it, with {a} times the\n\
          acceleration and {z} times the relative displacement"
     )
 }

@@ -1,31 +1,20 @@
-//! What would make a failing part safe: each change alone.
+//! What would make a part safe with a margin, as `clatter design` finds it.
 
-use clatter_assess::design::{Change, Lever};
-use clatter_assess::{Changes, Component, Product};
+use clatter_assess::design::{Change, Lever, Outcome, Remedies, Remedy};
+use clatter_assess::{Component, ComponentAssessment, ProductFile, Verdict};
 use serde_json::{Value, json};
+
+use crate::words::percent;
 
 /// A number to four digits: changes have fewer.
 fn four(x: f64) -> String {
     format!("{x:.3e}").parse().unwrap_or(x).to_string().replace('-', "−")
 }
 
-fn what(lever: Lever) -> &'static str {
-    match lever {
-        Lever::InertiaRatio => "radius of gyration",
-        Lever::Restitution => "restitution",
-        Lever::Position => "place of its middle",
-        Lever::Across => "place of its middle across",
-        Lever::Frequency => "natural frequency",
-        Lever::Damping => "damping ratio",
-        Lever::ContactTime => "contact time",
-        Lever::Limit(kind) => kind.allowed(),
-    }
-}
-
 /// The product and the part that is changed.
 #[derive(Clone, Copy)]
 pub(super) struct Of<'a> {
-    pub(super) product: &'a Product,
+    pub(super) file: &'a ProductFile,
     pub(super) component: &'a Component,
 }
 
@@ -35,8 +24,8 @@ impl Of<'_> {
         let (mut numbers, name) = if lever == Lever::InertiaRatio {
             (of.map(|q| self.gyration_mm(q)), " mm".to_owned())
         } else {
-            let unit = lever.written_in(self.product, self.component);
-            let name = unit.map_or(lever.unit(), |unit| if unit.name == "gn" { "g" } else { unit.name });
+            let unit = lever.written_in(&self.file.product, self.component);
+            let name = unit.map_or(lever.unit(), |unit| unit.name);
             let space = if name.is_empty() { "" } else { " " };
             (of.map(|x| unit.map_or(x, |unit| unit.of_si(x))), format!("{space}{name}"))
         };
@@ -46,27 +35,68 @@ impl Of<'_> {
     }
 
     fn gyration_mm(&self, q: f64) -> f64 {
-        self.product.with_inertia_ratio(q).map_or(f64::NAN, |product| 1e3 * product.body.gyration_m())
+        self.file.product.with_inertia_ratio(q).map_or(f64::NAN, |product| 1e3 * product.body.gyration_m())
     }
 
     fn row(&self, change: &Change) -> Value {
         let of = |values| self.value(change.lever, values);
-        json!({ "what": what(change.lever), "from": of(change.from), "to": of(change.to) })
+        json!({ "what": change.lever.words(), "from": of(change.from), "to": of(change.to) })
     }
 }
 
-/// What the page says: how the changes count, the changes, and what is not enough alone.
-pub(super) fn changes(of: Of<'_>, changes: &Changes) -> Value {
-    let rows: Vec<Value> = changes.enough.iter().map(|change| of.row(change)).collect();
-    let say = match rows.len() {
-        0 => "By the drops of the figures no single change leaves a margin of 10 %.",
-        1 => "By the drops of the figures this change alone leaves a margin of 10 %.",
-        _ => "By the drops of the figures any one of these changes alone leaves a margin of 10 %.",
+/// What the page says of a part that is not safe with the margin: the changes that are enough alone, else the pair that is or what comes
+/// nearest, and what was tried.
+pub(super) fn changes(of: Of<'_>, assessed: &ComponentAssessment, found: Option<&Remedies>) -> Value {
+    let Some(found) = found else {
+        let elsewhere = "Of a plate or a box this takes long to find: clatter design of the product file tells.";
+        let failing = assessed.verdict != Verdict::Safe;
+        return if failing { json!({ "say": elsewhere, "rows": [], "not": "" }) } else { Value::Null };
     };
-    let one = |(lever, bounds): &(Lever, [f64; 2])| format!("{} (from {})", what(*lever), of.value(*lever, *bounds));
-    let not: Vec<String> = changes.not.iter().map(one).collect();
-    let not = if not.is_empty() { String::new() } else { format!("Tried without success: {}.", not.join("; ")) };
-    json!({ "say": say, "rows": rows, "not": not })
+    let outcome = |remedy: &Remedy| match &remedy.outcome {
+        Outcome::Change { change, .. } => Some(*change),
+        _ => None,
+    };
+    let mut changes: Vec<Change> = found.levers.iter().filter_map(outcome).collect();
+    let together = found.pair.as_ref().or(found.nearest.as_ref());
+    let say = match (changes.len(), together) {
+        (0, None) => "No change is known to be enough.".to_owned(),
+        (0, Some(together)) => {
+            changes.clone_from(&together.changes);
+            let margin = percent(of.file.least_margin(&together.after));
+            match (&found.pair, &changes[..]) {
+                (Some(_), _) => {
+                    format!("No single change is enough; these two together are, with a margin of {margin}.")
+                }
+                (None, [_]) => {
+                    format!("Neither one change is enough nor two; this one comes nearest, with a margin of {margin}.")
+                }
+                (None, _) => format!(
+                    "Neither one change is enough nor two; these two together come nearest, with a margin of {margin}."
+                ),
+            }
+        }
+        (1, _) => "This change alone is enough.".to_owned(),
+        (_, _) => "Any one of these changes alone is enough.".to_owned(),
+    };
+    let (mut tried, mut stopped) = (Vec::new(), Vec::new());
+    for Remedy { lever, outcome } in &found.levers {
+        match outcome {
+            Outcome::Nowhere { bounds } => {
+                tried.push(format!("{} (from {})", lever.words(), of.value(*lever, *bounds)));
+            }
+            Outcome::Stopped => stopped.push(lever.words()),
+            Outcome::Change { .. } | Outcome::NoEffect => {}
+        }
+    }
+    let mut not = Vec::new();
+    if !tried.is_empty() {
+        not.push(format!("Tried without success: {}.", tried.join("; ")));
+    }
+    if !stopped.is_empty() {
+        not.push(format!("Not tried to the end, for the time was over: {}.", stopped.join(", ")));
+    }
+    let rows: Vec<Value> = changes.iter().map(|change| of.row(change)).collect();
+    json!({ "say": say, "rows": rows, "not": not.join(" ") })
 }
 
 #[cfg(test)]
@@ -77,13 +107,13 @@ mod tests {
     #[test]
     fn values_have_the_digits_and_units_of_the_file() {
         let file = ProductFile::read(include_str!("../../../../tests/cases/bar-handheld.toml"), "bar.toml").unwrap();
-        let of = Of { product: &file.product, component: &file.components[1] };
+        let of = Of { file: &file, component: &file.components[1] };
         let told = |lever, values| of.value(lever, values);
         assert_eq!(told(Lever::Frequency, [130.0, 160.0]), "130 to 160 Hz");
         assert_eq!(told(Lever::Position, [-1e-3 * 20.0; 2]), "−20 mm");
         assert_eq!(told(Lever::Damping, [0.05; 2]), "0.05");
         assert_eq!(told(Lever::ContactTime, [0.8e-3; 2]), "0.8 ms");
-        assert_eq!(told(Lever::Limit(LimitKind::Acceleration), [1200.0 * 9.806_65; 2]), "1200 g");
+        assert_eq!(told(Lever::Limit(LimitKind::Acceleration), [1200.0 * 9.806_65; 2]), "1200 gn");
         // ρ = 38 mm, L = 70 mm: (4900 − 1444)/(4900 + 1444)
         assert_eq!(told(Lever::InertiaRatio, [3456.0 / 6344.0; 2]), "38 mm");
     }

@@ -28,7 +28,13 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
                 (None, Some(_)) => "a corner",
                 (None, None) => "an end",
             };
-            add("Contact", format!("{who} touches for {}; {}", range(&time, 1e-3, "ms"), product.law().words()));
+            let law = product.law();
+            let (own, other) = (law.words(), law.other().words());
+            let as_well = match product.contact_law {
+                Some(_) => String::new(),
+                None => format!("; the file names no law, and a limit has to hold by the other one, {other}, as well"),
+            };
+            add("Contact", format!("{who} touches for {}; {own}{as_well}", range(&time, 1e-3, "ms")));
         }
         None => add("Contact", "no contact time is given: impacts are instants".to_owned()),
     }
@@ -263,6 +269,7 @@ mod tests {
             file: &file,
             assessment: &assessment,
             portraits: &[],
+            remedies: &[],
             measured: &[],
             path: "a\u{485}.toml",
             date: Some("2026-03-31"),
@@ -274,7 +281,8 @@ mod tests {
             [
                 "Body: length 140 mm, radius of gyration 38 mm: inertia ratio q = 0.545",
                 "Restitution: 0.25 to 0.4",
-                "Contact: an end touches for 0.4 ms; hysteretic, with the largest force of a half-sine",
+                "Contact: an end touches for 0.4 ms; hysteretic, with the largest force of a half-sine; the file names no law, and a \
+                 limit has to hold by the other one, spring and dashpot, as well",
                 "Drop: from 1.2 m, which gives 4.85 m/s",
                 "Tilt: 1 to 10° at the first touch, either end first",
                 "Gravity: 9.81 m/s²",

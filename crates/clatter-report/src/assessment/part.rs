@@ -160,9 +160,11 @@ fn flat_until(portrait: &Portrait) -> String {
 /// What the page says of one part.
 pub(super) fn part(
     pages: &Pages<'_>,
+    number: usize,
     (component, assessed): (&Component, &ComponentAssessment),
     portrait: &Portrait,
 ) -> Value {
+    let remedies = pages.remedies.iter().find(|found| found.component == number);
     let tightest = assessed.tightest();
     let what = tightest.limit.measured(tightest.unit);
     let allowed = shown(tightest.unit, tightest.allowed);
@@ -184,7 +186,7 @@ pub(super) fn part(
         "summary": summary(component, tightest, portrait, pages.file),
         "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.why_undecided().as_deref().map(minus) })).collect::<Vec<_>>(),
         "limits": assessed.limits.iter().map(|l| row(pages, &component.name, l)).collect::<Vec<_>>(),
-        "changes": portrait.changes.as_ref().map(|of| changes(Of { product: &pages.file.product, component }, of)),
+        "changes": changes(Of { file: pages.file, component }, assessed, remedies),
         "drawn": !portrait.history.is_empty(),
         "history": format!("The {what} over time in the worst drop.{}", seen(over_time)),
         "history-alt": format!("Curve of the {what} of this part over time in its worst drop, with the impacts marked at the foot."),

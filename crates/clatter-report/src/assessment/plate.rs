@@ -10,7 +10,7 @@ use clatter_figures::{
 use serde_json::{Value, json};
 
 use super::{Part, title};
-use crate::words::{customary, shown};
+use crate::words::shown;
 
 /// What is left out of a plate, each in place of what is said of a bar.
 pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
@@ -29,10 +29,10 @@ pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
         ],
     ),
     (
-        "Places and changes",
+        "Places",
         [
-            "Places and changes",
-            "Where a part could sit is told of the drops of the figures. An assessment of the changed file decides; changes that would make a part safe are not looked for on a plate.",
+            "Places",
+            "Where a part could sit is told of the drops of the figures, which are by one contact law. An assessment of the changed file decides; what would make a part safe clatter design tells, which takes longer than this page.",
         ],
     ),
 ];
@@ -76,7 +76,7 @@ pub(super) fn figures(
 ) -> Result<Vec<(String, String)>, FigureError> {
     let tightest = assessed.tightest();
     let (Some(of), Some(worst)) = (&portrait.plate, &tightest.worst_case) else { return Ok(Vec::new()) };
-    let (allowed, title) = (tightest.allowed / customary(tightest.unit).0, title(tightest));
+    let (allowed, title) = (tightest.unit.customary().of_si(tightest.allowed), title(tightest));
     let curve: Vec<_> = around(of).map(|(direction, share, given)| (direction, allowed * share, given)).collect();
     let strike = |strike: &CornerStrike| Strike {
         corner: strike.corner,
@@ -100,7 +100,7 @@ pub(super) fn figures(
     ];
     if let (Some((limit, map)), [_, others @ ..]) = (mapped(assessed, of), &of.maps[..]) {
         let others: Vec<&PlaceMap> = others.iter().map(|(_, map)| map).collect();
-        let (allowed, title) = (limit.allowed / customary(limit.unit).0, super::title(limit));
+        let (allowed, title) = (limit.unit.customary().of_si(limit.allowed), super::title(limit));
         let place_m = limit.worst_case.map_or(place_m, |worst| [worst.part.position_m, worst.part.across_m]);
         let heat = HeatMap { plate, sides_m, map, others: &others, allowed, title: &title, reach_m, place_m };
         files.push((format!("map-{number}.svg"), heat_map(&heat)?));
@@ -247,7 +247,7 @@ mod tests {
         let assessment = file.assess().unwrap();
         let portraits = file.portraits(&assessment);
         let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
-        let pages = Pages { file, assessment, portraits, measured: &[], path: "plate.toml", date: None };
+        let pages = Pages { file, assessment, portraits, remedies: &[], measured: &[], path: "plate.toml", date: None };
         let files = files(&pages).unwrap();
         let names = files.iter().map(|(name, _)| name.as_str()).filter(|name| *name != "assessment.json");
         let names: Vec<&str> = names.collect();

@@ -56,6 +56,7 @@ fn both_ways_set_the_same_assessment() {
         file: &product,
         assessment: &assessed,
         portraits: &portraits,
+        remedies: &product.remedies(&assessed, &clatter_assess::design::Bounds::default(), 0.1).unwrap(),
         measured: &[],
         path: "example.toml",
         date: None,
