@@ -48,8 +48,8 @@ impl Followed {
         let passes = |shock: &Shock| shock.change > above;
         match &self.motion {
             Course::Block(motion) => Some(largest(&turns_of_box(motion, above))).filter(passes),
-            Course::Plate(_) => self.largest_turn_of_plate(above).filter(passes),
-            Course::Bar(_) => Some(largest(&self.turns())).filter(passes),
+            Course::Plate(_) | Course::PlateOnFeet(_) => self.largest_turn_of_plate(above).filter(passes),
+            Course::Bar(_) | Course::BarOnFeet(_) => Some(largest(&self.turns())).filter(passes),
         }
     }
 

@@ -26,6 +26,8 @@ pub(crate) struct Worst {
     pub(crate) near: Vec<Candidate>,
     /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
     pub(crate) later: f64,
+    /// The most that a drop was found to ask after it has bounced clear once, as a utilization.
+    pub(crate) late: f64,
     /// Drops that the model does not take, and why the first of them; of edges that touch, the one that does deepest.
     pub(crate) refused: Option<(usize, Error)>,
     /// Drops that were followed besides climbing.
@@ -41,9 +43,14 @@ pub(super) struct OfDrop {
     pub(super) asked: Vec<(usize, Candidate)>,
     /// Of tasks of which the energy allows more after the body has come down once, how much.
     pub(super) later: Vec<(usize, f64)>,
+    /// Of a box that was followed on, how far it leaned from what it landed on.
+    pub(super) lean: f64,
 }
 
 impl Worst {
+    pub(super) fn nothing() -> Self {
+        Self { asked: None, near: Vec::new(), later: 0.0, late: 0.0, refused: None, drops: 0, stopped: false }
+    }
     pub(super) fn refuse(&mut self, count: usize, error: &Error) {
         let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
         self.refused = Some((own + count, first.or_deeper(error.clone())));
@@ -59,6 +66,8 @@ pub(super) struct Candidates {
     /// Of each task, what rebounds may ask by their energy; 0 where that is less than the worst.
     pub(super) later: Vec<f64>,
     pub(super) drops: usize,
+    /// The box that leaned most, and how far.
+    pub(super) leaning: Option<(f64, Place)>,
 }
 
 impl Candidates {
@@ -67,11 +76,14 @@ impl Candidates {
         let most = |found: &Vec<Candidate>| found.iter().map(|asked| asked.answer.utilization()).fold(0.0, f64::max);
         self.found.iter().map(most).collect()
     }
-    pub(super) fn take(&mut self, answers: Vec<Result<OfDrop, Error>>) {
-        for answer in answers.into_iter().filter(|answer| !matches!(answer, Err(Error::Stopped))) {
+    pub(super) fn take(&mut self, answers: Vec<(Place, Result<OfDrop, Error>)>) {
+        for (place, answer) in answers.into_iter().filter(|(_, answer)| !matches!(answer, Err(Error::Stopped))) {
             self.drops += 1;
             match answer {
                 Ok(of_drop) => {
+                    if of_drop.lean > self.leaning.map_or(0.0, |(lean, _)| lean) {
+                        self.leaning = Some((of_drop.lean, place));
+                    }
                     of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
                     of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
                 }
@@ -120,8 +132,11 @@ mod tests {
     #[test]
     fn rebounds_of_all_drops_are_the_most_of_any() {
         for order in [[3.0, 1.0, 2.0], [1.0, 2.0, 3.0]] {
-            let mut all = Candidates { found: vec![Vec::new()], refused: None, later: vec![0.0], drops: 0 };
-            all.take(order.map(|most| Ok(OfDrop { asked: Vec::new(), later: vec![(0, most)] })).into());
+            let mut all =
+                Candidates { found: vec![Vec::new()], refused: None, later: vec![0.0], drops: 0, leaning: None };
+            let place =
+                Place { first: clatter::End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares: [0.0; 9] };
+            all.take(order.map(|most| (place, Ok(OfDrop { later: vec![(0, most)], ..OfDrop::default() }))).into());
             assert!((all.later[0] - 3.0).abs() < 1e-12 && all.drops == 3, "{:?} of {order:?}", all.later);
         }
     }

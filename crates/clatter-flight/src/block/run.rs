@@ -122,6 +122,11 @@ impl BlockStep<'_> {
             [force * n[i], x, y, z]
         })
     }
+    /// The vertical in axes of the box, at a share of the step.
+    #[must_use]
+    pub fn upward(&self, share: f64) -> [f64; 3] {
+        parts(&self.state(share)).2
+    }
     /// Height and vertical velocity of a place from the center of mass, at a share of the step.
     #[must_use]
     pub fn place_m(&self, place_m: [f64; 3], share: f64) -> (f64, f64) {
