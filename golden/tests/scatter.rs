@@ -28,8 +28,7 @@ fn scatter_of_a_laptop() {
         let p = part.survival;
         let estimate = p.estimate.expect("samples are answered");
         let _ = writeln!(text, "{}: {} of 20000 fail", part.name, part.failures);
-        let _ =
-            writeln!(text, "  survives {:.5} in [{:.5}, {:.5}], at least {:.5}", estimate, p.lo, p.hi, p.at_least);
+        let _ = writeln!(text, "  survives {:.5} in [{:.5}, {:.5}], at least {:.5}", estimate, p.lo, p.hi, p.at_least);
         let _ = writeln!(text, "  utilization {:.5} ± {:.5}", part.mean_utilization, part.utilization_deviation);
         for driver in part.drivers {
             let share = driver.share;

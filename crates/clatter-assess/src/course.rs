@@ -1,7 +1,7 @@
 //! The motion of a bar, of a plate or of a box, as what follows a drop needs it.
 
 use clatter::{Excitation, Section};
-use clatter_flight::{BlockDrop, BlockFlight, Contact, Error, Motion, PlateMotion, Stop};
+use clatter_flight::{BlockDrop, BlockFlight, Contact, Error, FeetMotion, Motion, PlateMotion, Stop};
 
 use crate::Axis;
 
@@ -9,7 +9,10 @@ use crate::Axis;
 #[derive(Debug, Clone)]
 pub(crate) enum Course {
     Bar(Motion),
-    Plate(PlateMotion),
+    /// A bar on two feet, which are its first points; the edges beyond them are the others.
+    BarOnFeet(Motion<4>),
+    Plate(Box<PlateMotion>),
+    PlateOnFeet(Box<FeetMotion>),
     Block(BlockMotion),
 }
 
@@ -18,7 +21,9 @@ macro_rules! of_each {
     ($course:expr, $motion:ident => $what:expr, $block:ident => $other:expr) => {
         match $course {
             Course::Bar($motion) => $what,
+            Course::BarOnFeet($motion) => $what,
             Course::Plate($motion) => $what,
+            Course::PlateOnFeet($motion) => $what,
             Course::Block($block) => $other,
         }
     };
@@ -33,6 +38,8 @@ pub(crate) struct BlockMotion {
     stop: Stop,
     /// What later strikes may change the velocity of the center of mass by: all of the energy that is left is given back there.
     pub(crate) center_m_s: f64,
+    /// How far it has leaned at most from the face that it landed over: 1 balanced over an edge, more where it has fallen over.
+    lean: f64,
     times_s: Vec<f64>,
     /// Along each axis of the box, what the center of mass feels, and what a meter along x, y and z adds.
     felt: Vec<[[f64; 4]; 3]>,
@@ -58,7 +65,9 @@ const LINES: u32 = 4;
 impl BlockMotion {
     pub(crate) fn new(drop: &BlockDrop, contacts: &[Contact; 8]) -> Result<Self, Error> {
         let (mut times_s, mut felt, mut upward, mut pressed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (block, from, mut lean) = (drop.block(), drop.upward(), 0.0_f64);
         let flight = drop.own_contacts(contacts, |step| {
+            lean = lean.max(block.lean(step.upward(1.0), from));
             for k in 0..=LINES {
                 let share = f64::from(k) / f64::from(LINES);
                 times_s.push(step.from_s + share * step.length_s);
@@ -77,7 +86,7 @@ impl BlockMotion {
             stop => (if matches!(stop, Stop::BouncedClear { .. }) { 0.0 } else { f64::INFINITY }, stop),
         };
         let gravity_m_s2 = drop.gravity_m_s2();
-        Ok(Self { contacts: *contacts, gravity_m_s2, flight, stop, center_m_s, times_s, felt, upward, pressed })
+        Ok(Self { contacts: *contacts, gravity_m_s2, flight, stop, center_m_s, lean, times_s, felt, upward, pressed })
     }
 
     /// The samples between which the motion goes on, each with the next.
@@ -222,6 +231,10 @@ impl Course {
     pub(crate) fn later_m_s(&self) -> f64 {
         of_each!(self, motion => motion.later_m_s, block => block.center_m_s)
     }
+    /// How far a box has leaned at most from the face that it landed over: 1 balanced over an edge, more where it has fallen over.
+    pub(crate) fn lean(&self) -> f64 {
+        of_each!(self, _motion => 0.0, block => block.lean)
+    }
     pub(crate) fn largest_m_s(&self) -> f64 {
         of_each!(self, motion => motion.largest_m_s(), block => block.flight.largest_m_s())
     }
@@ -248,13 +261,18 @@ impl Course {
     }
     /// The angular acceleration of a plate in one of its directions, in rad where what a place feels has m; none of other bodies.
     pub(crate) fn turned_in(&self, k: u32) -> Option<Excitation> {
-        if let Self::Plate(motion) = self { Some(motion.turned(direction(k))) } else { None }
+        match self {
+            Self::Plate(motion) => Some(motion.turned(direction(k))),
+            Self::PlateOnFeet(motion) => Some(motion.turned(direction(k))),
+            Self::Bar(_) | Self::BarOnFeet(_) | Self::Block(_) => None,
+        }
     }
     /// The angular acceleration, in rad where what a place feels has m: of a plate and of a box about several axes, one after the other.
     pub(crate) fn turned(&self) -> Box<dyn Iterator<Item = Excitation> + '_> {
         match self {
             Self::Bar(motion) => Box::new(std::iter::once_with(|| motion.turned())),
-            Self::Plate(motion) => Box::new((0..DIRECTIONS).map(|k| motion.turned(direction(k)))),
+            Self::BarOnFeet(motion) => Box::new(motion.turned_by_contacts().into_iter()),
+            Self::Plate(_) | Self::PlateOnFeet(_) => Box::new((0..DIRECTIONS).filter_map(|k| self.turned_in(k))),
             Self::Block(motion) => Box::new(axes().map(|about| motion.turned_about(about))),
         }
     }

@@ -251,18 +251,23 @@ impl SingleDrop {
     }
     /// The least and the largest restitution of its contacts.
     pub(crate) fn restitutions(&self) -> [f64; 2] {
-        self.own_contacts.restitutions(self.is_plate(), self.restitution)
+        let [least, most] = self.own_contacts.restitutions(self.is_plate(), self.restitution);
+        // Edges beyond feet have the contact of the product.
+        let of_edges = self.feet.map(|_| self.restitution);
+        [of_edges.map_or(least, |e| least.min(e)), of_edges.map_or(most, |e| most.max(e))]
     }
     /// The shortest and the longest of its contacts, where that of the product is known.
     pub(crate) fn contact_times_s(&self) -> Option<[f64; 2]> {
-        self.contact_time_s.map(|time_s| self.own_contacts.contact_times_s(self.is_plate(), time_s))
+        let time_s = self.contact_time_s?;
+        let [shortest, longest] = self.own_contacts.contact_times_s(self.is_plate(), time_s);
+        Some(if self.feet.is_some() { [shortest.min(time_s), longest.max(time_s)] } else { [shortest, longest] })
     }
     /// With restitutions changed alike.
     pub(crate) fn with_restitutions(&self, of: impl Fn(f64) -> f64) -> Self {
         let own_contacts = self.own_contacts.with_restitutions(&of);
         Self { restitution: of(self.restitution), own_contacts, ..*self }
     }
-    /// The contacts of its ends or corners, that which touches first in front.
+    /// The contacts of its ends, corners or feet, that which touches first in front; those beyond them are of the product.
     ///
     /// # Errors
     /// [`Error::Contact`] where no contact time is known, [`Error::Bar`] for contacts that are none.
@@ -390,6 +395,16 @@ impl SingleDrop {
         let (tilt_deg, gravity_m_s2) = (self.tilt_rad.to_degrees(), self.gravity_m_s2);
         Ok(Scene::new(body, self.restitution, self.speed_m_s, tilt_deg, gravity_m_s2)?.with_spin(self.spin_rad_s)?)
     }
+    /// The drop of a bar on feet, whose edges are further points.
+    pub(crate) fn scene_on(&self, feet: &Feet) -> Result<Scene<4>, Error> {
+        let ([a, b], [inset_m, _]) = (self.body.arms_m(), feet.inset_m);
+        let [first, other] = if self.first == End::A { [a, b] } else { [b, a] };
+        let edge = |x: f64| [x + inset_m.copysign(x), feet.height_m];
+        let points_m = [[-first, 0.0], [other, 0.0], edge(-first), edge(other)];
+        let body = Body::of_points(points_m, self.body.gyration_m())?;
+        let (tilt_deg, gravity_m_s2) = (self.tilt_rad.to_degrees(), self.gravity_m_s2);
+        Ok(Scene::new(body, self.restitution, self.speed_m_s, tilt_deg, gravity_m_s2)?.with_spin(self.spin_rad_s)?)
+    }
     /// Vertical velocities of the end that touches first and of the other one, at small tilt.
     pub(crate) fn approaches_m_s(&self) -> [f64; 2] {
         let [a, b] = self.body.arms_m();
@@ -471,8 +486,11 @@ impl SingleDrop {
     pub(crate) fn in_radii(&self, spot: &Spot) -> (Vec<[f64; 2]>, [f64; 2]) {
         let [x, y] = spot.at_m;
         let ([a, b], rho) = (self.body.arms_m(), self.body.gyration_m());
+        let beyond = self.feet.map(|feet| feet.inset_m);
         let Some(Across { width, posture, .. }) = self.across else {
-            return (vec![[-a / rho, 0.0], [b / rho, 0.0]], [(x + 0.5 * (b - a)) / rho, 0.0]);
+            let mut ends = vec![[-a / rho, 0.0], [b / rho, 0.0]];
+            ends.extend(beyond.into_iter().flat_map(|[x, _]| [[-(a + x) / rho, 0.0], [(b + x) / rho, 0.0]]));
+            return (ends, [(x + 0.5 * (b - a)) / rho, 0.0]);
         };
         if posture.is_some() {
             return self.in_radii_of_box(spot);
@@ -481,8 +499,10 @@ impl SingleDrop {
         let across = (width.gyration_m * width.gyration_m - lean * lean * rho * rho).sqrt();
         let of = |[x, y]: [f64; 2]| [x / rho, (y - lean * x) / across];
         let [front, back] = width.edges_m;
-        let corners = [[-a, -front], [b, -front], [b, back], [-a, back]];
-        (corners.map(of).to_vec(), of([x + 0.5 * (b - a), y - width.center_m()]))
+        let corners =
+            |[x, y]: [f64; 2]| [[-a - x, -front - y], [b + x, -front - y], [b + x, back + y], [-a - x, back + y]];
+        let all = std::iter::once([0.0; 2]).chain(beyond).flat_map(corners);
+        (all.map(of).collect(), of([x + 0.5 * (b - a), y - width.center_m()]))
     }
     /// The same of a box, as bounds that hold however it lies: impulses at a corner q do no more than
     /// `√(1 + q²) √(1 + p²)` to the place along the axis of the part, with p the lever arm of that axis over the radii of gyration.
@@ -539,9 +559,14 @@ impl SingleDrop {
         let at = spot.at_m;
         match (motion, &self.across) {
             (Course::Plate(motion), Some(across)) => motion.felt(self.place(across, at)),
+            (Course::PlateOnFeet(motion), Some(across)) => motion.felt(self.place(across, at)),
             (Course::Block(motion), Some(_)) => motion.felt(self.place_in_box(spot), spot.inside.axis),
             (Course::Bar(motion), _) => motion.felt(self.relative(at[0])),
-            (Course::Plate(_) | Course::Block(_), None) => unreachable!("they have a width"),
+            (Course::BarOnFeet(motion), _) => {
+                let [x, _] = self.about_center(at);
+                motion.felt_at([if self.first == End::A { x } else { -x }, 0.0]).unwrap_or_default()
+            }
+            (Course::Plate(_) | Course::PlateOnFeet(_) | Course::Block(_), None) => unreachable!("they have a width"),
         }
     }
     /// A place in a box from the center of mass.

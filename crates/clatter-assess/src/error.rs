@@ -72,10 +72,10 @@ pub enum Error {
     /// A motion that was given up while more was to come.
     #[error("the motion goes on beyond 1024 strikes or 150 000 phases, and was left there")]
     Unfinished,
-    /// An edge beyond the feet that comes down to the ground.
+    /// An edge beyond the feet that comes down to the ground in the clatter of instant impacts.
     #[error(
-        "an edge beyond the feet comes down to {} mm below the ground, {} ms after the first touch, and what it does there is not \
-         followed: higher feet, or feet nearer to the edges",
+        "an edge beyond the feet comes down to {} mm below the ground, {} ms after the first touch, and instant impacts do not \
+         follow it: a contact time, higher feet, or feet nearer to the edges",
         rounded(1e3 * depth_m),
         rounded(1e3 * time_s)
     )]

@@ -87,15 +87,15 @@ pub(crate) static PRODUCT: &[Key] = &[
         "feet_inset",
         false,
         Sides(&Quantity(&units::LENGTH, ["0 mm", "50 m"])),
-        "How far inside the edges its feet or bumpers lie, which alone touch the ground; of a plate across it too. Parts may lie beyond \
+        "How far inside the edges its feet or bumpers lie, which touch the ground first; of a plate across it too. Parts may lie beyond \
          them. Unless given, it lands on its ends or corners. Needs feet_height.",
     ),
     key(
         "feet_height",
         false,
         Quantity(&units::LENGTH, ["0.01 mm", "1 m"]),
-        "By how much the feet stand out. A drop in whose clatter an edge beyond them comes down as well is not answered; what edges do \
-         later is bounded by energy, but for accelerations.",
+        "By how much the feet stand out. Edges beyond them that come down press by the contact of the product; without a contact time a drop \
+         in whose clatter one comes down is not answered, and what it does later is bounded by energy.",
     ),
     key("mass", false, Quantity(&units::MASS, MASSES), "Mass; needed with moment_of_inertia only."),
     key(

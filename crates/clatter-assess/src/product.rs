@@ -110,7 +110,7 @@ pub struct Width {
     pub depth: Option<Depth>,
 }
 
-/// Feet or bumpers inside the edges: they alone touch the ground, and the product goes on beyond them.
+/// Feet or bumpers inside the edges: they touch the ground first, and the product goes on beyond them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feet {
     /// How far inside the edges, along the length and along the width; 0 across a bar.

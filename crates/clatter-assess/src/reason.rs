@@ -174,7 +174,7 @@ pub enum Note {
     OpenIn(Option<DropName>, Vec<Doubt>),
     /// The assessment contradicts itself.
     Contradiction(Contradiction),
-    /// Edges beyond feet may come down as the product lands again.
+    /// Edges beyond feet, which instant impacts do not follow, may come down as the product lands again.
     Edges,
     /// A bar does not roll about its length, where most products turn fastest.
     Rolls,
@@ -224,8 +224,8 @@ impl Display for Note {
             }
             Self::Contradiction(contradiction) => write!(f, "{contradiction}"),
             Self::Edges => f.write_str(
-                "after its clatter edges beyond the feet may come down: energy bounds what they change velocities by, how hard they press \
-                 is not known",
+                "after its clatter edges beyond the feet may come down, which instant impacts do not follow: energy bounds what they \
+                 change velocities by",
             ),
             Self::Rebounds(most) => {
                 let most =

@@ -22,11 +22,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
-use crate::drop::{Followed, SingleDrop, Until};
+use crate::drop::{Followed, Model, SingleDrop, Until};
 use crate::engine::{Part, PlaceHistory, Spot, once};
 use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
-use climb::{BOX_REACH, BOX_TRIES, CLIMBS, EDGES_REACH, EDGES_TRIES, FACE_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
+use climb::{CLIMBS, NEAR, starts};
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
@@ -81,8 +81,9 @@ const IN_A_TURN: f64 = 4.0;
 const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Where rebounds count a plate is followed to so many times the moment at which it has bounced clear, at first and at last.
 const REBOUNDS: [f64; 2] = [3.0, 6.0];
-/// Drops that are followed besides those of the grid where rebounds count.
-const SAMPLE: usize = 128;
+/// Drops that are followed besides those of the grid where rebounds count: with contacts that take time, and by instant impacts, which
+/// cost a tenth.
+const SAMPLE: [usize; 2] = [128, 512];
 /// The same of a box, until its energy allows little more: shared among all drops that it is put through, and of each at least.
 const SAMPLE_OF_BOX: [usize; 2] = [96, 8];
 /// About as many drops are followed in a climb.
@@ -109,8 +110,7 @@ impl Ranges<'_> {
         let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
         let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
         let climbing = CLIMB * CLIMBS * tasks.len();
-        let [of_all_drops, of_each] = SAMPLE_OF_BOX;
-        let sample = if of_all { SAMPLE } else { (of_all_drops / self.listed).max(of_each) };
+        let sample = self.sample();
         let count = grid.len() + overlaps.len() + sample + climbing;
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
         // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
@@ -122,7 +122,8 @@ impl Ranges<'_> {
                 let of_one = |drop: &(u32, Place)| {
                     let early = work.go_on(1).and_then(|()| self.follow(&drop.1, Until::Lands));
                     let order = early.as_ref().ok().map(Order::of);
-                    (order, early.and_then(|early| self.ask(tasks, drop, &early, best.clone(), only, to_rest)))
+                    let asked = early.and_then(|early| self.ask(tasks, drop, &early, best.clone(), only, to_rest));
+                    (order, (drop.1, asked))
                 };
                 let (of_wave, asked): (Vec<_>, Vec<_>) = wave.par_iter().map(of_one).unzip();
                 orders.extend(of_wave);
@@ -143,11 +144,16 @@ impl Ranges<'_> {
         if only.contains(&true) {
             let sample: Vec<(u32, Place)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
             ask(&mut all, &sample, Some(&only), true)?;
+            // What stands and hardly ever falls over asks most where it does.
+            let stands = all.leaning.filter(|(lean, _)| self.faces() == 1 && *lean < 1.0);
+            if let Some(fallen) = stands.and_then(|(lean, place)| self.fallen_over(&tasks[0], place, lean, &work)) {
+                ask(&mut all, &[(1, fallen)], Some(&only), true)?;
+            }
         }
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
         }
-        let Candidates { mut found, refused, drops, later, with_friction } = all;
+        let Candidates { mut found, refused, drops, later, with_friction, .. } = all;
         let most_starts = [usize::MAX, 2, 2, 1][self.faces()];
         let climbs: Vec<(usize, Candidate)> = found
             .iter_mut()
@@ -162,24 +168,8 @@ impl Ranges<'_> {
             .collect();
         let each_climb = climbing / climbs.len().max(1);
         let climb = |(n, start): (usize, Candidate)| {
-            let task = &tasks[n];
-            if work.go_on(each_climb).is_err() {
-                return (n, start);
-            }
-            let reached = if self.posture.is_some() {
-                let tries = if self.faces() < 3 && !start.late { FACE_TRIES } else { BOX_TRIES };
-                self.climb_around(task, start, (BOX_REACH, tries), &work)
-            } else if start.late {
-                self.climb_around(task, start, (LATE_REACH, LATE_TRIES), &work)
-            } else {
-                let climbed = self.climb(task, start, 0.5 / steps, &work);
-                if self.has_edges(task) {
-                    self.climb_around(task, climbed, (EDGES_REACH, EDGES_TRIES), &work)
-                } else {
-                    climbed
-                }
-            };
-            (n, reached)
+            let goes_on = work.go_on(each_climb).is_ok();
+            (n, if goes_on { self.climb_from(&tasks[n], start, 0.5 / steps, &work) } else { start })
         };
         let climbed: Vec<(usize, Candidate)> = climbs.into_par_iter().map(climb).collect();
         let each = (0..tasks.len()).into_par_iter().map(|n| {
@@ -204,6 +194,20 @@ impl Ranges<'_> {
             worst.stopped = stopped;
         }
         Ok(all)
+    }
+
+    /// How many drops are followed besides those of the grid where rebounds count.
+    fn sample(&self) -> usize {
+        let [of_all_drops, of_each] = SAMPLE_OF_BOX;
+        match self.posture {
+            Some(_) => (of_all_drops / self.listed).max(of_each),
+            None => SAMPLE[self.by_impacts()],
+        }
+    }
+
+    /// 1 of instant impacts, 0 of contacts that take time.
+    fn by_impacts(&self) -> usize {
+        usize::from(self.model != Model::Compliant)
     }
 
     /// A drop of the last wave that asks for more than `most` of a limit, answered to the tolerance; `best` are those before it.
@@ -280,6 +284,7 @@ impl Ranges<'_> {
                     let mut friction = felt.most_friction(&task.limit, &parts);
                     if later > 0.0 && to_rest {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
+                        of_drop.lean = rebounded.motion.lean();
                         let longer = felt.longer(rebounded)?;
                         friction = friction.max(longer.most_friction(&task.limit, &parts));
                         let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());

@@ -49,7 +49,9 @@ impl Followed {
                 let s = self.drop.relative(spot.at_m[0]);
                 at_instants(motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
             }
-            Course::Bar(_) | Course::Plate(_) => shocks(&Pushed { felt, moved: from_ref(felt), gravity, least }),
+            Course::Bar(_) | Course::BarOnFeet(_) | Course::Plate(_) | Course::PlateOnFeet(_) => {
+                shocks(&Pushed { felt, moved: from_ref(felt), gravity, least })
+            }
             Course::Block(motion) => {
                 let moved = motion.moved(self.drop.place_in_box(spot), spot.inside.axis);
                 shocks(&Pushed { felt, moved: &moved, gravity: 0.0, least })
@@ -71,8 +73,8 @@ impl Followed {
         let passes = |shock: &Shock| shock.change > above;
         match &self.motion {
             Course::Block(motion) => Some(largest(&self.turns_of_box(motion, above))).filter(passes),
-            Course::Plate(_) => self.largest_turn_of_plate(above).filter(passes),
-            Course::Bar(_) => Some(largest(&self.turns())).filter(passes),
+            Course::Plate(_) | Course::PlateOnFeet(_) => self.largest_turn_of_plate(above).filter(passes),
+            Course::Bar(_) | Course::BarOnFeet(_) => Some(largest(&self.turns())).filter(passes),
         }
     }
 

@@ -56,9 +56,8 @@ fn center_and_inertia() -> (Vector, [Vector; 3]) {
         (case + POINTS.iter().map(|(mass, at)| mass * at[i] * at[j]).sum::<f64>()) / all - center[i] * center[j]
     };
     let trace = second(0, 0) + second(1, 1) + second(2, 2);
-    let inertia = std::array::from_fn(|i| {
-        std::array::from_fn(|j| if i == j { trace - second(i, i) } else { -second(i, j) })
-    });
+    let inertia =
+        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { trace - second(i, i) } else { -second(i, j) }));
     (center, inertia)
 }
 

@@ -1,7 +1,7 @@
 //! Products that land on feet inside their edges.
 
 use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, Assessment, Model, ProductFile, Verdict};
+use clatter_assess::{Accuracy, Assessment, Limit, Model, ProductFile, Verdict, answer};
 
 /// A laptop of 300 mm × 210 mm on four feet 30 mm and 20 mm inside its edges; without its width a bar on two.
 const LAPTOP: &str = r#"
@@ -106,9 +106,9 @@ fn a_part_may_lie_beyond_the_feet() {
 }
 
 /// Landing flat both feet of a centered bar sink by v/(ω₁ √(1 − q)), ω₁ = (π/2)(1 + e)/τ, but for the weight, which adds 0.4 % here. With
-/// feet a little lower than that the edges touch, with a little higher ones they do not.
+/// feet a little lower than that the edges press too, with a little higher ones nothing depends on them.
 #[test]
-fn edges_touch_where_feet_sink_in() {
+fn edges_press_where_feet_sink_in() {
     let flat = bar(LAPTOP)
         .replace("tilt = [\"1 deg\", \"8 deg\"]", "tilt = \"0 deg\"")
         .replace("center_of_mass = \"10 mm\"\n", "")
@@ -116,25 +116,37 @@ fn edges_touch_where_feet_sink_in() {
     let speed = (2.0 * clatter_shock::STANDARD_GRAVITY_M_S2 * 0.5_f64).sqrt();
     let q = (0.12_f64.powi(2) - 0.085 * 0.085) / (0.12_f64.powi(2) + 0.085 * 0.085);
     let sinks_m = speed / (std::f64::consts::FRAC_PI_2 * 1.25 / 1e-3 * (1.0 - q).sqrt());
-    for (share, touches) in [(0.99, true), (1.015, false)] {
+    let of = |share: f64| {
         let height = format!("feet_height = \"{} mm\"", 1e3 * share * sinks_m);
-        let assessment = assess(&flat.replace("feet_height = \"6 mm\"", &height));
-        for part in &assessment.components {
-            let limit = &part.limits[0];
-            assert_eq!(limit.demand.is_none(), touches, "{share}: {limit:?}");
-            let why = limit.why_undecided().unwrap_or_default();
-            assert_eq!(why.contains("an edge beyond the feet comes down"), touches, "{why}");
-        }
+        demands(&assess(&flat.replace("feet_height = \"6 mm\"", &height)))
+    };
+    let alike = |one: &[f64], other: &[f64]| one.iter().zip(other).all(|(a, b)| (a / b - 1.0).abs() < 1e-9);
+    let high = of(3.0);
+    assert!(alike(&of(1.015), &high), "{:?}, not {high:?}", of(1.015));
+    for share in [0.99, 0.7] {
+        assert!(!alike(&of(share), &high), "{share}: {high:?}");
     }
 }
 
-/// What some of the drops may do to an edge is not known: no part of a plate is safe then, where by its feet alone all are.
+/// Feet so low that the edges come down in the clatter: those are points like the feet, and what they ask is answered.
 #[test]
-fn edges_that_touch_leave_parts_undecided() {
-    let verdict = |text: &str| assess(text).components.into_iter().map(|part| part.verdict).collect::<Vec<_>>();
-    let steady = LAPTOP.replace("[0.2, 0.3]", "0.1").replace("[\"1 deg\", \"8 deg\"]", "[\"1 deg\", \"2 deg\"]");
-    assert_eq!(verdict(&steady), [Verdict::Safe; 2]);
-    assert_eq!(verdict(&steady.replace("\"6 mm\"", "\"1.5 mm\"")), [Verdict::Undecided; 2]);
+fn edges_that_press_in_the_clatter_are_answered() {
+    let low = LAPTOP.replace("\"6 mm\"", "\"1.5 mm\"").replace("[\"1 deg\", \"8 deg\"]", "[\"1 deg\", \"2 deg\"]");
+    for text in [low.clone(), bar(&low)] {
+        let [low, high] = [text.clone(), text.replace("\"1.5 mm\"", "\"6 mm\"")].map(|text| demands(&assess(&text)));
+        // A hundredth of an answer is no difference.
+        assert!(low.iter().zip(&high).any(|(low, high)| (low / high - 1.0).abs() > 0.02), "{low:?} beside {high:?}");
+    }
+}
+
+/// A soft part swings in the flight until an edge comes down: the plate leaves the ground with a known velocity, and the part goes on by
+/// that over ω, 16 times what it had as the feet parted.
+#[test]
+fn a_part_swings_until_an_edge_comes_down() {
+    let file = read(include_str!("missed/feet-soft.toml"));
+    let limit = &file.assess().expect("an assessment").components[0].limits[0];
+    // An integration of its own has 0.056 m.
+    assert!((limit.demand.expect("an answer") / 0.056 - 1.0).abs() < 0.02, "{limit:?}");
 }
 
 /// The foot of a product that rises to one direction is under the edge that it lands on.
@@ -186,54 +198,64 @@ fn feet_that_cannot_be_are_refused() {
 /// An off-center bar that lands flat leaves its feet turning fast: 3.8 ms later, long before it lands on them again, its edge comes down.
 /// With edges that press as feet do an integration of its own has the part at 103 to 114 gn; on feet alone it is asked for 78.
 #[test]
-fn an_edge_that_comes_down_after_the_clatter_is_bounded_by_energy() {
+fn an_edge_that_comes_down_after_the_clatter_presses() {
     let text = r#"
 product = { name = "bar", length = "395.05 mm", radius_of_gyration = "37.04 mm", center_of_mass = "44.68 mm", restitution = 0.4436, contact_time = "0.4 ms", contact_law = "hysteretic", feet_inset = "110.98 mm", feet_height = "8.773 mm" }
 drop = { speed = "4.3 m/s", tilt = "0 deg", first = "a" }
 component = [
     { name = "soft", position = "127.5 mm", natural_frequency = "40 Hz", damping_ratio = 0.1, acceleration_limit = "101.8 gn" },
-    { name = "hard", position = "0 mm", mount = "hard", acceleration_limit = "90000 gn", velocity_change_limit = "30 m/s" },
 ]
 "#;
     let assessment = assess(text);
-    let [soft, hard] = &assessment.components[..] else { panic!("two parts") };
-    assert_eq!(soft.verdict, Verdict::Undecided);
-    let limit = &soft.limits[0];
-    assert!(
-        limit.demand.unwrap() * (1.0 + limit.uncertainty) > 114.0 * clatter_shock::STANDARD_GRAVITY_M_S2,
-        "{limit:?}"
-    );
-    // How hard the edge presses is not known; what it changes velocities by is bounded.
-    let [acceleration, velocity] = &hard.limits[..] else { panic!("two limits") };
-    assert_eq!((acceleration.verdict, velocity.verdict), (Verdict::Undecided, Verdict::Safe));
-    let notes = acceleration.notes.iter().map(ToString::to_string).collect::<String>();
-    assert!(notes.contains("edges beyond the feet may come down"), "{notes}");
+    let limit = &assessment.components[0].limits[0];
+    let demand_gn = limit.demand.unwrap() / clatter_shock::STANDARD_GRAVITY_M_S2;
+    assert!((103.0..114.0).contains(&demand_gn) && limit.verdict == Verdict::Unsafe, "{demand_gn}: {limit:?}");
     // So it is of many drops.
     let settings = Settings { samples: 20, seed: 1, confidence: 0.95, merge_s: 1e-3 };
     let sampler = Sampler::new(&read(text), settings).unwrap();
     let scatter = sampler.run(false, &|| true, |_| Ok::<_, ()>(())).unwrap();
-    assert!(scatter.survival.lo < 0.01, "{:?}", scatter.survival);
+    assert!(scatter.survival.hi < 1.0 && scatter.survival.lo < 0.01, "{:?}", scatter.survival);
 }
 
-/// A drop whose edge touches is not answered with contacts that take time; asked of instant impacts it is undecided, and why is told.
+/// A bar whose edges come down in its clatter by instant impacts, which know the feet alone.
+const EDGED: &str = r#"
+product = { name = "bar", length = "300 mm", feet_inset = "60 mm", feet_height = "4 mm", radius_of_gyration = "60 mm", center_of_mass = "30 mm", restitution = 0.5 }
+drop = { height = "0.5 m", tilt = ["1 deg", "3 deg"] }
+component = [
+    { name = "drive", position = "-100 mm", natural_frequency = "90 Hz", damping_ratio = 0.15, acceleration_limit = "900 gn" },
+    { name = "board", position = "20 mm", mount = "hard", velocity_change_limit = "40 m/s" },
+]
+"#;
+
+/// They are not answered; asked of instant impacts where the contact time is known, what contacts ask counts.
 #[test]
 fn a_model_with_less_physics_is_no_way_around() {
+    let timed =
+        EDGED.replace("restitution = 0.5", "restitution = 0.5, contact_time = \"1 ms\", contact_law = \"hysteretic\"");
+    for (text, model) in [(EDGED, None), (&timed, Some(Model::FiniteTilt))] {
+        let assessment = read(text).assess_to(&Accuracy { model, ..Accuracy::default() }).expect("an assessment");
+        let why = assessment.components[0].limits[0].why_undecided().expect("undecided");
+        assert!(why.contains("an edge beyond the feet comes down"), "{why}");
+    }
+    assert!(assess(&timed).components.iter().all(|part| part.limits[0].why_undecided().is_none()));
+    // At a degree the edges stay up by instant impacts, and by contacts they come down.
     let text = bar(LAPTOP).replace("\"6 mm\"", "\"1.5 mm\"").replace("[\"1 deg\", \"8 deg\"]", "\"1 deg\"");
-    for model in [Model::Map, Model::FiniteTilt] {
-        let accuracy = Accuracy { model: Some(model), ..Accuracy::default() };
-        let assessment = read(&text).assess_to(&accuracy).expect("an assessment");
-        for part in &assessment.components {
-            let limit = &part.limits[0];
-            let why = limit.why_undecided().expect("undecided");
-            assert!(why.contains("an edge beyond the feet comes down"), "{why}");
-        }
+    let accuracy = Accuracy { model: Some(Model::FiniteTilt), ..Accuracy::default() };
+    let assessment = read(&text).assess_to(&accuracy).expect("an assessment");
+    for part in &assessment.components {
+        let limit = &part.limits[0];
+        let worst = limit.worst_case.as_ref().expect("a drop");
+        let of = Limit::of(&read(&text).components.into_iter().find(|of| of.name == part.name).expect("a part"))[0];
+        let by_contacts = answer(&worst.drop, &worst.part, &of, Model::Compliant, 0.01).expect("an answer").value;
+        let told = limit.demand.unwrap() * (1.0 + limit.uncertainty);
+        assert!(by_contacts <= told * (1.0 + 1e-9), "{}: {by_contacts}, not {told}", part.name);
     }
 }
 
 /// By how much drops that are not answered may exceed the demand, energy says, and where it does not nothing does.
 #[test]
 fn what_is_not_answered_may_ask_for_all_that_energy_allows() {
-    let assessment = assess(&LAPTOP.replace("\"6 m/s\"", "\"20 m/s\""));
+    let assessment = assess(EDGED);
     let [drive, board] = [0, 1].map(|n| &assessment.components[n].limits[0]);
     let why = drive.why_undecided().expect("undecided");
     assert!(why.contains("are not answered") && drive.uncertainty.is_infinite(), "{why}: {}", drive.uncertainty);

@@ -16,6 +16,7 @@ mod fit;
 mod independent;
 mod late;
 mod limits;
+mod missed;
 mod mutations;
 mod own_contacts;
 mod plan;

@@ -120,7 +120,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = quantities::numbers, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
     spin_rad_s: Option<PerAxis<f64>>,
     /// Feet which are the ends or corners of the body: how far the product goes on beyond them along its length and along its width, 0 of
-    /// a bar, and how far they stand out; places beyond them are then allowed, and a drop in which an edge touches is not answered
+    /// a bar, and how far they stand out; places beyond them are then allowed, and edges there press as the feet do without a contact of
+    /// their own, but by instant impacts
     #[arg(long, value_name = "X,Y,HEIGHT", value_parser = inputs::feet, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
     feet_m: Option<[f64; 3]>,
     /// A contact of its own at an end of a bar or a corner of a plate, of a box both corners that are seen there from above, of --model=compliant and --contact-law=hysteretic: a to d, its

@@ -91,7 +91,10 @@ fn the_printed_command_repeats_the_demand() {
     let worked = std::fs::read_dir(root.join("reports/examples")).unwrap();
     let mut cases: Vec<(PathBuf, &str)> = worked.map(|file| (file.unwrap().path(), "")).collect();
     assert!(cases.len() >= 4, "{cases:?}");
-    cases.extend(["bar-phone.toml", "bar-terminal.toml", "bar-laptop.toml"].map(|name| (root.join("tests/cases").join(name), "")));
+    cases.extend(
+        ["bar-phone.toml", "bar-terminal.toml", "bar-laptop.toml"]
+            .map(|name| (root.join("tests/cases").join(name), "")),
+    );
     cases.extend([(written, " --model=finite-tilt"), (hard.clone(), " --model=finite-tilt"), (hard, "")]);
     for (k, text) in small().into_iter().enumerate() {
         let path = dir.path().join(format!("small-{k}.toml"));

@@ -201,6 +201,20 @@ impl Block {
         (face, over, libm::hypot(over, aside.fold(f64::INFINITY, f64::min)))
     }
 
+    /// How far a box leans whose vertical is `upward` from the face that it is over where its vertical is `from`: 0 level, 1 balanced over an
+    /// edge of that face, infinite from where it lies on its side. 0 where it lies nowhere lower than on that face.
+    #[must_use]
+    pub fn lean(&self, upward: [f64; 3], from: [f64; 3]) -> f64 {
+        let (face, over, _) = self.lies_on(from);
+        if (0..3).all(|axis| over <= self.face_at(axis, 1.0).min(self.face_at(axis, -1.0))) {
+            return 0.0;
+        }
+        let rises = upward[face] * 1.0_f64.copysign(from[face]);
+        let others = (0..3).filter(|axis| *axis != face);
+        let aside = |axis: usize| upward[axis].abs() / self.face_at(axis, -1.0_f64.copysign(upward[axis]));
+        if rises > 0.0 { others.map(aside).fold(0.0, f64::max) * over / rises } else { f64::INFINITY }
+    }
+
     /// The energy over the mass that no motion gets rid of: of a body that lies and turns about the vertical, with this angular momentum
     /// over the mass, which nothing changes. `energy` is what it has: where that does not lift it over an edge, it stays on its face.
     /// Corners stand on `ground`, at 0 or in their dents below it.
@@ -258,6 +272,21 @@ mod tests {
             assert!((kept(height, 0.0) - 0.05).abs() < 1e-12, "{height}: {}", kept(height, 0.0));
             assert!((kept(height, 0.002) - 0.048).abs() < 1e-12, "{height}: {}", kept(height, 0.002));
         }
+    }
+
+    /// A box of 200 × 100 × 300 mm on its end is balanced over its nearer edge at atan(50/150), 18.4°, and over the other one at 33.7°; flat
+    /// on its broad side it leans nowhere.
+    #[test]
+    fn a_box_leans_by_the_edges_of_its_face() {
+        let block = Block::new([0.2, 0.1, 0.3], [0.0; 3], [0.09, 0.1, 0.07]).unwrap();
+        let (up, near, far) = ([0.0, 0.0, 1.0], (1.0_f64 / 3.0).atan(), (2.0_f64 / 3.0).atan());
+        for side in [-1.0, 1.0] {
+            let over_y = |tilt: f64| block.lean([0.0, side * tilt.sin(), tilt.cos()], up);
+            let over_x = |tilt: f64| block.lean([side * tilt.sin(), 0.0, tilt.cos()], up);
+            assert!((over_y(near) - 1.0).abs() < 1e-12 && (over_x(far) - 1.0).abs() < 1e-12);
+            assert!(over_y(0.9 * near) < 1.0 && over_y(1.1 * near) > 1.0 && over_y(2.0) == f64::INFINITY);
+        }
+        assert_eq!((block.lean(up, up), block.lean([0.0, 0.9, 0.1], [0.0, 1.0, 0.0])), (0.0, 0.0));
     }
 
     /// On a ground of three heights a face stands on the three corners around its center of mass: of a square on the diagonal that is higher,

@@ -92,6 +92,21 @@ pub struct Sample<const N: usize = 2> {
     pub spin_rad_s: f64,
 }
 
+impl Sample<4> {
+    /// The same of a body with these points; none of one with others.
+    fn of_points<const N: usize>(&self) -> Option<Sample<N>> {
+        let of = |all: &[f64; 4]| all[..].try_into().ok();
+        Some(Sample {
+            height_m: of(&self.height_m)?,
+            velocity_m_s: of(&self.velocity_m_s)?,
+            acceleration_m_s2: of(&self.acceleration_m_s2)?,
+            force_per_mass_m_s2: of(&self.force_per_mass_m_s2)?,
+            tilt_rad: self.tilt_rad,
+            spin_rad_s: self.spin_rad_s,
+        })
+    }
+}
+
 impl<const N: usize, P: Pose<N>> Phases<N, P> {
     /// How long the longest lone contact takes.
     pub(crate) fn longest_s(&self) -> f64 {
@@ -133,7 +148,7 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
     pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {
         self.phases().into_iter().flat_map(|phases| phases.list.iter().map(|(from, _)| *from))
     }
-    fn phases(&self) -> Option<&Phases<N, P>> {
+    pub(crate) fn phases(&self) -> Option<&Phases<N, P>> {
         if let Course::Contacts(phases) = &self.course { Some(phases) } else { None }
     }
 }

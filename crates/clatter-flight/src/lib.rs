@@ -61,6 +61,6 @@ pub use body::Body;
 pub use contact::{Contact, ContactLaw, Press, Sample};
 pub use error::Error;
 pub use flight::{LiftOff, Model, Pivot, SHARE, Stop, Strike};
-pub use motion::{Ahead, Motion, PlateMotion};
+pub use motion::{Ahead, FeetMotion, Motion, PlateMotion};
 pub use plate::{Plate, PlateScene};
 pub use scene::Scene;

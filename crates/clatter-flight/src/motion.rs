@@ -34,6 +34,9 @@ pub struct Motion<const N: usize = 2, P: Pose<N> = Planar<N>> {
 /// A motion of a plate, by instant impacts at its four corners or with contacts that take time.
 pub type PlateMotion = Motion<4, crate::contact::Level>;
 
+/// A motion of a plate on feet, with contacts that take time: the feet are its first four points, the corners beyond them the others.
+pub type FeetMotion = Motion<8, crate::contact::Level<8>>;
+
 /// What is between the strikes.
 #[derive(Debug, Clone)]
 pub(crate) enum Course<const N: usize, P: Pose<N>> {
@@ -59,6 +62,23 @@ pub struct Ahead<const N: usize = 2> {
 
 /// Precision of contacts that nobody asks for.
 const PRECISION: f64 = 1e-4;
+
+impl<const N: usize> Scene<N> {
+    /// The motion with a contact of its own at each point, as far as it is needed: as
+    /// [`own_contacts_until`](Self::own_contacts_until), where no strike after the motion gives back more than the liveliest contact.
+    ///
+    /// # Errors
+    /// As [`own_contacts_until`](Self::own_contacts_until).
+    pub fn fly_on_contacts(
+        &self,
+        contacts: &[Contact; N],
+        precision: f64,
+        enough: impl FnMut(&Ahead<N>) -> bool,
+    ) -> Result<Motion<N>, Error> {
+        let most_e = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.restitution()));
+        Ok(self.own_contacts_until(contacts, precision, enough)?.giving_back(0.5 * (1.0 + most_e)))
+    }
+}
 
 impl Scene {
     /// The motion by a model, until nothing more happens or a limit of the scene, contacts that take time to a precision of 1e−4.
@@ -88,20 +108,6 @@ impl Scene {
             return Ok(self.after(model, rigid::strikes(self, model, None, enough)));
         };
         Ok(self.contacts_until(&contact, precision, enough)?.giving_back(self.given_back()))
-    }
-
-    /// The same with a contact of its own at each end.
-    ///
-    /// # Errors
-    /// As [`own_contacts_until`](Self::own_contacts_until).
-    pub fn fly_on_contacts(
-        &self,
-        contacts: &[Contact; 2],
-        precision: f64,
-        enough: impl FnMut(&Ahead) -> bool,
-    ) -> Result<Motion, Error> {
-        let [a, b] = contacts.map(|contact| 0.5 * (1.0 + contact.restitution()));
-        Ok(self.own_contacts_until(contacts, precision, enough)?.giving_back(a.max(b)))
     }
 
     /// The same by instant impacts at any tilt, of a body whose ends rebound differently: `restitution` of ends a and b counts in place
@@ -213,13 +219,16 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
     }
 }
 
-impl Motion {
+impl<const N: usize> Motion<N> {
     /// Where no strike after the motion gives back more than this share of what it may take.
     fn giving_back(self, share: f64) -> Self {
         let bounded = matches!(self.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
         let later_m_s = if bounded { self.later_m_s } else { share * self.later_m_s };
         Self { later_m_s, ..self }
     }
+}
+
+impl Motion {
     /// What position `s` in [−1, 1] of a bar (−1 is end a) feels: its acceleration above free fall.
     ///
     /// # Accuracy

@@ -5,7 +5,7 @@ use clatter::Error as Given;
 use crate::Error;
 use crate::contact::{Contact, Level, Run, alike, check_time};
 use crate::flight::Log;
-use crate::motion::{Ahead, PlateMotion};
+use crate::motion::{Ahead, FeetMotion, PlateMotion};
 use crate::scene::{SLOWEST, within};
 
 /// A rigid rectangular plate, its center of mass anywhere between the edges.
@@ -304,6 +304,47 @@ impl PlateScene {
         contacts.iter().try_for_each(|contact| self.check(contact))?;
         let log = Log::new(self.time_limit, self.impact_limit);
         Run::new(Level::start(self), log, contacts, precision).run(enough)
+    }
+
+    /// The same of a plate whose corners are feet: the bottom over them, so high, reaches so far beyond them along x and along y. Its four
+    /// corners are points 4 to 7 of the motion, over a to d, with contacts of their own.
+    ///
+    /// # Errors
+    /// [`Error::Given`] unless height and distances are in [0, 1e30] m, not all of them 0; else as
+    /// [`own_contacts_until`](Self::own_contacts_until).
+    ///
+    /// # Examples
+    /// Tilted across its width, a plate lands on feet a and b; the edge beyond them, 0.1 mm higher then, comes down as they sink in.
+    /// ```
+    /// use clatter_flight::{Contact, ContactLaw, Plate, PlateScene};
+    /// let scene = PlateScene::new(Plate::new([0.07, 0.07, 0.02, 0.02], [0.04, 0.02])?, 2.0, [0.0, 0.01], 0.0)?;
+    /// let contacts = [Contact::new(ContactLaw::Hysteretic, 0.5, 3e-4)?; 8];
+    /// let motion = scene.on_feet_until([0.0, 0.02], 5.1e-3, &contacts, 1e-4, |_| false)?;
+    /// assert_eq!([0, 1, 2, 3].map(|k| motion.strikes[k].point), [0, 1, 4, 5]);
+    /// # Ok::<(), clatter_flight::Error>(())
+    /// ```
+    pub fn on_feet_until(
+        &self,
+        beyond_m: [f64; 2],
+        height_m: f64,
+        contacts: &[Contact; 8],
+        precision: f64,
+        enough: impl FnMut(&Ahead<8>) -> bool,
+    ) -> Result<FeetMotion, Error> {
+        within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
+        let [x, y] = beyond_m;
+        for (name, value) in [("height over the feet in m", height_m), ("distance beyond the feet in m", x.min(y))] {
+            within(name, value, 0.0, 1e30, "in [0, 1e30]")?;
+        }
+        within("height and distance from the feet in m", height_m + x + y, SLOWEST, 1e30, "not 0, and up to 1e30")?;
+        alike(contacts)?;
+        contacts.iter().try_for_each(|contact| self.check(contact))?;
+        let feet = self.plate.corners_m();
+        let edges = feet.map(|[a, b]| [a + x.copysign(a), b + y.copysign(b)]);
+        let points = std::array::from_fn(|i| if i < 4 { feet[i] } else { edges[i - 4] });
+        let over = std::array::from_fn(|i| if i < 4 { 0.0 } else { height_m });
+        let log = Log::new(self.time_limit, self.impact_limit);
+        Run::new(Level::on(self, points, over), log, contacts, precision).run(enough)
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {

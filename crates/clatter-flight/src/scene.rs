@@ -59,6 +59,26 @@ impl<const N: usize> Scene<N> {
         within("gravity in m/s²", gravity_m_s2, 1e-60, 1e30, "in [1e-60, 1e30] for a drop from a height")?;
         Self::new(body, e, (2.0 * gravity_m_s2 * height_m).sqrt(), tilt_deg, gravity_m_s2)
     }
+    /// Already turning at the first touch, end b upward where positive; end a is the first point.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless the spin is finite and end a still approaches, at small tilt and at the scene's:
+    /// above `−v0/L_a` (and, where a thick body's center is beyond end a, below v0 over the lever arm); its end speed
+    /// at most 1e30 m/s.
+    pub fn with_spin(mut self, spin_rad_s: f64) -> Result<Self, Error> {
+        let far = 1e30 / self.body.length_m();
+        let (sin, cos) = libm::sincos(self.tilt);
+        let x = self.body.levers(sin, cos).0[0];
+        self.spin = spin_rad_s + 0.0;
+        // As it rounds: next to -speed/arm nothing may be left of the approach.
+        let [level, _] = self.body.points_m()[0];
+        let approaches = level * self.spin - self.speed <= -SLOWEST && x * spin_rad_s < self.speed;
+        if !(approaches && spin_rad_s <= far) {
+            let allowed = "such that end a approaches (above -speed/arm) and at most 1e30/length";
+            return Err(Error::Quantity { name: "spin in rad/s", value: spin_rad_s, allowed });
+        }
+        Ok(self)
+    }
     /// No strike after this time since the first touch.
     ///
     /// # Errors
@@ -132,25 +152,6 @@ impl<const N: usize> Scene<N> {
 }
 
 impl Scene<2> {
-    /// Already turning at the first touch, end b upward where positive.
-    ///
-    /// # Errors
-    /// [`Error::Quantity`] unless the spin is finite and end a still approaches, at small tilt and at the scene's:
-    /// above `−v0/L_a` (and, where a thick body's center is beyond end a, below v0 over the lever arm); its end speed
-    /// at most 1e30 m/s.
-    pub fn with_spin(mut self, spin_rad_s: f64) -> Result<Self, Error> {
-        let far = 1e30 / self.body.length_m();
-        let (sin, cos) = libm::sincos(self.tilt);
-        let ([x, _], _) = self.body.levers(sin, cos);
-        self.spin = spin_rad_s + 0.0;
-        // As it rounds: next to -speed/arm nothing may be left of the approach.
-        let approaches = self.level_velocities()[0] <= -SLOWEST && x * spin_rad_s < self.speed;
-        if !(approaches && spin_rad_s <= far) {
-            let allowed = "such that end a approaches (above -speed/arm) and at most 1e30/length";
-            return Err(Error::Quantity { name: "spin in rad/s", value: spin_rad_s, allowed });
-        }
-        Ok(self)
-    }
     /// Vertical velocities of the ends at the first touch for these lever arms.
     pub(crate) fn end_velocities(&self, levers: [f64; 2]) -> [f64; 2] {
         levers.map(|x| x * self.spin - self.speed)

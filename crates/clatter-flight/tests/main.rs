@@ -17,6 +17,7 @@ mod cost;
 mod ends;
 mod energy;
 mod extremes;
+mod feet;
 mod independent;
 mod own_contacts;
 mod plain;

@@ -69,7 +69,10 @@ fn product(r: &mut Random) -> String {
         if law == "hysteretic" && r.chance(0.3) {
             let corners: &[&str] = if sides == 1 { &["a", "b"] } else { &["a", "b", "c", "d"] };
             let (at, e, time) = (r.one_of(corners), r.within(0.0, 0.8), time_ms * r.within(0.5, 1.5));
-            let _ = writeln!(text, "contacts = [{{ at = \"{at}\", restitution = {e:.4}, contact_time = \"{time:.5} ms\" }}]");
+            let _ = writeln!(
+                text,
+                "contacts = [{{ at = \"{at}\", restitution = {e:.4}, contact_time = \"{time:.5} ms\" }}]"
+            );
         }
     }
     let _ = writeln!(text, "[drop]\nspeed = \"{:.4} m/s\"", r.log(0.3, 8.0));
@@ -150,7 +153,11 @@ fn later(seed: u64) -> Option<([f64; 2], String)> {
         let said = up.later_most(limit, part, 0.0).max(reached);
         Some(asked / said)
     };
-    let hard = Limit::of(component).iter().filter(|l| l.kind != LimitKind::VelocityChange).filter_map(|limit| ask(limit, None)).fold(0.0, f64::max);
+    let hard = Limit::of(component)
+        .iter()
+        .filter(|l| l.kind != LimitKind::VelocityChange)
+        .filter_map(|limit| ask(limit, None))
+        .fold(0.0, f64::max);
     let ratio = DampingRatio::new(r.log(0.01, 0.3)).unwrap();
     let part = Suspension::from_hz(r.log(20.0, 2000.0), ratio).unwrap();
     let soft = if component.inside.axis == Axis::Any {
@@ -189,7 +196,9 @@ fn no_drop_exceeds(products: u64) {
         // Answers are off by up to their tolerance.
         let over = all.iter().filter(|one| of(one) > 1.01).count();
         println!("{kind:?}: {over} above; the most is {:.3} of its bound\n{}", of(worst), worst.1);
-        if false {} ; eprintln!("{kind:?} over {over}"); assert!(true || over == 0, "{kind:?}: {over} above; {}\n{}", of(worst), worst.1);
+        if false {};
+        eprintln!("{kind:?} over {over}");
+        assert!(true || over == 0, "{kind:?}: {over} above; {}\n{}", of(worst), worst.1);
         assert!(of(worst) > 0.5, "{kind:?}: {}: nothing comes near its bound", of(worst));
     }
 }

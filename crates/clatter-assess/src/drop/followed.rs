@@ -3,9 +3,9 @@
 use clatter_flight::{Ahead, Model as Physics, Stop};
 
 use super::{Model, SingleDrop};
-use crate::Error;
 use crate::course::{BlockMotion, Course};
 use crate::engine::Spot;
+use crate::{Error, Feet};
 
 /// A drop as far as it was followed.
 #[derive(Debug, Clone)]
@@ -17,8 +17,6 @@ pub(crate) struct Followed {
     early: bool,
     /// Largest velocity shock of an end.
     pub(crate) largest_m_s: f64,
-    /// Whether it was left before an edge beyond feet comes down.
-    pub(super) before_edge: bool,
 }
 
 /// A hysteretic contact that is pushed again unloads and reloads along a line that is stiffer by 1/e²: the force of a slow shock
@@ -28,8 +26,8 @@ const LEAST_SHARE: f64 = 0.02;
 const LATE: f64 = 0.25;
 /// Strikes followed at most.
 const MOST_STRIKES: usize = 1024;
-/// Of a box, which lies still after some tens as a rule.
-const PRESSES_OF_BOX: usize = 64;
+/// Of a box, which lies still after some tens as a rule, and rocks some hundred times before it falls over.
+const PRESSES_OF_BOX: usize = 512;
 
 /// Precision of a flight, as a share of the tolerance of its answer.
 pub(crate) const PRECISION: f64 = 0.1;
@@ -46,6 +44,14 @@ pub(crate) enum Until {
     Over,
 }
 
+/// Asked while a motion is followed whether it is over: by the time, what may come later, the largest shock so far, and whether it lands.
+fn leaves<const N: usize>(
+    is_over: &impl Fn(f64, f64, f64, bool) -> bool,
+    given_back: f64,
+) -> impl FnMut(&Ahead<N>) -> bool {
+    move |ahead| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands)
+}
+
 impl Followed {
     /// A drop of a plate as one of a box of this thickness, at real tilt, followed until a time.
     ///
@@ -56,7 +62,7 @@ impl Followed {
         let block = drop.block_drop(across, thickness_m)?.with_time_limit_s(until_s)?;
         let motion = Course::Block(BlockMotion::new(&block, &drop.contacts_of_block()?)?);
         let largest_m_s = motion.largest_m_s();
-        Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s, before_edge: false })
+        Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s })
     }
 
     /// The same motion as that of another drop, of which more may come.
@@ -74,19 +80,19 @@ impl Followed {
         Self::until(drop, model, tolerance, Until::Over)
     }
 
-    /// The same, left at a moment; before an edge beyond feet comes down, where one does after the clatter.
+    /// The same, left at a moment.
     ///
     /// # Errors
-    /// As [`new`](Self::new); [`Error::Edge`] where an edge comes down in the clatter.
+    /// As [`new`](Self::new); [`Error::Edge`] where an edge beyond feet comes down in the clatter of instant impacts.
     pub(crate) fn until(drop: &SingleDrop, model: Model, tolerance: f64, until: Until) -> Result<Self, Error> {
         let followed = Self::at_most(drop, model, tolerance, until, f64::INFINITY)?;
-        match followed.rises_before_edge_s()? {
-            Some(rose_s) => Ok(Self { before_edge: true, ..Self::at_most(drop, model, tolerance, until, rose_s)? }),
+        match followed.edge_comes_down_s()? {
+            Some(edge_s) => Self::at_most(drop, model, tolerance, until, edge_s),
             None => Ok(followed),
         }
     }
 
-    /// The same on feet alone, left at `most_s` where it is not over by then.
+    /// The same, left at `most_s` by instant impacts where it is not over by then.
     fn at_most(drop: &SingleDrop, model: Model, tolerance: f64, until: Until, most_s: f64) -> Result<Self, Error> {
         let precision = PRECISION * tolerance;
         // Without restitution the strikes of one instant add up, and end by themselves.
@@ -97,7 +103,6 @@ impl Followed {
         let given_back = 0.5 * (1.0 + most_e);
         let is_over = |time_s: f64, later: f64, largest: f64, lands: bool| {
             later <= share * largest
-                || time_s >= most_s * (1.0 - 1e-9)
                 || match until {
                     Until::Lands => lands && time_s > clatter_s,
                     Until::Rebounded => lands && time_s > clatter_s && later <= LATE * largest,
@@ -119,26 +124,34 @@ impl Followed {
             (Course::Block(BlockMotion::new(&block, &drop.contacts_of_block()?)?), 0.0)
         } else if let Some(across) = &drop.across {
             let Physics::Contacts(_) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
-            let enough =
-                |ahead: &Ahead<4>| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
             let scene = drop.plate_scene(across)?.with_impact_limit(MOST_STRIKES);
-            (Course::Plate(scene.own_contacts_until(&drop.contacts()?, precision, enough)?), precision)
+            let motion = if let Some(Feet { inset_m, height_m }) = drop.feet {
+                let enough = leaves(&is_over, given_back);
+                let motion = scene.on_feet_until(inset_m, height_m, &drop.contacts()?, precision, enough)?;
+                Course::PlateOnFeet(Box::new(motion))
+            } else {
+                let enough = leaves(&is_over, given_back);
+                Course::Plate(Box::new(scene.own_contacts_until(&drop.contacts()?, precision, enough)?))
+            };
+            (motion, precision)
+        } else if let (Some(feet), Physics::Contacts(_)) = (&drop.feet, model.physics(drop)?) {
+            let scene = drop.scene_on(feet)?.with_impact_limit(MOST_STRIKES)?;
+            let enough = leaves(&is_over, given_back);
+            (Course::BarOnFeet(scene.fly_on_contacts(&drop.contacts()?, precision, enough)?), precision)
         } else {
-            let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?;
-            let enough =
-                |ahead: &Ahead| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
+            let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?.with_time_limit_s(most_s)?;
+            let (enough, physics) = (leaves(&is_over, given_back), model.physics(drop)?);
             if drop.flat {
                 (Course::Bar(scene.fly_flat(share)), 0.0)
             } else if drop.own_contacts.is_none() {
-                (Course::Bar(scene.fly_until(model.physics(drop)?, precision, enough)?), precision)
+                (Course::Bar(scene.fly_until(physics, precision, enough)?), precision)
             } else {
-                model.physics(drop)?;
                 (Course::Bar(scene.fly_on_contacts(&drop.contacts()?, precision, enough)?), precision)
             }
         };
         let largest_m_s = motion.largest_m_s();
         let early = motion.later_m_s() > share * largest_m_s && !matches!(motion.stop(), Stop::AtRest { .. });
-        Ok(Self { drop: *drop, motion, precision, early, largest_m_s, before_edge: false })
+        Ok(Self { drop: *drop, motion, precision, early, largest_m_s })
     }
 
     pub(crate) fn is_early(&self) -> bool {
@@ -163,7 +176,9 @@ impl Followed {
         match &self.motion {
             _ if !self.lies() => 0.0,
             Course::Block(motion) => motion.carried_m_s2(self.drop.place_in_box(spot), spot.inside.axis),
-            Course::Bar(_) | Course::Plate(_) => self.motion.gravity_m_s2(),
+            Course::Bar(_) | Course::BarOnFeet(_) | Course::Plate(_) | Course::PlateOnFeet(_) => {
+                self.motion.gravity_m_s2()
+            }
         }
     }
     /// What a place will come to feel for ever, that is not among what it feels yet.
@@ -171,11 +186,8 @@ impl Followed {
         let flies = matches!(self.motion.stop(), Stop::BouncedClear { .. });
         if flies || self.lies() { 0.0 } else { self.motion.gravity_m_s2() }
     }
-    /// How long nothing has pressed as the motion was left; when an edge comes down first is not counted.
+    /// How long nothing has pressed as the motion was left.
     pub(crate) fn quiet_s(&self) -> f64 {
-        if self.before_edge {
-            return 0.0;
-        }
         (self.motion.stop().time_s() - self.motion.parted_s()).max(0.0)
     }
     /// Number, from 1, of the last strike that began by a time; contacts do nothing as they begin.

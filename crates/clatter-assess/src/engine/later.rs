@@ -3,8 +3,8 @@
 use clatter_shock::Suspension;
 
 use super::PlaceHistory;
-use crate::bound::box_acceleration;
 use crate::Limit;
+use crate::bound::box_acceleration;
 use crate::drop::Followed;
 use crate::quantity::Source;
 
@@ -110,7 +110,7 @@ impl PlaceHistory<'_> {
         let [_, most_e] = drop.restitutions();
         let turned = 2.0 / (1.0 + most_e);
         let given_up = self.followed.is_given_up().then(|| GivenUp {
-            in_turn: drop.across.map_or(2.0, |_| 4.0) / (1.0 - most_e),
+            in_turn: points.iter().map(|_| 1.0).sum::<f64>() / (1.0 - most_e),
             lever: 1.0 + dot(here, here).sqrt() * farthest.sqrt(),
             center_m_s: center * turned,
             gravity_m_s2: drop.gravity_m_s2,
@@ -123,10 +123,7 @@ impl PlaceHistory<'_> {
             turn_rad_s: center / drop.least_gyration_m() * turned,
             // Nothing where nothing is left, also where a strike has no largest force.
             acceleration_m_s2: if center > 0.0 {
-                // How hard edges beyond feet press is not known.
-                if drop.feet.is_some() {
-                    f64::INFINITY
-                } else if is_box {
+                if is_box {
                     let longest_s = drop.contact_times_s().map_or(0.0, |[_, longest]| longest);
                     let speed = 0.5 * center * turned;
                     box_acceleration(drop, &self.spot, speed, center * self.peak_per_change(), longest_s)
@@ -153,7 +150,7 @@ impl PlaceHistory<'_> {
     pub(super) fn off_by(&self, value: f64, of_box: impl Fn(&Later) -> f64) -> f64 {
         let Followed { largest_m_s, motion, .. } = self.followed;
         // No later strike changes the velocity of a point of a bar or of a plate by more, between its ends or corners; of a box, that of its
-        // center of mass.
+        // center of mass. A part may be beyond feet, whose instant impacts are those of the feet.
         let later =
             if self.is_box() || self.followed.drop.feet.is_some() { of_box(&self.later()) } else { motion.later_m_s() };
         self.followed.kept_arms() * largest_m_s + (later - value).max(0.0)

@@ -207,7 +207,19 @@ fn is_given(given_rad: Option<[f64; 2]>, direction_rad: f64) -> bool {
 }
 
 fn strikes(own: &Followed, across: &Across) -> Vec<CornerStrike> {
-    let Course::Plate(motion) = &own.motion else { return Vec::new() };
+    let all: Vec<(usize, f64, f64)> = match &own.motion {
+        Course::Plate(motion) => motion
+            .strikes
+            .iter()
+            .map(|strike| (strike.point, strike.time_s, strike.delta_v_m_s[strike.point]))
+            .collect(),
+        // Beyond the feet are the corners, in their order.
+        Course::PlateOnFeet(motion) => {
+            let of = motion.strikes.iter();
+            of.map(|strike| (strike.point % 4, strike.time_s, strike.delta_v_m_s[strike.point])).collect()
+        }
+        Course::Bar(_) | Course::BarOnFeet(_) | Course::Block(_) => Vec::new(),
+    };
     let [sx, sy] = across.signs();
     let corner = |point: usize| {
         let right = (point == 1 || point == 2) ^ (sx < 0.0);
@@ -219,12 +231,8 @@ fn strikes(own: &Followed, across: &Across) -> Vec<CornerStrike> {
             (false, true) => 3,
         }
     };
-    let strike = |strike: &clatter_flight::Strike<4>| CornerStrike {
-        corner: corner(strike.point),
-        time_s: strike.time_s,
-        delta_v_m_s: strike.delta_v_m_s[strike.point],
-    };
-    motion.strikes.iter().map(strike).collect()
+    let strike = |(point, time_s, delta_v_m_s)| CornerStrike { corner: corner(point), time_s, delta_v_m_s };
+    all.into_iter().map(strike).collect()
 }
 
 /// The map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.

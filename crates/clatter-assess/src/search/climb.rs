@@ -11,16 +11,17 @@ use crate::{Error, Mount};
 
 /// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
 pub(super) const NEAR: f64 = 0.8;
-pub(super) const CLIMBS: usize = 4;
-/// How far a climb after rebounds tries, and how often; one of a part that feels the shape of pulses.
-pub(super) const LATE_REACH: f64 = 0.5;
-pub(super) const LATE_TRIES: u32 = 160;
-pub(super) const EDGES_REACH: f64 = 0.1;
-pub(super) const EDGES_TRIES: u32 = 96;
+pub(super) const CLIMBS: usize = 6;
+/// How far a climb after rebounds tries, and how often, with contacts that take time and by instant impacts; one of a part that feels the
+/// shape of pulses.
+const LATE_REACH: f64 = 0.5;
+const LATE_TRIES: [u32; 2] = [160, 480];
+const EDGES_REACH: f64 = 0.1;
+const EDGES_TRIES: u32 = 96;
 /// The same of a box.
-pub(super) const BOX_REACH: f64 = 0.3;
-pub(super) const BOX_TRIES: u32 = 16;
-pub(super) const FACE_TRIES: u32 = 32;
+const BOX_REACH: f64 = 0.3;
+const BOX_TRIES: u32 = 16;
+const FACE_TRIES: u32 = 32;
 /// How far beyond the time of its first peak a climb after rebounds follows.
 const LATER: f64 = 2.0;
 /// How close the last try of a climb is over the first.
@@ -42,12 +43,27 @@ impl Ranges<'_> {
         times.is_some_and(|[_, longest_s]| task.component.mount == Mount::Hard || stiff(longest_s))
     }
 
+    /// Climbs from a place as its body and the time of its peak ask.
+    pub(super) fn climb_from(&self, task: &Task<'_>, start: Candidate, tilt_step: f64, work: &Work<'_>) -> Candidate {
+        if self.posture.is_some() {
+            let tries = if self.faces() < 3 && !start.late { FACE_TRIES } else { BOX_TRIES };
+            return self.climb_around(task, start, (BOX_REACH, tries), work);
+        }
+        if start.late {
+            return self.climb_around(task, start, (LATE_REACH, LATE_TRIES[self.by_impacts()]), work);
+        }
+        let climbed = self.climb(task, start, tilt_step, work);
+        if self.has_edges(task) { self.climb_around(task, climbed, (EDGES_REACH, EDGES_TRIES), work) } else { climbed }
+    }
+
     /// Climbs from a place in all ranges, one after the other, each step half as long as the last.
-    pub(super) fn climb(&self, task: &Task<'_>, start: Candidate, tilt_step: f64, work: &Work<'_>) -> Candidate {
+    fn climb(&self, task: &Task<'_>, start: Candidate, tilt_step: f64, work: &Work<'_>) -> Candidate {
         let (until, fastest) = (Until::Lands, rough_to_rad_s(task.component));
         let free = self.free_at(task, &start.place);
         let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
         let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5, 0.25, DIRECTION_STEP, 0.25];
+        let mut shrink = [0.5; AXES];
+        shrink[DIRECTION] = self.shrinking(&start.place);
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
         for _ in 0..HALVINGS {
@@ -78,9 +94,15 @@ impl Ranges<'_> {
                     }
                 }
             }
-            steps = steps.map(|step| 0.5 * step);
+            steps = std::array::from_fn(|axis| shrink[axis] * steps[axis]);
         }
         best
+    }
+
+    /// What the steps in the direction of a climb shrink by, so that the last moves the touch of no corner by more than a part of a contact:
+    /// next to a landing on an edge, and where two corners come down in turn, what is asked changes with that.
+    fn shrinking(&self, place: &Place) -> f64 {
+        libm::pow(self.turn_in_contact(place) / DIRECTION_STEP, f64::from(HALVINGS - 1).recip()).clamp(0.25, 0.5)
     }
 
     /// The part at both ends of its natural frequencies in the same drop, where that asks more: strikes that come in step with it have their
@@ -94,41 +116,65 @@ impl Ranges<'_> {
         })
     }
 
-    /// The same in all ranges at once: tries all around, ever closer. After rebounds all ranges together decide in which phase a part
-    /// is struck again, and what stiff and rigidly mounted parts feel has edges where contacts meet.
-    pub(super) fn climb_around(
-        &self,
-        task: &Task<'_>,
-        start: Candidate,
-        (reach, tries): (f64, u32),
-        work: &Work<'_>,
-    ) -> Candidate {
+    /// The same in all ranges at once. After rebounds all ranges together decide in which phase a part is struck again, and what stiff and
+    /// rigidly mounted parts feel has edges where contacts meet.
+    fn climb_around(&self, task: &Task<'_>, start: Candidate, how: (f64, u32), work: &Work<'_>) -> Candidate {
         let (free, fastest) = (self.free_at(task, &start.place), rough_to_rad_s(task.component));
         // A climb is after the peak that it began with, not after those that elastic products have for minutes.
         let until = if start.late { Until::Past(LATER * start.answer.time_s) } else { Until::Lands };
         let mut best = start;
-        // A step that went up is taken once more.
-        let mut again = None;
-        for k in 1..=tries {
-            if work.go_on(0).is_err() {
-                break;
-            }
-            let reach = reach * libm::pow(CLOSER, f64::from(k) / f64::from(tries));
-            let around =
-                || std::array::from_fn(|axis| if free[axis] { reach * (2.0 * halton(axis, k) - 1.0) } else { 0.0 });
-            let step: [f64; AXES] = again.take().unwrap_or_else(around);
-            let mut place = best.place;
-            for (share, step) in place.shares.iter_mut().zip(step) {
-                *share = (*share + step).clamp(0.0, 1.0);
-            }
-            let Ok(followed) = self.follow(&place, until) else { continue };
-            let Ok(felt) = PlaceHistory::rough(&followed, task.spot(place.at_m), fastest) else { continue };
-            if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
-                best = Candidate { late: start.late, ..next };
-                again = Some(step);
-            }
-        }
+        around(start.place, free, how, work, |place| {
+            let Ok(followed) = self.follow(place, until) else { return false };
+            let Ok(felt) = PlaceHistory::rough(&followed, task.spot(place.at_m), fastest) else { return false };
+            let next = Self::in_drop(task, place, &felt, best.answer.utilization()).ok().flatten();
+            best = next.map_or(best, |next| Candidate { late: start.late, ..next });
+            next.is_some()
+        });
         best
+    }
+
+    /// A box next to one that leans so far which falls over an edge of what it landed on; none where none is found.
+    pub(super) fn fallen_over(&self, task: &Task<'_>, start: Place, mut lean: f64, work: &Work<'_>) -> Option<Place> {
+        let mut fallen = None;
+        around(start, self.free_at(task, &start), (BOX_REACH, FACE_TRIES), work, |place| {
+            if fallen.is_some() {
+                return false;
+            }
+            let leans = self.follow(place, Until::Rebounded).map_or(0.0, |followed| followed.motion.lean());
+            fallen = Some(*place).filter(|_| leans > 1.0);
+            let rises = leans > lean;
+            lean = lean.max(leans);
+            rises
+        });
+        fallen
+    }
+}
+
+/// Tries all around a place, ever closer, and around each that rises; a step that went up is taken once more.
+fn around(
+    mut best: Place,
+    free: [bool; AXES],
+    (reach, tries): (f64, u32),
+    work: &Work<'_>,
+    mut rises: impl FnMut(&Place) -> bool,
+) {
+    let mut again = None;
+    for k in 1..=tries {
+        if work.go_on(0).is_err() {
+            break;
+        }
+        let reach = reach * libm::pow(CLOSER, f64::from(k) / f64::from(tries));
+        let around =
+            || std::array::from_fn(|axis| if free[axis] { reach * (2.0 * halton(axis, k) - 1.0) } else { 0.0 });
+        let step: [f64; AXES] = again.take().unwrap_or_else(around);
+        let mut place = best;
+        for (share, step) in place.shares.iter_mut().zip(step) {
+            *share = (*share + step).clamp(0.0, 1.0);
+        }
+        if rises(&place) {
+            best = place;
+            again = Some(step);
+        }
     }
 }
 
@@ -164,7 +210,7 @@ impl Ranges<'_> {
         let next = |k: u32| {
             let mut place = at.place;
             for axis in [TILT, DIRECTION].into_iter().filter(|axis| free[*axis]) {
-                let step = NEXT * (2.0 * halton(axis.min(1), k) - 1.0);
+                let step = NEXT * (2.0 * halton(axis, k) - 1.0);
                 place.shares[axis] = (place.shares[axis] + step).clamp(0.0, 1.0);
             }
             place
@@ -182,7 +228,12 @@ pub(super) fn starts(found: &mut [Candidate]) -> Vec<Candidate> {
     for asked in found.iter().take_while(|asked| asked.answer.utilization() >= NEAR * most) {
         let next = |other: &Candidate| {
             let close = |axis: usize| {
-                let reach = if axis == TILT { 0.1 } else { 0.3 };
+                let reach = match axis {
+                    TILT => 0.1,
+                    // Half of the first step of a climb.
+                    DIRECTION => 0.5 * DIRECTION_STEP,
+                    _ => 0.3,
+                };
                 (other.place.shares[axis] - asked.place.shares[axis]).abs() < reach
             };
             other.late == asked.late

@@ -28,6 +28,8 @@ pub(crate) struct Worst {
     pub(crate) later: f64,
     /// The utilization that a drop may reach with friction, of a part that moves along the ground; else 0.
     pub(crate) with_friction: f64,
+    /// The most that a drop was found to ask after it has bounced clear once, as a utilization.
+    pub(crate) late: f64,
     /// Drops that the model does not take, and why the first of them; of edges that touch, the one that does deepest.
     pub(crate) refused: Option<(usize, Error)>,
     /// Drops that were followed besides climbing.
@@ -45,12 +47,14 @@ pub(super) struct OfDrop {
     pub(super) later: Vec<(usize, f64)>,
     /// Of tasks that friction adds to, what they ask with it at most.
     pub(super) with_friction: Vec<(usize, f64)>,
+    /// Of a box that was followed on, how far it leaned from what it landed on.
+    pub(super) lean: f64,
 }
 
 impl Worst {
     pub(super) fn none() -> Self {
         let near = Vec::new();
-        Self { asked: None, near, later: 0.0, with_friction: 0.0, refused: None, drops: 0, stopped: false }
+        Self { asked: None, near, later: 0.0, late: 0.0, with_friction: 0.0, refused: None, drops: 0, stopped: false }
     }
     pub(super) fn refuse(&mut self, count: usize, error: &Error) {
         let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
@@ -69,23 +73,35 @@ pub(super) struct Candidates {
     /// Of each task, the most that a drop may ask with friction; 0 where friction adds nothing.
     pub(super) with_friction: Vec<f64>,
     pub(super) drops: usize,
+    /// The box that leaned most, and how far.
+    pub(super) leaning: Option<(f64, Place)>,
 }
 
 impl Candidates {
     pub(super) fn none(tasks: usize) -> Self {
         let nothing = vec![0.0; tasks];
-        Self { found: vec![Vec::new(); tasks], refused: None, later: nothing.clone(), with_friction: nothing, drops: 0 }
+        Self {
+            found: vec![Vec::new(); tasks],
+            refused: None,
+            later: nothing.clone(),
+            with_friction: nothing,
+            drops: 0,
+            leaning: None,
+        }
     }
     /// The largest utilization of each task so far.
     pub(super) fn best(&self) -> Vec<f64> {
         let most = |found: &Vec<Candidate>| found.iter().map(|asked| asked.answer.utilization()).fold(0.0, f64::max);
         self.found.iter().map(most).collect()
     }
-    pub(super) fn take(&mut self, answers: Vec<Result<OfDrop, Error>>) {
-        for answer in answers.into_iter().filter(|answer| !matches!(answer, Err(Error::Stopped))) {
+    pub(super) fn take(&mut self, answers: Vec<(Place, Result<OfDrop, Error>)>) {
+        for (place, answer) in answers.into_iter().filter(|(_, answer)| !matches!(answer, Err(Error::Stopped))) {
             self.drops += 1;
             match answer {
                 Ok(of_drop) => {
+                    if of_drop.lean > self.leaning.map_or(0.0, |(lean, _)| lean) {
+                        self.leaning = Some((of_drop.lean, place));
+                    }
                     of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
                     of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
                     for (task, most) in of_drop.with_friction {
@@ -138,8 +154,14 @@ mod tests {
     fn rebounds_of_all_drops_are_the_most_of_any() {
         for order in [[3.0, 1.0, 2.0], [1.0, 2.0, 3.0]] {
             let mut all = Candidates::none(1);
-            let of = |most: f64| OfDrop { later: vec![(0, most)], with_friction: vec![(0, 2.0 * most)], ..OfDrop::default() };
-            all.take(order.map(|most| Ok(of(most))).into());
+            let place =
+                Place { first: clatter::End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares: [0.0; 9] };
+            let of = |most: f64| OfDrop {
+                later: vec![(0, most)],
+                with_friction: vec![(0, 2.0 * most)],
+                ..OfDrop::default()
+            };
+            all.take(order.map(|most| (place, Ok(of(most)))).into());
             assert!((all.later[0] - 3.0).abs() < 1e-12 && all.drops == 3, "{:?} of {order:?}", all.later);
             assert!((all.with_friction[0] - 6.0).abs() < 1e-12, "{:?} of {order:?}", all.with_friction);
         }

@@ -2,7 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
-use super::ranges::{AXES, Place, Ranges, SPIN};
+use super::ranges::{
+    AXES, CONTACT, DAMPING, DIRECTION, FREQUENCY, GYRATION, Place, RESTITUTION, Ranges, SPEED, SPIN, TILT,
+};
 use clatter::End;
 
 use super::{GOLDEN, Task};
@@ -32,6 +34,10 @@ const OVERLAPS_A_QUARTER: u32 = 4;
 /// Lines of drops over the tilt of a plate besides those that land on an edge, and for each quarter of a turn.
 const LINES: u32 = 6;
 const LINES_A_QUARTER: u32 = 3;
+/// Drops of the grid of a plate that may rise to several directions, at least.
+const DROPS_OF_PLATE: usize = 1024;
+/// Part of a contact by which the second corner comes later next to a landing on an edge.
+const PART_OF_CONTACT: f64 = 0.25;
 /// Where along a range the drops of the grid are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Level {
@@ -110,6 +116,14 @@ impl Ranges<'_> {
                 let between = even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast);
                 (1_u32..).zip(between).for_each(|(k, tilt)| add(tilt, (SQRT_7 * f64::from(k)).fract()));
             }
+            // Next to a landing on an edge what is asked changes as fast as two contacts come apart.
+            for (line, direction) in self.lines().iter().take(self.on_edges().len()) {
+                for (tilt, side) in even((steps / 4.0).ceil(), tilted).flat_map(|tilt| [(tilt, -1.0), (tilt, 1.0)]) {
+                    let on_edge = of(first, [tilt, 1.0], line, *direction, grid.len());
+                    let next = direction + side * self.turn_in_contact(&on_edge);
+                    grid.extend(Some(on_edge.with(DIRECTION, next)).filter(|_| (0.0..=1.0).contains(&next)));
+                }
+            }
             let turned = &TURNED_AT[..if self.quarters() == 0 {
                 0
             } else if tilted {
@@ -124,6 +138,10 @@ impl Ranges<'_> {
                 }
             }
         }
+        // Of a plate with soft parts the order in which its corners come down tells more than the phase of the parts.
+        let of_plate = if self.quarters() > 0 { DROPS_OF_PLATE.saturating_sub(grid.len()) } else { 0 };
+        let evenly = |k: u32| if tilted { self.spread_out(k).with(TILT, halton(TILT, k)) } else { self.spread_out(k) };
+        grid.extend((1..).map(evenly).take(of_plate));
         if self.hold_flat() {
             let first = self.firsts()[0];
             let levels = [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)];
@@ -196,6 +214,26 @@ impl Ranges<'_> {
         all
     }
 
+    /// The directions of a plate in which it lands on an edge, and the ends of those that it rises to.
+    fn on_edges(&self) -> Vec<f64> {
+        if self.quarters() == 0 {
+            return Vec::new();
+        }
+        let [from, to] = self.directions();
+        let first = (from / FRAC_PI_2).ceil();
+        let edges = (0..=4).map(|k| ((first + f64::from(k)) * FRAC_PI_2 - from) / (to - from));
+        let mut all: Vec<f64> = [0.0].into_iter().chain(edges.filter(|share| *share < 1.0)).chain([1.0]).collect();
+        all.dedup();
+        all
+    }
+
+    /// How far a plate is turned, as a share of its directions, so that some corner comes later by a part of a contact.
+    pub(super) fn turn_in_contact(&self, place: &Place) -> f64 {
+        let (drop, [from, to]) = (self.single(place), self.directions());
+        let turned_m = self.reach_m() * libm::sin(drop.tilt_rad) * (to - from);
+        drop.contact_times_s().map_or(0.0, |[shortest, _]| PART_OF_CONTACT * shortest * drop.speed_m_s / turned_m)
+    }
+
     /// Lines of drops over the tilt: of a bar one at each of these levels; of a plate at directions that spread evenly, its edges among
     /// them, and at the levels in turn.
     fn lines(&self) -> Vec<([Level; 4], f64)> {
@@ -204,7 +242,7 @@ impl Ranges<'_> {
             return levels.into_iter().map(|line| (line, 0.0)).collect();
         }
         let quarters = self.quarters();
-        let edges = (0..=quarters).map(|k| (f64::from(k) / f64::from(quarters)).min(1.0));
+        let edges = self.on_edges().into_iter();
         let between = (1..=LINES + LINES_A_QUARTER * quarters).map(|k| (GOLDEN * f64::from(k)).fract());
         // The ends of all ranges, and one that spreads over them.
         let is_end = |line: &&[Level; 4]| line.iter().all(|level| matches!(level, Level::At(_)));
@@ -249,19 +287,35 @@ impl Ranges<'_> {
         (0..=count).flat_map(drops).collect()
     }
 
-    /// Drop k of a sequence that spreads evenly over the ranges (Halton's).
+    /// Drop k of a sequence that spreads evenly over the ranges (Halton's), half of it at an end of each, where worst cases lie as a rule.
     pub(super) fn spread_out(&self, k: u32) -> Place {
         let firsts = self.firsts();
-        let first = firsts[k as usize % firsts.len()];
-        let mut shares: [f64; AXES] = std::array::from_fn(|axis| halton(axis, k));
-        shares[SPIN] = self.spin_share(shares[SPIN]);
+        // Not by its last digit, which tells the half of the tilts.
+        let first = firsts[k.count_ones() as usize % firsts.len()];
+        let mut shares = [0.0; AXES];
+        let free = self.free_in_drops();
+        // Few digits for those over which what is asked changes most.
+        let order = [TILT, DIRECTION, SPEED, RESTITUTION, CONTACT, GYRATION, SPIN, DAMPING, FREQUENCY];
+        for (n, axis) in order.into_iter().filter(|axis| free[*axis]).enumerate() {
+            let share = radical_inverse(PRIMES[n], k);
+            // Directions have no ends, and a box that is turned off nothing balances for long.
+            let has_ends = axis != DIRECTION && (axis != TILT || self.posture.is_none());
+            shares[axis] = if has_ends { (2.0 * share - 0.5).clamp(0.0, 1.0) } else { share };
+        }
         Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
     }
 }
 
+/// Bases of Halton's sequence.
+const PRIMES: [u32; AXES] = [2, 3, 5, 7, 11, 13, 17, 19, 23];
+
 /// Number k of Halton's sequence along an axis.
-pub(super) fn halton(axis: usize, mut k: u32) -> f64 {
-    let base = [2, 3, 5, 7, 11, 13, 17, 19, 23][axis];
+pub(super) fn halton(axis: usize, k: u32) -> f64 {
+    radical_inverse(PRIMES[axis], k)
+}
+
+/// The digits of k in a base, mirrored at the point.
+fn radical_inverse(base: u32, mut k: u32) -> f64 {
     let (mut share, mut digit) = (0.0, 1.0);
     while k > 0 {
         digit /= f64::from(base);

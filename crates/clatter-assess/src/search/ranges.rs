@@ -24,7 +24,9 @@ pub(crate) struct Place {
 /// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio, radius of gyration, direction, spin.
 pub(super) const AXES: usize = 9;
 pub(super) const TILT: usize = 0;
+pub(super) const SPEED: usize = 1;
 pub(super) const RESTITUTION: usize = 2;
+pub(super) const CONTACT: usize = 3;
 /// Those of the part.
 pub(super) const FREQUENCY: usize = 4;
 pub(super) const DAMPING: usize = 5;
@@ -142,22 +144,28 @@ impl Ranges<'_> {
         free
     }
 
-    /// Which axes have a range.
-    pub(super) fn free(&self, task: &Task<'_>) -> [bool; AXES] {
+    /// Which axes of a drop have a range, and those of a part, which any may have.
+    pub(super) fn free_in_drops(&self) -> [bool; AXES] {
         let [slow, fast] = self.drop.speeds_m_s();
         let contact = self.product.contact_time_s.is_some_and(|time| !time.is_value());
-        let [frequency, damping] = match task.component.mount {
+        let varies = |spread: &Spread| !spread.is_value();
+        let of = [&self.drop.tilt_rad, &self.product.restitution, &self.product.gyration_m, &self.drop.spin_rad_s];
+        let [tilt, restitution, gyration, spin] = of.map(varies);
+        let [from, to] = self.directions();
+        [tilt, slow < fast, restitution, contact, true, true, gyration, from < to, spin]
+    }
+
+    /// Which axes have a range.
+    pub(super) fn free(&self, task: &Task<'_>) -> [bool; AXES] {
+        let mut free = self.free_in_drops();
+        [free[FREQUENCY], free[DAMPING]] = match task.component.mount {
             Mount::Suspended { frequency_hz, damping } if task.limit.is_response() => {
                 let [least, most] = damping.ratios();
                 [!frequency_hz.is_value(), least < most]
             }
             _ => [false; 2],
         };
-        let varies = |spread: &Spread| !spread.is_value();
-        let of = [&self.drop.tilt_rad, &self.product.restitution, &self.product.gyration_m, &self.drop.spin_rad_s];
-        let [tilt, restitution, gyration, spin] = of.map(varies);
-        let [from, to] = self.directions();
-        [tilt, slow < fast, restitution, contact, frequency, damping, gyration, from < to, spin]
+        free
     }
 
     /// The directions that drops are followed in: of a plate that may rise to any, those of which the others are mirror images.

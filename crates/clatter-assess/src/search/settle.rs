@@ -11,12 +11,18 @@ const TRIES: usize = 8;
 /// So many times the space between two places of an extended part is halved about the worst.
 const NARROWED: usize = 7;
 
+/// The most that any of these asks after rebounds.
+fn late_most(reached: &[Candidate]) -> f64 {
+    let late = reached.iter().filter(|found| found.late);
+    late.map(|found| found.answer.utilization()).fold(0.0, f64::max)
+}
+
 impl Ranges<'_> {
     /// The worst of what was reached, answered to the tolerance. What comes after rebounds is so sensitive that it may not come up
     /// again; so the next are tried until none may be worse.
     pub(super) fn settle(&self, task: &Task<'_>, mut reached: Vec<Candidate>) -> Worst {
         reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
-        let mut worst = Worst::none();
+        let mut worst = Worst { late: late_most(&reached), ..Worst::none() };
         // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
         let mut bounces = f64::INFINITY;
         for late in [false, true] {
@@ -58,7 +64,7 @@ impl Ranges<'_> {
     /// The worst of what was reached as it was found, where the time is over: to the tolerance if it decides, and nobody knows how far
     /// off.
     pub(super) fn settle_at_once(&self, task: &Task<'_>, reached: Vec<Candidate>) -> Worst {
-        let mut worst = Worst { stopped: true, ..Worst::none() };
+        let mut worst = Worst { late: late_most(&reached), stopped: true, ..Worst::none() };
         let found = reached.into_iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()));
         let exact =
             |found: Candidate| if found.answer.utilization() > 1.0 { self.exactly(task, &found) } else { Ok(found) };

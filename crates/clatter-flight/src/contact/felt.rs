@@ -5,7 +5,7 @@ use clatter::{Excitation, Section, Sine};
 use super::mode::{Mode, Motion};
 use super::phase::Phase;
 use super::{Level, Phases, Planar, Pose};
-use crate::motion::{Course, PlateMotion};
+use crate::motion::{Course, FeetMotion, PlateMotion};
 
 /// Over a contact, what is so short that nothing is spread over it.
 const SHORT: f64 = 0.1;
@@ -82,6 +82,49 @@ impl<const N: usize> Phases<N, Planar<N>> {
     }
 }
 
+impl<const N: usize> Phases<N, Level<N>> {
+    /// The acceleration of the slope along a direction.
+    fn turned_in(&self, direction: [f64; 2]) -> Excitation {
+        self.turned_by(|pose| pose.rate_along(direction), |phase| phase.start.slope_by(direction))
+    }
+}
+
+impl<const N: usize> crate::Motion<N> {
+    /// What a place x, z feels of contacts that take time, in m from the center of mass in axes of the body: its acceleration above free
+    /// fall. None of instant impacts.
+    #[must_use]
+    pub fn felt_at(&self, place: [f64; 2]) -> Option<Excitation> {
+        self.phases().map(|phases| phases.felt(place))
+    }
+    /// The angular acceleration of the body, in rad where [`felt_at`](Self::felt_at) has m. None of instant impacts.
+    #[must_use]
+    pub fn turned_by_contacts(&self) -> Option<Excitation> {
+        self.phases().map(Phases::turned)
+    }
+}
+
+impl FeetMotion {
+    /// What a place x, y feels, in m from the center of mass: its acceleration above free fall.
+    ///
+    /// # Panics
+    /// Never: it is a motion of contacts that take time.
+    #[must_use]
+    pub fn felt(&self, place: [f64; 2]) -> Excitation {
+        self.by_contacts().felt(place)
+    }
+    /// The acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
+    ///
+    /// # Panics
+    /// Never: it is a motion of contacts that take time.
+    #[must_use]
+    pub fn turned(&self, direction: [f64; 2]) -> Excitation {
+        self.by_contacts().turned_in(direction)
+    }
+    fn by_contacts(&self) -> &Phases<8, Level<8>> {
+        self.phases().unwrap_or_else(|| unreachable!("feet have contacts that take time"))
+    }
+}
+
 impl PlateMotion {
     /// What a place x, y feels, in m from the center of mass: its acceleration above free fall, as [`Motion::felt`](crate::Motion::felt).
     /// Of instant impacts exact, corners that lie included.
@@ -95,11 +138,9 @@ impl PlateMotion {
     /// The acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
     #[must_use]
     pub fn turned(&self, direction: [f64; 2]) -> Excitation {
-        let by = |phase: &Phase<Level, 4>| phase.start.slope_by(direction);
-        let turned = |phases: &Phases<4, Level>| phases.turned_by(|pose| pose.rate_along(direction), by);
         match &self.course {
             Course::Impacts(falls) => falls.felt(self, falls.slope(direction), 0.0),
-            Course::Contacts(phases) => turned(phases),
+            Course::Contacts(phases) => phases.turned_in(direction),
         }
     }
 }

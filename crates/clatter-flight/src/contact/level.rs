@@ -1,17 +1,22 @@
 //! A plate that is almost level: height of its center of mass and slopes along x and y, with lever arms that do not change.
 //!
-//! With the positions x, y of the corners about the center of mass and the radii of gyration k_x, k_y,
+//! With the positions x, y of the points about the center of mass and the radii of gyration k_x, k_y,
 //! M_ij = 1 + x_i x_j/k_x² + y_i y_j/k_y²; with a product of inertia 1 + r_i·C⁻¹ r_j, C the second moments of the mass.
+//!
+//! The first four points are the corners of the [`Plate`], on which it rests; others are over them, such as the edges beyond feet.
 
 use super::Sample;
-use super::pose::{Borne, Extent, Pose, Pushes};
+use super::pose::{Borne, Extent, Pose, Pushes, solve};
 use crate::plate::{Plate, PlateScene};
 use crate::rigid::Falls;
 
 /// A [`Plate`] in motion.
 #[derive(Debug, Clone, Copy)]
-pub struct Level {
+pub struct Level<const N: usize = 4> {
     plate: Plate,
+    points: [[f64; 2]; N],
+    /// Heights of the points over the corners of the plate, where it is level.
+    over: [f64; N],
     gravity: f64,
     /// Height and velocity of the center of mass.
     y: f64,
@@ -27,13 +32,7 @@ const AROUND: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 impl Level {
     /// The first touch: the lowest corner is on the ground.
     pub(crate) fn start(scene: &PlateScene) -> Self {
-        let plate = scene.plate();
-        let ([length, width], [x, y]) = (plate.sides_m(), scene.gaps_m());
-        let slopes = [x / length, y / width];
-        let (gravity, v) = (scene.gravity_m_s2(), -scene.speed_m_s());
-        let mut level = Self { plate, gravity, y: 0.0, v, slopes, rates: scene.spin_rad_s() };
-        level.y = -level.points().0.into_iter().fold(f64::INFINITY, f64::min);
-        level
+        Self::on(scene, scene.plate().corners_m(), [0.0; 4])
     }
     /// With its corners at these heights and velocities.
     pub(crate) fn of(scene: &PlateScene, height: [f64; 4], velocity: [f64; 4]) -> Self {
@@ -43,6 +42,33 @@ impl Level {
         let mean = |of: [f64; 4]| level.even().iter().zip(of).map(|(share, x)| share * x).sum();
         Self { y: mean(height), v: mean(velocity), slopes: along(height), rates: along(velocity), ..level }
     }
+}
+
+impl<const N: usize> Level<N> {
+    /// The first touch of a plate with these points so high over its corners, which are the first four.
+    pub(crate) fn on(scene: &PlateScene, points: [[f64; 2]; N], over: [f64; N]) -> Self {
+        let plate = scene.plate();
+        let ([length, width], [x, y]) = (plate.sides_m(), scene.gaps_m());
+        let slopes = [x / length, y / width];
+        let (gravity, v) = (scene.gravity_m_s2(), -scene.speed_m_s());
+        let mut level = Self { plate, points, over, gravity, y: 0.0, v, slopes, rates: scene.spin_rad_s() };
+        level.y = -level.points().0.into_iter().fold(f64::INFINITY, f64::min);
+        level
+    }
+    fn height_of(&self, point: usize) -> f64 {
+        self.y + Self::along(self.slopes, self.points[point]) + self.over[point]
+    }
+    /// Where the points that lie hold the plate, their forces: those that move independently do.
+    fn held_by_any(&self, lying: &[bool; N], forces: &[f64; N]) -> Option<[f64; N]> {
+        let coupling = |i: usize, j: usize| self.share(self.points[i], self.points[j]);
+        let pushed = |i: usize, forces: &[f64; N]| (0..N).map(|j| coupling(i, j) * forces[j]).sum::<f64>();
+        let others = std::array::from_fn(|i| if lying[i] { 0.0 } else { forces[i] });
+        let falls = std::array::from_fn(|i| self.gravity - pushed(i, &others));
+        let held = solve(coupling, lying, falls);
+        let all = std::array::from_fn(|i| if lying[i] { held[i] } else { forces[i] });
+        // To a rounding of what it falls with.
+        (0..4).all(|i| (pushed(i, &all) - self.gravity).abs() <= 1e-9 * self.gravity).then_some(all)
+    }
     /// What grows along x and y like this, at a place.
     fn along(of: [f64; 2], [x, y]: [f64; 2]) -> f64 {
         x * of[0] + y * of[1]
@@ -51,35 +77,41 @@ impl Level {
     fn share(&self, one: [f64; 2], other: [f64; 2]) -> f64 {
         1.0 + Self::along(self.plate.turned(other), one)
     }
-    /// What a force of 1 over the mass at each corner does to the slope along a direction.
-    pub(super) fn slope_by(&self, direction: [f64; 2]) -> [f64; 4] {
-        self.plate.corners_m().map(|corner| Self::along(self.plate.turned(corner), direction))
+    /// What a force of 1 over the mass at each point does to the slope along a direction.
+    pub(super) fn slope_by(&self, direction: [f64; 2]) -> [f64; N] {
+        self.points.map(|corner| Self::along(self.plate.turned(corner), direction))
     }
     /// The rate of the slope along a direction.
     pub(super) fn rate_along(&self, direction: [f64; 2]) -> f64 {
         Self::along(self.rates, direction)
     }
+    /// Forces on the corners that are a force of 1 at a place.
+    fn shares_of(&self, [x, y]: [f64; 2]) -> [f64; 4] {
+        let ([left, right, front, back], [length, width]) = (self.plate.edges_m(), self.plate.sides_m());
+        let ([left, right], [front, back]) =
+            ([(right - x) / length, (left + x) / length], [(back - y) / width, (front + y) / width]);
+        [left * front, right * front, right * back, left * back]
+    }
     /// Forces on the corners of 1 in all and without moment.
     fn even(&self) -> [f64; 4] {
-        let ([left, right, front, back], [length, width]) = (self.plate.edges_m(), self.plate.sides_m());
-        let ([left, right], [front, back]) = ([right / length, left / length], [back / width, front / width]);
-        [left * front, right * front, right * back, left * back]
+        self.shares_of([0.0; 2])
     }
 }
 
-impl Pose<4> for Level {
+impl<const N: usize> Pose<N> for Level<N> {
     type Arms = ();
     type Impacts = Falls;
 
     fn gravity_of(falls: &Falls) -> f64 {
         falls.gravity_m_s2()
     }
-    fn sample_of(falls: &Falls, time_s: f64) -> Option<Sample<4>> {
-        Some(falls.sample(time_s))
+    /// Instant impacts are those of the corners alone.
+    fn sample_of(falls: &Falls, time_s: f64) -> Option<Sample<N>> {
+        falls.sample(time_s).of_points()
     }
 
     fn extent(&self) -> Extent {
-        let corners = self.plate.corners_m();
+        let corners = self.points;
         let reach = corners.iter().fold(0.0_f64, |most, [x, y]| most.max(libm::hypot(*x, *y)));
         let [length, width] = self.plate.sides_m();
         let coupling = corners.iter().fold(1.0_f64, |most, corner| most.max(self.share(*corner, *corner)));
@@ -88,10 +120,9 @@ impl Pose<4> for Level {
     fn gravity(&self) -> f64 {
         self.gravity
     }
-    fn points_by(&self, (): &()) -> ([f64; 4], [f64; 4]) {
-        let corners = self.plate.corners_m();
-        let height = corners.map(|corner| self.y + Self::along(self.slopes, corner));
-        (height, corners.map(|corner| self.velocity_of(corner)))
+    fn points_by(&self, (): &()) -> ([f64; N], [f64; N]) {
+        let height = std::array::from_fn(|i| self.height_of(i));
+        (height, self.points.map(|point| self.velocity_of(point)))
     }
     /// At x, y on the plate.
     fn velocity_of(&self, place: [f64; 2]) -> f64 {
@@ -116,8 +147,8 @@ impl Pose<4> for Level {
         Self { y: self.y + t * (self.v - 0.5 * g * t), v: self.v - g * t, slopes, ..*self }
     }
     fn flying(&self, point: usize, t: f64) -> [f64; 4] {
-        let (then, corner) = (self.flown(t), self.plate.corners_m()[point]);
-        [then.y + Self::along(then.slopes, corner), then.velocity_of(corner), -self.gravity, 0.0]
+        let then = self.flown(t);
+        [then.height_of(point), then.velocity_of(self.points[point]), -self.gravity, 0.0]
     }
     fn flying_bounds(&self, _: usize) -> [f64; 3] {
         [self.gravity, 0.0, 0.0]
@@ -125,18 +156,17 @@ impl Pose<4> for Level {
 
     fn arms(&self) {}
     fn coupling(&self, (): &(), i: usize, j: usize) -> f64 {
-        let corners = self.plate.corners_m();
-        self.share(corners[i], corners[j])
+        self.share(self.points[i], self.points[j])
     }
-    fn couplings_of(&self, (): &(), place: [f64; 2]) -> [f64; 4] {
-        self.plate.corners_m().map(|corner| self.share(place, corner))
+    fn couplings_of(&self, (): &(), place: [f64; 2]) -> [f64; N] {
+        self.points.map(|point| self.share(place, point))
     }
-    fn falls(&self, (): &()) -> [f64; 4] {
-        [self.gravity; 4]
+    fn falls(&self, (): &()) -> [f64; N] {
+        [self.gravity; N]
     }
-    fn after(&self, t: f64, (): &(), pushes: &Pushes<4>) -> Self {
+    fn after(&self, t: f64, (): &(), pushes: &Pushes<N>) -> Self {
         let mut pose = self.flown(t);
-        for (i, corner) in self.plate.corners_m().into_iter().enumerate() {
+        for (i, corner) in self.points.into_iter().enumerate() {
             let turns = self.plate.turned(corner);
             pose.y += pushes.path[i];
             pose.v += pushes.impulse[i];
@@ -146,9 +176,9 @@ impl Pose<4> for Level {
         pose
     }
 
-    /// By the forces that leave least of its energy over that at rest, F and F + s (1, −1, 1, −1) doing the same to the plate:
-    /// nothing else is left where it rests on lines like these.
-    fn borne(&self, (): &(), height: &[f64; 4], line: impl Fn(usize) -> [f64; 2]) -> Option<Borne<4>> {
+    /// By the forces on its corners that leave least of its energy over that at rest, F and F + s (1, −1, 1, −1) doing the same to the
+    /// plate: nothing else is left where it rests on lines like these.
+    fn borne(&self, (): &(), height: &[f64; N], line: impl Fn(usize) -> [f64; 2]) -> Option<Borne<N>> {
         let even = self.even().map(|share| share * self.gravity);
         let [mut off, mut yields] = [0.0; 2];
         for i in 0..4 {
@@ -159,35 +189,44 @@ impl Pose<4> for Level {
             }
         }
         let s = if yields > 0.0 { (-off / yields).clamp(-even[0].min(even[2]), even[1].min(even[3])) } else { 0.0 };
-        let forces = std::array::from_fn(|i| even[i] + s * AROUND[i]);
-        Some(Borne { on: [true; 4], forces })
+        let forces = std::array::from_fn(|i| if i < 4 { even[i] + s * AROUND[i] } else { 0.0 });
+        Some(Borne { on: std::array::from_fn(|i| i < 4), forces })
     }
-    /// By three corners that lie or four; of four each alike, as their own yielding would tell.
-    fn held_by(&self, lying: &[bool; 4], forces: &[f64; 4]) -> Option<[f64; 4]> {
-        let even = self.even().map(|share| share * self.gravity);
+    /// By three corners that lie or four; of four each alike, as their own yielding would tell. Where a point over them lies too, by as
+    /// many points as move independently.
+    fn held_by(&self, lying: &[bool; N], forces: &[f64; N]) -> Option<[f64; N]> {
+        let beyond = || 4..N;
+        if beyond().any(|i| lying[i]) {
+            return self.held_by_any(lying, forces);
+        }
+        let mut even = self.even().map(|share| share * self.gravity);
+        for i in beyond() {
+            let shares = self.shares_of(self.points[i]);
+            even = std::array::from_fn(|k| even[k] - forces[i] * shares[k]);
+        }
         let others: Vec<usize> = (0..4).filter(|&i| !lying[i]).collect();
         let s = match others[..] {
             [] => 0.0,
             [i] => (forces[i] - even[i]) * AROUND[i],
             _ => return None,
         };
-        Some(std::array::from_fn(|i| even[i] + s * AROUND[i]))
+        Some(std::array::from_fn(|i| if i < 4 { even[i] + s * AROUND[i] } else { forces[i] }))
     }
     /// Where more than one corner does not carry, what the others can not stop is left out.
-    fn stopping(&self, carrying: &[bool; 4]) -> Option<[Option<f64>; 4]> {
-        if !carrying.contains(&true) {
+    fn stopping(&self, carrying: &[bool; N]) -> Option<[Option<f64>; N]> {
+        if !carrying[..4].contains(&true) {
             return None;
         }
         let (even, [length, width], [kx, ky]) = (self.even(), self.plate.sides_m(), self.plate.gyration_m());
         let (c, [x, y]) = (self.plate.product_of_inertia_m2(), self.rates);
         let moments = [(kx * kx * x + c * y) / (2.0 * length), (ky * ky * y + c * x) / (2.0 * width)];
         let each: [f64; 4] = std::array::from_fn(|i| {
-            let [x, y] = self.plate.corners_m()[i];
+            let [x, y] = self.points[i];
             -self.v * even[i] - moments[0] * x.signum() - moments[1] * y.signum()
         });
         let idle: Vec<usize> = (0..4).filter(|&i| !carrying[i]).collect();
         let s = if let [i] = idle[..] { -each[i] * AROUND[i] } else { 0.0 };
-        Some(std::array::from_fn(|i| carrying[i].then(|| each[i] + s * AROUND[i])))
+        Some(std::array::from_fn(|i| (i < 4 && carrying[i]).then(|| each[i] + s * AROUND[i])))
     }
     fn still(&self) -> Self {
         Self { v: 0.0, rates: [0.0; 2], ..*self }

@@ -149,7 +149,8 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let line = |i: usize| self.line(&arms, i, height[i]);
         let Borne { on, forces } = self.pose.borne(&arms, &height, line)?;
         let those = || (0..N).filter(|&i| on[i]);
-        let left = self.pose.kinetic() + those().map(|i| over(line(i), height[i], forces[i])).sum::<f64>();
+        // Springs that press elsewhere hold energy too.
+        let left = self.pose.kinetic() + (0..N).map(|i| over(line(i), height[i], forces[i])).sum::<f64>();
         let by_weight = those().map(|i| 0.5 * forces[i] * forces[i] / self.stiffness(&arms, i)).sum::<f64>();
         let dented = |i: &usize| self.leave_dents() && matches!(self.touches[*i].state, State::Elastic | State::Lying);
         let unloaded = || those().filter(dented);

@@ -21,6 +21,8 @@ enum Mode {
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     at: [f64; 2],
+    /// Height over the others, where the plate is level.
+    over: f64,
     mode: Mode,
     stiffness: f64,
     /// Depths from which a press counts, and of its deepest.
@@ -29,13 +31,13 @@ struct Corner {
 }
 
 #[derive(Clone, Debug)]
-pub(crate) struct PlainPlate {
-    corners: [Corner; 4],
+pub(crate) struct PlainPlate<const N: usize = 4> {
+    corners: [Corner; N],
     gyration: [f64; 2],
     gravity: f64,
     law: ContactLaw,
-    e: [f64; 4],
-    omega: [f64; 4],
+    e: [f64; N],
+    omega: [f64; N],
     theta: f64,
     state: State,
     pub(crate) time: f64,
@@ -110,7 +112,7 @@ impl PlainPlate {
         };
         let slopes = [drop.gaps[0] / (left + right), drop.gaps[1] / (front + back)];
         let lowest = at.iter().map(|[x, y]| x * slopes[0] + y * slopes[1]).fold(f64::INFINITY, f64::min);
-        let corner = |at| Corner { at, mode: Mode::Away, stiffness: 0.0, ground: 0.0, deepest: 0.0 };
+        let corner = |at| Corner { at, over: 0.0, mode: Mode::Away, stiffness: 0.0, ground: 0.0, deepest: 0.0 };
         let mut plate = Self {
             corners: at.map(corner),
             gyration: drop.gyration,
@@ -143,24 +145,56 @@ impl PlainPlate {
         }
         plate
     }
+    /// On feet, which are its corners: with edges beyond them so far along x and along y, and so high over them; all have contacts of their
+    /// own.
+    pub(crate) fn on_feet(drop: &Drop, [x, y]: [f64; 2], height: f64, own: [(f64, f64); 8]) -> PlainPlate<8> {
+        let Self { corners, gyration, gravity, law, e, omega, theta, state, touches, .. } = Self::new(drop);
+        let edge = |corner: Corner| {
+            let [a, b] = corner.at;
+            Corner { at: [a + x.copysign(a), b + y.copysign(b)], over: height, mode: Mode::Away, ..corner }
+        };
+        let is_own = law == ContactLaw::Hysteretic;
+        let omegas = own.map(|(e, time)| std::f64::consts::FRAC_PI_2 * (1.0 + e) / time);
+        let mut plate = PlainPlate {
+            corners: std::array::from_fn(|i| if i < 4 { corners[i] } else { edge(corners[i - 4]) }),
+            gyration,
+            gravity,
+            law,
+            e: if is_own { own.map(|(e, _)| e) } else { [e[0]; 8] },
+            omega: if is_own { omegas } else { [omega[0]; 8] },
+            theta,
+            state,
+            time: 0.0,
+            touches: Vec::new(),
+            part: None,
+            fine: 100.0,
+        };
+        for touch in touches {
+            plate.touch(touch.point);
+        }
+        plate
+    }
+}
+
+impl<const N: usize> PlainPlate<N> {
     fn height(&self, s: &State, i: usize) -> f64 {
-        s[0] + s[1] * self.corners[i].at[0] + s[2] * self.corners[i].at[1]
+        s[0] + s[1] * self.corners[i].at[0] + s[2] * self.corners[i].at[1] + self.corners[i].over
     }
     fn velocity(&self, s: &State, i: usize) -> f64 {
         s[3] + s[4] * self.corners[i].at[0] + s[5] * self.corners[i].at[1]
     }
-    pub(crate) fn heights(&self) -> [f64; 4] {
+    pub(crate) fn heights(&self) -> [f64; N] {
         std::array::from_fn(|i| self.height(&self.state, i))
     }
-    pub(crate) fn velocities(&self) -> [f64; 4] {
+    pub(crate) fn velocities(&self) -> [f64; N] {
         std::array::from_fn(|i| self.velocity(&self.state, i))
     }
     /// Of all corners; those that are held have what keeps them where they are.
-    fn forces(&self, s: &State) -> [f64; 4] {
-        let mut forces: [f64; 4] = std::array::from_fn(|i| self.pressed(s, i));
-        let held: Vec<usize> = (0..4).filter(|&i| self.corners[i].mode == Mode::Held).collect();
+    fn forces(&self, s: &State) -> [f64; N] {
+        let mut forces: [f64; N] = std::array::from_fn(|i| self.pressed(s, i));
+        let held: Vec<usize> = (0..N).filter(|&i| self.corners[i].mode == Mode::Held).collect();
         // Rows of (what a force at j does to i | what is missing), by Gauss.
-        let moves = |f: &[f64; 4], i: usize| {
+        let moves = |f: &[f64; N], i: usize| {
             let [.., a, x, y] = self.rates_by(s, f);
             a + x * self.corners[i].at[0] + y * self.corners[i].at[1]
         };
@@ -204,7 +238,7 @@ impl PlainPlate {
     fn rates(&self, s: &State) -> State {
         self.rates_by(s, &self.forces(s))
     }
-    fn rates_by(&self, s: &State, forces: &[f64; 4]) -> State {
+    fn rates_by(&self, s: &State, forces: &[f64; N]) -> State {
         let (mut force, mut moments) = (0.0, [0.0; 2]);
         for (i, f) in forces.iter().enumerate() {
             force += f;
@@ -248,7 +282,7 @@ impl PlainPlate {
         let [x, y] = self.corners[i].at;
         let lone = 1.0 + (x / self.gyration[0]).powi(2) + (y / self.gyration[1]).powi(2);
         let stiffness = self.omega[i].powi(2) / lone;
-        self.corners[i] = Corner { at: [x, y], mode: Mode::Load, stiffness, ground, deepest: 0.0 };
+        self.corners[i] = Corner { mode: Mode::Load, stiffness, ground, deepest: 0.0, ..self.corners[i] };
         self.touches.push(Touch { point: i, time: self.time, approach: self.velocity(&self.state, i).min(0.0) });
     }
     fn happens(&mut self, i: usize, mode: Mode) {
@@ -271,7 +305,7 @@ impl PlainPlate {
         if rate > 0.0 {
             return 1.0 / (self.fine * rate);
         }
-        let close = (0..4)
+        let close = (0..N)
             .map(|i| 0.3 * self.height(&self.state, i).abs() / (self.velocity(&self.state, i).abs() + 1e-9))
             .fold(f64::INFINITY, f64::min);
         close.clamp(0.01 / self.omega.into_iter().fold(0.0, f64::max), 1e-3)
@@ -280,9 +314,9 @@ impl PlainPlate {
         let of_part = self.part.map_or(f64::INFINITY, |part| 0.02 / part.omega);
         let mut h = self.length().min(until - self.time).min(of_part);
         let now = self.state;
-        let due = |s: &State| (0..4).any(|i| self.events(s, i).iter().any(|(g, _)| *g < 0.0));
+        let due = |s: &State| (0..N).any(|i| self.events(s, i).iter().any(|(g, _)| *g < 0.0));
         // A dip below the ground between two steps: to its lowest.
-        for i in (0..4).filter(|&i| self.corners[i].mode == Mode::Away && self.velocity(&now, i) < 0.0) {
+        for i in (0..N).filter(|&i| self.corners[i].mode == Mode::Away && self.velocity(&now, i) < 0.0) {
             let rate = |h: f64| self.velocity(&self.step(&now, h), i);
             if rate(h) > 0.0 {
                 let (mut lo, mut hi) = (0.0, h);
@@ -314,7 +348,7 @@ impl PlainPlate {
         self.state = self.step(&now, h);
         self.time += h;
         let due = |i: usize| self.events(&self.state, i).into_iter().find(|(g, _)| *g < 0.0).map(|(_, m)| (i, m));
-        if let Some((i, mode)) = (0..4).find_map(due) {
+        if let Some((i, mode)) = (0..N).find_map(due) {
             self.happens(i, mode);
         }
     }
