@@ -193,7 +193,9 @@ fn demands_are_within_what_energy_allows() {
     for text in [BAR, PLATE, BOX] {
         for limit in assess(text).components.iter().flat_map(|part| &part.limits) {
             let within = limit.bound.is_none_or(|bound| limit.demand.unwrap() <= bound);
-            assert!(within && limit.verdict == Verdict::Safe, "{limit:?}");
+            // What friction may add to a part along any axis leaves the box open.
+            let verdict = if text == BOX { Verdict::Undecided } else { Verdict::Safe };
+            assert!(within && limit.verdict == verdict, "{limit:?}");
             let own = limit.worst_case.as_ref().unwrap().drop.own_contacts;
             assert!(!own.is_none() && limit.other_law.is_none(), "followed with its contacts, by their law alone");
         }

@@ -155,7 +155,6 @@ fn later(seed: u64) -> Option<([f64; 2], String)> {
     };
     let hard = Limit::of(component)
         .iter()
-        .filter(|l| l.kind != LimitKind::VelocityChange)
         .filter_map(|limit| ask(limit, None))
         .fold(0.0, f64::max);
     let ratio = DampingRatio::new(r.log(0.01, 0.3)).unwrap();
@@ -183,7 +182,7 @@ fn later_landings_stay_within(products: u64) {
 
 #[test]
 fn later_landings_of_random_products_stay_within_what_is_told() {
-    later_landings_stay_within(3000);
+    later_landings_stay_within(150);
 }
 
 /// Follows one drop of each of so many random products.
@@ -196,16 +195,14 @@ fn no_drop_exceeds(products: u64) {
         // Answers are off by up to their tolerance.
         let over = all.iter().filter(|one| of(one) > 1.01).count();
         println!("{kind:?}: {over} above; the most is {:.3} of its bound\n{}", of(worst), worst.1);
-        if false {};
-        eprintln!("{kind:?} over {over}");
-        assert!(true || over == 0, "{kind:?}: {over} above; {}\n{}", of(worst), worst.1);
+        assert!(over == 0, "{kind:?}: {over} above; {}\n{}", of(worst), worst.1);
         assert!(of(worst) > 0.5, "{kind:?}: {}: nothing comes near its bound", of(worst));
     }
 }
 
 #[test]
 fn no_drop_of_random_products_exceeds_its_bound() {
-    no_drop_exceeds(500);
+    no_drop_exceeds(1000);
 }
 
 #[test]
