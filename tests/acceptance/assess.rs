@@ -220,20 +220,26 @@ component = [
         ]);
         assert!(beyond.stderr.contains("beyond the ends: allowed is up to 150 mm"), "{}", beyond.stderr);
     }
-    let low = [
-        "respond",
-        "--model=compliant",
-        "--length=240mm",
-        "--gyration=85mm",
-        "--e=0.3",
-        "--speed=3m/s",
-        "--tilt=2deg",
-        "--at=0mm",
-        "--contact-time=1ms",
-        "--feet-m=0.03,0,0.0015",
-    ];
-    let outcome = clatter(low);
-    assert!(outcome.stderr.contains("an edge beyond the feet comes down"), "{}", outcome.stderr);
+    let pushed = |feet: &str| {
+        let outcome = clatter([
+            "respond",
+            "--model=compliant",
+            "--length=240mm",
+            "--gyration=85mm",
+            "--e=0.3",
+            "--speed=3m/s",
+            "--tilt=2deg",
+            "--at=0mm",
+            "--contact-time=1ms",
+            "--format=json",
+            feet,
+        ]);
+        let answer: Value = serde_json::from_str(&outcome.stdout).expect(&outcome.stderr);
+        answer["acceleration_m_s2"].as_f64().unwrap()
+    };
+    // An end that comes down beyond low feet pushes too.
+    let (low, high) = (pushed("--feet-m=0.03,0,0.0015"), pushed("--feet-m=0.03,0,0.02"));
+    assert!(low > 1.1 * high, "{low}, {high}");
 }
 
 /// Of a plate whose masses lie askew.

@@ -216,7 +216,7 @@ fn the_examples_of_the_help_run() {
     let help = clatter(["fit", "--help"]).stdout;
     let dir = tempfile::tempdir().unwrap();
     write(dir.path(), "strikes.csv", STRIKES);
-    write(dir.path(), "handheld.toml", PRODUCT);
+    write(dir.path(), "bar.toml", PRODUCT);
     let examples: Vec<&str> = help.lines().filter(|line| line.trim().starts_with("clatter fit strikes.csv")).collect();
     assert_eq!(examples.len(), 2, "{help}");
     for example in examples {

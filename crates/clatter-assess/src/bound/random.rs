@@ -153,10 +153,7 @@ fn later(seed: u64) -> Option<([f64; 2], String)> {
         let said = up.later_most(limit, part, 0.0).max(reached);
         Some(asked / said)
     };
-    let hard = Limit::of(component)
-        .iter()
-        .filter_map(|limit| ask(limit, None))
-        .fold(0.0, f64::max);
+    let hard = Limit::of(component).iter().filter_map(|limit| ask(limit, None)).fold(0.0, f64::max);
     let ratio = DampingRatio::new(r.log(0.01, 0.3)).unwrap();
     let part = Suspension::from_hz(r.log(20.0, 2000.0), ratio).unwrap();
     let soft = if component.inside.axis == Axis::Any {
