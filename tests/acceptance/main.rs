@@ -37,6 +37,7 @@ mod threads;
 mod torn;
 mod tradeoff;
 mod typed;
+mod verdicts;
 mod versions;
 
 use clatter_cli::{Exit, Streams, run};

@@ -495,6 +495,12 @@ fn governing(of_drops: &[LimitAssessment], names: &[DropName]) -> LimitAssessmen
         if governor.verdict != limit.verdict {
             (limit.verdict, limit.undecided) = (governor.verdict, governor.undecided);
             limit.governs = names.get(governs).copied();
+        } else {
+            for doubt in &mut limit.undecided {
+                if let Doubt::Others { most, .. } = doubt {
+                    *most = most_of_all;
+                }
+            }
         }
         let open = &of_drops[widest].undecided;
         if most_of_all.is_infinite() && widest != governs && !open.is_empty() {
