@@ -91,14 +91,20 @@ pub enum Assumed {
     Bar,
     /// Contacts that take time follow one law or the other where none is named.
     EitherLaw,
+    /// A box slides where it lands.
+    NoFriction,
 }
 
 impl Assumed {
     pub(crate) fn of(file: &ProductFile, accuracy: &Accuracy) -> Vec<Self> {
         let Product { width, contact_time_s, contact_law, .. } = &file.product;
         let takes_time = contact_time_s.is_some() && accuracy.model.is_none_or(|model| model == Model::Compliant);
-        let bar = width.is_none().then_some(Self::Bar);
-        bar.into_iter().chain((takes_time && contact_law.is_none()).then_some(Self::EitherLaw)).collect()
+        let rows = [
+            (width.is_none(), Self::Bar),
+            (takes_time && contact_law.is_none(), Self::EitherLaw),
+            (file.is_box(), Self::NoFriction),
+        ];
+        rows.into_iter().filter_map(|(is, row)| is.then_some(row)).collect()
     }
     /// The input, what is taken for it, and what that leaves open.
     #[must_use]
@@ -107,6 +113,9 @@ impl Assumed {
             // Plates of products that are told as bars asked for 18 to 30 % more.
             Self::Bar => ["body", "bar", "if it is wider than a quarter of its length, give `width`: up to 30 % more"],
             Self::EitherLaw => ["law", "hysteretic or dashpot", "a limit is safe where it holds by both"],
+            Self::NoFriction => {
+                ["friction", "none", "what a ground with friction up to 0.6 may add to parts along it is allowed for"]
+            }
         }
     }
 }

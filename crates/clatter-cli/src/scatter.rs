@@ -34,7 +34,7 @@ use crate::{Exit, Failure, Streams, assess, budget, output, quantities};
 /// A sample of a box is one product that goes through all of its drops, and survives if it survives each: what the file says of
 /// product and parts is drawn once for it, height or speed and attitude for each drop, every attitude within the tolerance
 /// equally likely. Told are the survival of the whole sequence and of each drop. A drop is followed past its first landing
-/// where the energy left may decide; where it still may in the end, the sample is open, and widens the intervals.
+/// where the energy left may decide; where it still may in the end, or friction of the ground may, the sample is open, and widens the intervals.
 ///
 /// What drives a part: the share of the variance of its utilization (demand over allowed) that an input explains alone
 /// (first-order index of Sobol), and the way it goes: + more is worse, - less is worse, ~ neither throughout.

@@ -78,15 +78,18 @@ impl<'a> FollowedDrops<'a> {
             Ok(Followed::as_block(self.drop, posture.thickness_m, lands_s)?.left_early(drop))
         };
         let of_part = |followed: &Result<Followed, Error>| {
-            followed.as_ref().map_err(Clone::clone).and_then(|followed| of_part_of_box(followed, part))
+            let followed = followed.as_ref().map_err(Clone::clone)?;
+            Ok::<_, Error>((of_part_of_box(followed, part)?, with_friction(followed, part)?))
         };
         let first = of_part(self.early.get_or_insert_with(|| until(self.swing_s).or_else(on_bottom)))?;
-        if !first.is_open() {
-            return Ok(first);
-        }
-        let on_s = if drop.gravity_m_s2 > 0.0 { BOUNCES * drop.speed_m_s / drop.gravity_m_s2 } else { 0.0 };
-        // A motion that is too long to be followed stays open.
-        Ok(of_part(self.whole.get_or_insert_with(|| until(on_s.max(self.swing_s)))).unwrap_or(first))
+        let whole = first.0.is_open().then(|| {
+            let on_s = if drop.gravity_m_s2 > 0.0 { BOUNCES * drop.speed_m_s / drop.gravity_m_s2 } else { 0.0 };
+            // A motion that is too long to be followed stays open.
+            of_part(self.whole.get_or_insert_with(|| until(on_s.max(self.swing_s)))).ok()
+        });
+        let (mut asked, friction) = whole.flatten().unwrap_or(first);
+        asked.within[1] = asked.within[1].max(friction);
+        Ok(asked)
     }
 
     /// The larger of a utilization and what the drop asks of a part.
@@ -169,6 +172,21 @@ fn of_part_of_box(followed: &Followed, part: &PartSample) -> Result<SampleDemand
         }
     }
     Ok(asked)
+}
+
+/// Returns what a drop of a box asks of a part at most, with what friction may add.
+fn with_friction(followed: &Followed, part: &PartSample) -> Result<f64, Error> {
+    let mut most = 0.0_f64;
+    for spot in part.spots() {
+        let felt = PlaceHistory::new(followed, spot)?;
+        for limit in &part.limits {
+            let friction = felt.most_friction(limit, part.suspension.as_slice());
+            if friction > 0.0 {
+                most = most.max(felt.answer_or_nothing(limit, part.suspension.as_ref())?.utilization() + friction);
+            }
+        }
+    }
+    Ok(most)
 }
 
 /// The acceleration that a damage boundary asks for besides its velocity change, as a limit of its own; without a contact time no

@@ -37,10 +37,10 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     }
     writeln!(out)?;
     writeln!(out, "Bound by energy: no drop of the ranges asks for more; parts on a suspension have none.")?;
-    let flat = if file.is_box() {
-        "the box were not turned off what it lands on."
-    } else {
-        "both ends landed at once, as drop standards assume."
+    let flat = match (file.is_box(), file.product.width) {
+        (true, _) => "the box were not turned off what it lands on.",
+        (_, Some(_)) => "all corners landed at once, as drop standards assume.",
+        _ => "both ends landed at once, as drop standards assume.",
     };
     writeln!(out, "Flat drop: what the worst drop would ask if {flat}")?;
     let all = assessment.components.iter().flat_map(|component| &component.limits);
@@ -49,6 +49,9 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
         let named = file.product.contact_law.is_some();
         let both = if named { "." } else { "; the file names no law, and a limit has to hold by both." };
         sentence(out, "Other law: ", &format!("{asks}{both}"))?;
+    }
+    for [_, taken, why] in assessment.assumed.iter().filter(|row| **row == Assumed::NoFriction).map(|row| row.told()) {
+        sentence(out, "Friction: ", &format!("{taken} is followed; {why}."))?;
     }
     if let Some(limit) = all.clone().next() {
         writeln!(out)?;

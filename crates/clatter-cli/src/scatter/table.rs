@@ -101,7 +101,8 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     let is_box = has_list || matches!(scatter.plate, Some(PlateAs::Box { .. }));
     if is_box && scatter.open > 0 {
         let text = format!(
-            "{} {what} are open: how they come down again, by the energy left, may decide. They count by what was followed, as failures \
+            "{} {what} are open: how they come down again, by the energy left, or friction of \
+             the ground up to 0.6 may decide. They count by what was followed, as failures \
              for the lower ends of intervals and for what is at least, as none for the upper ends",
             scatter.open
         );
