@@ -6,10 +6,11 @@ use std::fmt::Write as _;
 
 use clatter_assess::{LimitAssessment, ProductFile};
 
-const EXAMPLES: [&str; 3] = [
+const EXAMPLES: [&str; 4] = [
     include_str!("../../reports/examples/phone.toml"),
     include_str!("../../reports/examples/handheld-terminal.toml"),
     include_str!("../../reports/examples/laptop.toml"),
+    include_str!("../../reports/examples/tablet.toml"),
 ];
 
 /// A value of three digits, if there is one.

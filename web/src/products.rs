@@ -16,6 +16,7 @@ pub(crate) const WORKED: [[&str; 2]; 5] = [
     ["handheld-terminal.toml", include_str!("../../reports/examples/handheld-terminal.toml")],
     ["phone.toml", include_str!("../../reports/examples/phone.toml")],
     ["laptop.toml", include_str!("../../reports/examples/laptop.toml")],
+    ["tablet.toml", include_str!("../../reports/examples/tablet.toml")],
     ["handheld-transit.toml", include_str!("../../reports/examples/handheld-transit.toml")],
 ];
 

@@ -75,6 +75,10 @@ fn product(r: &mut Random) -> String {
             );
         }
     }
+    if has_contact && !is_box && r.chance(0.2) {
+        let (inset, height) = ([0, 1].map(|i| size[i] * r.within(0.01, 0.2)), length * r.log(3e-4, 0.03));
+        let _ = writeln!(text, "feet_inset = {}\nfeet_height = \"{height:.6} m\"", list(&inset[..flat], "m"));
+    }
     let _ = writeln!(text, "[drop]\nspeed = \"{:.4} m/s\"", r.log(0.3, 8.0));
     if is_box {
         let axes = [["end-a", "end-b"], ["front", "back"], ["bottom", "top"]];
