@@ -69,6 +69,12 @@ def test_zones_and_shocks_are_those_of_zone():
     shock = clatter.shocks(q=q[part], e=0.3, at=answer.upper[part]).shock
     np.testing.assert_allclose(shock, 1.2, rtol=1e-13)  # a few roundings of numbers of size 1
     np.testing.assert_array_equal(answer.lower, -answer.upper)
+    # A bar off its center is told whichever end strikes first.
+    centers = [-0.3, 0.2]
+    answer = clatter.zones(gyration_ratio=0.6, center_of_mass=centers, e=0.3, threshold=1.2)
+    zones = [clatter.zone(gyration_ratio=0.6, center_of_mass=at, e=0.3, threshold=1.2).zones[0].zone for at in centers]
+    assert [[low, high] for low, high in zip(answer.lower, answer.upper)] == zones
+    assert abs(answer.lower[0]) != abs(answer.upper[0])
 
 
 def test_plates_are_impacts():
@@ -87,6 +93,7 @@ def test_plates_are_impacts():
 def test_boxes_are_simulate():
     turns = [[0.9238795325112867, 0.3826834323650898, 0, 0], [0.9914448613738104, 0, 0.13052619222005157, 0]]
     body = {"length_m": 0.15, "width_m": 0.07, "thickness_m": 0.015, "e": 0.3, "contact_time_s": 5e-4}
+    body |= {"center_of_mass_m": (0.01, -0.005, 0.002), "spin_rad_s": (3.0, -2.0, 1.0)}
     answer = clatter.boxes(**body, gyration_m=(0.0207, 0.0435, 0.0478), orientation=turns, speed_m_s=[[2.0], [4.43]])
     assert answer.count.shape == (2, 2)
     for i, speed in enumerate([2.0, 4.43]):

@@ -239,5 +239,13 @@ mod tests {
         // q = (12020.27 − 4275.24)/√((10215.35 + 4275.24) (14144.11 + 4275.24)).
         assert!((told["q"].as_f64().unwrap() - 0.474_07).abs() < 5e-6, "{told}");
         assert!((told["center_m"][0].as_f64().unwrap() + 8.929e-3).abs() < 5e-7, "{told}");
+        // The display is 200 mm long and 130 mm wide, about a place 10 mm along.
+        let told = plan("x.toml", worked("tablet.toml")).unwrap().shown;
+        let display = &told["components"][0];
+        for (side, want) in [("along_m", [-0.09, 0.11]), ("across_m", [-0.065, 0.065])] {
+            for (end, want) in want.into_iter().enumerate() {
+                assert!((display[side][end].as_f64().unwrap() - want).abs() < 1e-12, "{side}: {display}");
+            }
+        }
     }
 }

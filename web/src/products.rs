@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::{Progress, Reply, json, quoted, text};
 
 /// The worked products, each under the name of its file: a bar first, which takes least.
-pub(crate) const WORKED: [[&str; 2]; 5] = [
+pub(crate) const WORKED: [[&str; 2]; 6] = [
     ["scanner-wand.toml", include_str!("../scanner-wand.toml")],
     ["handheld-terminal.toml", include_str!("../../reports/examples/handheld-terminal.toml")],
     ["phone.toml", include_str!("../../reports/examples/phone.toml")],
@@ -136,4 +136,25 @@ fn drawn(
         figures.push((format!("{}: over the tilt", component.name), drawing));
     }
     Ok(figures)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The page divides answers in SI by the size of the unit in which the file gives the limit.
+    #[test]
+    fn answers_are_shown_in_the_units_of_the_file() {
+        let [_, tablet] = *WORKED.iter().find(|[name, _]| *name == "tablet.toml").unwrap();
+        let reply = assess("tablet.toml", tablet, true, &|_, _| ()).unwrap();
+        let units: Vec<(&str, f64)> = reply
+            .shown
+            .as_array()
+            .unwrap()
+            .iter()
+            .flat_map(|part| part.as_array().unwrap())
+            .map(|limit| (limit["unit"].as_str().unwrap(), limit["si"].as_f64().unwrap()))
+            .collect();
+        assert_eq!(units, [("mm", 1e-3), ("gn", 9.806_65), ("m/s", 1.0), ("rad/s", 1.0)]);
+    }
 }
