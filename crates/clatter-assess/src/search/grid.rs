@@ -21,8 +21,9 @@ const SQRT_11: f64 = 3.316_624_790_355_4;
 const SQRT_13: f64 = 3.605_551_275_463_989;
 /// Tilts in a contact time, and contact times over which tilts lie so closely: where contacts overlap, velocity shocks change by steps.
 const OVERLAPS: [f64; 2] = [12.0, 4.0];
-/// Tilts at which a plate is turned, as shares of the root of the range.
-const TURNED_AT: [f64; 2] = [1.0, 0.6];
+/// Tilts at which a plate is turned, as shares of the root of the range; where it ends flat, which has no direction, not at its end.
+const TURNED_AT: [f64; 3] = [1.0, 0.6, 0.0];
+const TURNED_NEXT_TO_FLAT: f64 = 0.2;
 /// Directions in which a box is turned off its edge or corner, and off its face, which clatters: there at more tilts too, as shares of
 /// the root; and tilts along an edge to either side.
 const AROUND: u32 = 8;
@@ -124,14 +125,13 @@ impl Ranges<'_> {
                     grid.extend(Some(on_edge.with(DIRECTION, next)).filter(|_| (0.0..=1.0).contains(&next)));
                 }
             }
-            let turned = &TURNED_AT[..if self.quarters() == 0 {
-                0
-            } else if tilted {
-                2
-            } else {
-                1
-            }];
-            for (&tilt, line) in turned.iter().zip(self.levels()) {
+            let turned = match (self.quarters(), tilted) {
+                (0, _) => &[],
+                (_, false) => &TURNED_AT[..1],
+                (_, true) => &TURNED_AT[..],
+            };
+            let least = if self.drop.tilt_rad.lo() > 0.0 { 0.0 } else { TURNED_NEXT_TO_FLAT };
+            for (tilt, line) in turned.iter().map(|tilt| tilt.max(least)).zip(self.levels().into_iter().cycle()) {
                 for direction in even(turn_steps, true) {
                     let k = grid.len();
                     grid.push(of(first, [tilt, 1.0], &line, direction, k));
