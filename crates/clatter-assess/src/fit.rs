@@ -9,8 +9,9 @@
 //! Least squares by Levenberg and Marquardt (MINPACK, the crate `levenberg-marquardt`) over the flights of `clatter-flight`, from
 //! several starts. Each strike multiplies what is off before it, so that the sum of squares has a long and narrow valley: for any
 //! restitution the first three strikes tell the radius of gyration and the gap over the speed, and where the fourth is met too, searches
-//! go down, over more and more of the strikes. Where that leads to no fit, the first strikes are met as they may be within their noise
-//! and at other speeds of the range, and the later strikes one by one.
+//! go down, over more and more of the strikes. Where that leads to no fit, they begin at the best of a grid over the restitution, the
+//! radius of gyration and the range of the speed; then the first strikes are met as they may be within their noise, and the later strikes
+//! one by one. Where nothing says which end touches first, what explains the record with one end is a start for the other, and both are told.
 //!
 //! # What the product file gives in a range
 //! The speed, the contact time and the restitution are data as long as the records do not tell them better: any value of the range is
@@ -105,6 +106,8 @@ pub const MOST_SAMPLES: usize = 1_000_000;
 pub struct Known {
     /// Length and center of mass; the radius of gyration is where the search begins, and stays where the data do not tell it.
     pub body: Body,
+    /// Range of the radius of gyration, in m.
+    pub gyration_m: [f64; 2],
     /// Whether the radius of gyration is known and not fitted. Strike times tell it and the restitution mostly together, so that
     /// the restitution is then known several times better.
     pub gyration_known: bool,
@@ -129,6 +132,7 @@ impl From<&ProductFile> for Known {
         let range = |spread: &crate::Spread| [spread.lo(), spread.hi()];
         Self {
             body: file.product.body,
+            gyration_m: range(&file.product.gyration_m),
             gyration_known: false,
             first: file.drop.first,
             gravity_m_s2: file.drop.gravity_m_s2,
@@ -156,6 +160,7 @@ impl Known {
             ("speed in m/s", self.speed_m_s, POSITIVE, "positive and at most 1e6, from the lower end"),
             ("tilt in rad", self.tilt_rad, [0.0, most_tilt], "within [0, pi/6], from the lower end"),
             ("contact time in s", contact_time_s, [1e-12, 1e3], "within [1e-12, 1000], from the lower end"),
+            ("radius of gyration in m", self.gyration_m, POSITIVE, "positive and at most 1e6, from the lower end"),
             ("gravity in m/s2", [self.gravity_m_s2; 2], [0.0, 1e3], "in [0, 1000]"),
         ];
         for (name, [lo, hi], [least, most], allowed) in ranges {

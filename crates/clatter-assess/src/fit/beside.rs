@@ -61,6 +61,8 @@ impl Known {
             Quantity::Speed => self.speed_m_s,
             Quantity::DropHeight => [height(self.speed_m_s[0])?, height(self.speed_m_s[1])?],
             Quantity::Tilt => self.tilt_rad,
+            // A single value is where the search begins.
+            Quantity::RadiusOfGyration if self.gyration_m[1] > self.gyration_m[0] => self.gyration_m,
             Quantity::RadiusOfGyration | Quantity::InertiaRatio | Quantity::Spin | Quantity::GapOverSpeed => {
                 return None;
             }

@@ -136,9 +136,19 @@ impl Drop<'_> {
             SPEED => ln(self.known.speed_m_s),
             CONTACT => ln(self.known.contact_time_s?),
             RESTITUTION => self.known.restitution,
+            GYRATION if !self.known.gyration_known => {
+                ln(self.known.gyration_m.map(|radius| 2.0 * radius / self.known.body.length_m()))
+            }
             _ => return None,
         };
         (hi > lo).then_some([0.5 * (lo + hi), 0.5 * (hi - lo)])
+    }
+    /// How many unknowns are beyond the range that the product file gives.
+    pub(super) fn beyond(&self, x: &[f64]) -> usize {
+        let is_beyond = |unknown: &usize| {
+            self.range(*unknown).is_some_and(|[middle, half]| (x[*unknown] - middle).abs() > half * (1.0 + 1e-9))
+        };
+        [RESTITUTION, GYRATION, SPEED].iter().filter(|unknown| is_beyond(unknown)).count()
     }
     /// The minimum next to `x` over these unknowns, and within their ranges over those that the file gives in one. `known`: whether
     /// the deviations of the data are given; else what they scatter by says how much a range counts beside them.
@@ -346,6 +356,7 @@ mod tests {
     #[test]
     fn a_range_counts_as_a_datum_of_its_standard_deviation() {
         let known = Known {
+            gyration_m: [0.04; 2],
             body: Body::new(0.15, 0.04).expect("a body"),
             gyration_known: true,
             first: First::End(End::A),

@@ -50,6 +50,7 @@ const MET: f64 = 0.002;
 /// use clatter_assess::fit::{Known, Measured, MeasuredStrike, Quantity, fit};
 /// use clatter_flight::{Body, ContactLaw};
 /// let known = Known {
+///     gyration_m: [0.0433; 2],
 ///     body: Body::new(0.15, 0.15 / 12_f64.sqrt())?,
 ///     gyration_known: true,
 ///     first: First::End(End::A),
@@ -79,14 +80,25 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
     let contacts = known.contact_time_s.is_some() || sets.iter().any(|set| matches!(set, Set::Acceleration { .. }));
     let unit_s = unit_s(&sets);
     let (mut all, mut refused) = (Vec::new(), None);
-    for &first in firsts(known, measured) {
+    let firsts = firsts(known, measured);
+    // What explains the record with one end is a start for the other: for the first one too, once more, where it had no explanation.
+    let (mut hints, mut explained): (Vec<Vec<f64>>, Vec<End>) = (Vec::new(), Vec::new());
+    for (k, &first) in firsts.iter().chain(firsts).enumerate() {
+        if k >= firsts.len() && (hints.is_empty() || explained.contains(&first)) {
+            continue;
+        }
         let count: usize = sets.iter().map(Set::len).sum();
         let kind = usize::from(contacts);
         let left = Rc::new(Cell::new(FLIGHTS[kind] * DATA[kind] / count.max(DATA[kind])));
         let (sets, ranged) = (sets.clone(), Vec::new());
         let drop = Drop { known, sets, first, contacts, unit_s, is_rough: false, ranged, scatter: 1.0, left };
-        match explanations(&drop, measured, given) {
+        match explanations(&drop, measured, given, &hints) {
             Ok((of_first, is_plain)) => {
+                if of_first.iter().all(|(_, told)| told.faults == 0 && told.excess.is_none()) {
+                    explained.push(first);
+                    let of_one = of_first.iter().filter(|_| measured.len() == 1);
+                    hints.extend(of_one.map(|(_, told)| told.minimum.x.clone()));
+                }
                 all.extend(of_first);
                 // The end that was measured first, or that is lower as the product lands, and that explains all is the one.
                 if is_plain {
@@ -96,16 +108,20 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
             Err(error) => refused = refused.or(Some(error)),
         }
     }
+    // A strike is left out or missing only where neither end explains them all.
+    if !explained.is_empty() {
+        all.retain(|(_, told)| told.faults == 0);
+    }
     let order = |a: &(Drop<'_>, DeterminedFit), b: &(Drop<'_>, DeterminedFit)| {
         let is_odd = |told: &DeterminedFit| told.excess.is_some();
         is_odd(&a.1).cmp(&is_odd(&b.1)).then(a.1.score.above(&b.1.score).total_cmp(&0.0))
     };
     all.sort_by(order);
-    // Of those that are about as good the one comes first that drops and invents least.
+    // Of those that are about as good the one comes first that drops and invents least, then the one within the ranges of the file.
     if let Some((_, best)) = all.first() {
         let best = best.clone();
         all.retain(|(_, told)| best.excess.is_some() || told.is_about_as_good(&best));
-        all.sort_by_key(|(_, told)| told.faults);
+        all.sort_by_key(|(drop, told)| (told.faults, drop.beyond(&told.minimum.x)));
     }
     let Some((best, others)) = all.split_first() else { return Err(refused.unwrap_or(Error::Nothing)) };
     if let Some(factor) = best.1.excess {
@@ -147,11 +163,12 @@ fn explanations<'a>(
     drop: &Drop<'a>,
     measured: &[Measured],
     given: bool,
+    hints: &[Vec<f64>],
 ) -> Result<(Vec<(Drop<'a>, DeterminedFit)>, bool), Error> {
     let (mut matched, mut is_plain) = (Vec::new(), false);
     for (k, one) in measured.iter().enumerate() {
         if let Measured::Strikes { strikes, deviation_s } = one {
-            let found = matching::find(drop, k, deviation_s.is_some())?;
+            let found = matching::find(drop, k, deviation_s.is_some(), hints)?;
             is_plain |= found.iter().all(|one| one.is_plain) && strikes[0].end.is_some();
             matched.push((k, found));
         }

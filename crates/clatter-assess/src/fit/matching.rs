@@ -9,7 +9,7 @@ use super::first_strikes::meeting;
 use super::premise::Premise;
 use super::records::missing;
 use super::solve::{Minimum, Problem};
-use super::starts::{TAKEN, misfit, starts};
+use super::starts::{TAKEN, misfit, on_grid, starts};
 use super::student;
 use super::{Error, MeasuredStrike, Set, Which};
 use std::cmp::Ordering;
@@ -23,6 +23,8 @@ const WIDELY_TAKEN: usize = 48;
 /// Patience and precision of a search that only tells where to go on.
 const QUICK_PATIENCE: usize = 12;
 const QUICK_PRECISION: f64 = 1e-4;
+/// Of a grid over the ranges so many drops go on.
+const OF_GRID: usize = 320;
 /// Of the flights that are left that search takes this part.
 const WIDE_SHARE: usize = 3;
 /// The first strikes are met there as they were measured and as they may be: by two standard deviations or, where none is given, a
@@ -87,13 +89,13 @@ pub(super) struct Matched {
 }
 
 /// Finds what the strikes of a record may be: the best explanation, and those that are about as good. `known`: whether the deviation was
-/// given.
-pub(super) fn find(drop: &Drop<'_>, set: usize, known: bool) -> Result<Vec<Matched>, Error> {
+/// given. `hints`: what explains the record with the other end.
+pub(super) fn find(drop: &Drop<'_>, set: usize, known: bool, hints: &[Vec<f64>]) -> Result<Vec<Matched>, Error> {
     let Set::Strikes { strikes, .. } = drop.sets[set] else { return Ok(Vec::new()) };
     let mut alone = Drop { sets: vec![drop.sets[set].clone()], is_rough: true, ..drop.clone() };
     alone.ranged = [SPEED].into_iter().filter(|&unknown| alone.range(unknown).is_some()).collect();
     let ranged = alone.ranged.clone();
-    Search { drop: alone, strikes, known, ranged, reach: 0, begins: Vec::new() }.found()
+    Search { drop: alone, strikes, known, ranged, reach: 0, begins: Vec::new() }.found(hints)
 }
 
 /// What the drops that meet the first strikes depend on: which strikes these are, what is free, and the speed.
@@ -127,9 +129,16 @@ impl<'d> Search<'d> {
         }
     }
 
-    fn found(mut self) -> Result<Vec<Matched>, Error> {
+    fn found(mut self, hints: &[Vec<f64>]) -> Result<Vec<Matched>, Error> {
         let premise = Premise::default();
         let mut plain = self.staged(&premise, false);
+        plain.extend(self.from(&premise, hints));
+        plain.sort_by(Candidate::order);
+        if !self.is_likely(&plain[0]) {
+            plain.extend(self.gridded(&premise));
+            plain.sort_by(Candidate::order);
+        }
+        plain.dedup_by(|a, b| a.is_same(b));
         let mut all = Vec::new();
         if !self.is_likely(&plain[0]) {
             // With more freedom strikes are met more easily, the plain explanation often with them.
@@ -188,6 +197,20 @@ impl<'d> Search<'d> {
             is_plain,
         };
         Ok(all.into_iter().map(matched).collect())
+    }
+
+    /// The minima next to the best drops of a grid over the ranges, of strikes with instant impacts.
+    fn gridded(&mut self, premise: &Premise) -> Vec<Candidate> {
+        if !self.drop.is_quick() {
+            return Vec::new();
+        }
+        let (free, _) = self.assume(premise);
+        // Its flights are counted by the grid.
+        let left = self.drop.left.replace(usize::MAX);
+        let begins = on_grid(&self.drop, &free, OF_GRID);
+        let found = self.from(premise, &begins);
+        self.drop.left.set(left);
+        found
     }
 
     /// The explanations that meet the record, of those that are supported.

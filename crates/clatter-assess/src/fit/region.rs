@@ -14,6 +14,10 @@ const NEAR: f64 = 0.02;
 /// Searches for an end at most: two or three are enough unless the sum jumps, where a strike changes places with another.
 const SEARCHES: usize = 12;
 
+/// Columns of derivatives, each of length 1, are dependent where their least singular value is below this, which is what roundings leave
+/// of a column that is nil.
+const SINGULAR: f64 = 1e-12;
+
 /// All unknowns whose sum of squares is larger than the least one by at most `rise`².
 pub(super) struct Region<'a> {
     problem: &'a Problem<'a>,
@@ -29,7 +33,15 @@ impl<'a> Region<'a> {
     /// About a minimum over free unknowns.
     pub(super) fn new(problem: &'a Problem<'a>, minimum: &'a Minimum, free: &'a [usize], rise: f64) -> Option<Self> {
         let count = minimum.x.len();
-        let inverse = problem.jacobian(&minimum.x, free).pseudo_inverse(0.0).ok()?;
+        let jacobian = problem.jacobian(&minimum.x, free);
+        let mut even = jacobian.clone();
+        even.column_iter_mut().for_each(|mut column| column /= column.norm().max(f64::MIN_POSITIVE));
+        let least = even.singular_values().min();
+        // A direction that the data do not tell has no end.
+        if least.is_nan() || least < SINGULAR {
+            return None;
+        }
+        let inverse = jacobian.pseudo_inverse(0.0).ok()?;
         let over_all = |own: DVector<f64>| {
             let mut all = DVector::zeros(count);
             free.iter().zip(own.iter()).for_each(|(&unknown, value)| all[unknown] = *value);
@@ -145,6 +157,22 @@ impl<'a> Region<'a> {
 mod tests {
     use super::*;
     use crate::fit::solve::PRECISION;
+
+    /// An unknown that changes no datum has no end, and nothing is told of the others beside it.
+    #[test]
+    fn a_singular_jacobian_gives_no_region() {
+        let problem = Problem {
+            residuals: Box::new(|x| vec![x[0], 2.0 * x[0]]),
+            bounds: vec![[-10.0, 10.0]; 2],
+            step: 1e-6,
+            one_sided: false,
+            patience: 50,
+            precision: PRECISION,
+        };
+        let minimum = Minimum { x: vec![0.0; 2], residuals: vec![0.0; 2] };
+        assert!(Region::new(&problem, &minimum, &[0, 1], 1.0).is_none());
+        assert!(Region::new(&problem, &minimum, &[0], 1.0).is_some());
+    }
 
     /// Two unknowns x and y, and the data exp x = 1 and exp x + y = 1, both to 1/2: with y made up for, the sum of squares is
     /// 4 (exp x − 1)², so that x reaches from ln(1/2) to ln(3/2) where it rises by 1. The derivatives have it from −1/2 to 1/2.

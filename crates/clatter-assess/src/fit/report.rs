@@ -61,6 +61,9 @@ pub(super) fn report(drop: &Drop<'_>, told: &DeterminedFit) -> Fit {
     let records = records(drop, x);
     let estimates: Vec<Estimate> = estimates;
     let mut notes = notes(drop, told, &records);
+    if region.is_none() && told.scatter.is_some() && told.excess.is_none() {
+        notes.push("some of the unknowns do not change the data, or one undoes another: no intervals".to_owned());
+    }
     notes.extend(estimates.iter().filter_map(|estimate| beyond(drop.known, estimate)));
     Fit {
         model: if drop.contacts { Model::Compliant } else { Model::FiniteTilt },

@@ -292,6 +292,7 @@ mod tests {
     fn values_of_a_long_record_are_taken_together() {
         let known = Known {
             body: clatter_flight::Body::new(0.15, 0.04).expect("a body"),
+            gyration_m: [0.04; 2],
             gyration_known: true,
             first: crate::First::Either,
             gravity_m_s2: 0.0,

@@ -34,6 +34,67 @@ pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
     found.into_iter().take(taken).map(|(_, x)| x).collect()
 }
 
+/// Steps of a grid over the restitution and over the radius of gyration, and speeds of a range.
+const GRID: [u32; 3] = [72, 60, 9];
+/// Radii of gyration of the grid, over half the length.
+const RADII: [f64; 2] = [0.15, 0.98];
+/// Flights that bring the second strike to its time, which is nearly proportional to the gap.
+const TO_SECOND: usize = 3;
+
+/// The best drops of a grid over the restitution, the radius of gyration and the range of the speed, so many, the best first: each with
+/// the gap that the second strike tells. Where ends are told, drops come first whose ends strike in the order that was measured.
+pub(super) fn on_grid(drop: &Drop<'_>, free: &[usize], taken: usize) -> Vec<Vec<f64>> {
+    let Set::Strikes { strikes, .. } = &drop.sets[0] else { return Vec::new() };
+    let along = |[lo, hi]: [f64; 2], k: u32, of: u32| lo + (hi - lo) * f64::from(k) / f64::from(of.max(1));
+    let given = drop.given();
+    let counts = [RESTITUTION, GYRATION].map(|unknown| free.contains(&unknown));
+    let [restitutions, radii] = [0, 1].map(|i| if counts[i] { GRID[i] } else { 0 });
+    let speeds = drop.range(SPEED).map_or(0, |_| GRID[2] - 1);
+    let mut found: Vec<(usize, f64, Vec<f64>)> = Vec::new();
+    for e in 0..=restitutions {
+        for speed in 0..=speeds {
+            let mut x = given.clone();
+            if restitutions > 0 {
+                x[RESTITUTION] = along([0.0, 1.0], e, restitutions);
+            }
+            if let Some([middle, half]) = drop.range(SPEED) {
+                x[SPEED] = along([middle - half, middle + half], speed, speeds);
+            }
+            for radius in 0..=radii {
+                if radii > 0 {
+                    x[GYRATION] = libm::log(along(RADII, radius, radii));
+                }
+                if let Some((wrong, off_s)) = meets_second(drop, strikes, &mut x) {
+                    found.push((wrong, off_s, x.clone()));
+                }
+            }
+        }
+    }
+    found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    found.into_iter().take(taken).map(|(_, _, x)| x).collect()
+}
+
+/// Brings the second strike to its time by the gap; how many ends differ from those measured, and by how much times do, squared.
+fn meets_second(drop: &Drop<'_>, strikes: &[MeasuredStrike], x: &mut [f64]) -> Option<(usize, f64)> {
+    let [first_s, second_s] = [strikes.first()?.time_s, strikes.get(1)?.time_s];
+    let [lo, hi] = drop.bounds()[GAP_TIME];
+    for _ in 0..TO_SECOND {
+        let path = drop.path(x)?;
+        let [first, second] = path.motion.strikes.get(..2)? else { return None };
+        x[GAP_TIME] += libm::log((second_s - first_s) / (second.time_s - first.time_s));
+        x[GAP_TIME] = x[GAP_TIME].clamp(lo, hi);
+    }
+    let computed = drop.path(x)?.motion.strikes;
+    let computed = computed.get(..strikes.len())?;
+    x[OFFSET] = (first_s - computed[0].time_s) / drop.unit_s;
+    let pairs = || strikes.iter().zip(computed);
+    let wrong = pairs().filter(|(one, other)| one.end.is_some_and(|end| end != drop.end(other.point))).count();
+    let off = |(one, other): (&MeasuredStrike, &clatter_flight::Strike)| {
+        (one.time_s - first_s) - (other.time_s - computed[0].time_s)
+    };
+    Some((wrong, pairs().map(|pair| off(pair).powi(2)).sum()))
+}
+
 /// How far a start is off: of each datum the logarithm, so that a start counts for what it explains, not for what it does not.
 pub(super) fn misfit(drop: &Drop<'_>, x: &[f64]) -> f64 {
     let residuals = drop.residuals(x);

@@ -169,7 +169,7 @@ impl Search<'_, '_> {
         }
         free.extend(freed.filter(|unknown| !free.contains(unknown)));
         free.truncate(self.count);
-        let ranged = [RESTITUTION, SPEED, CONTACT].into_iter().filter(|unknown| !free.contains(unknown));
+        let ranged = [RESTITUTION, SPEED, CONTACT, GYRATION].into_iter().filter(|unknown| !free.contains(unknown));
         self.drop.ranged = ranged.filter(|&unknown| unknown != CONTACT || self.drop.contacts).collect();
         let drop = &*self.drop;
         self.drop.ranged = drop.ranged.iter().copied().filter(|&unknown| drop.range(unknown).is_some()).collect();

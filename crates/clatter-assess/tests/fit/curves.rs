@@ -15,6 +15,7 @@ const G: f64 = 9.806_65;
 fn bar(contact_time_s: Option<[f64; 2]>) -> Known {
     Known {
         body: Body::new(BAR_M, 0.038).expect("as the test has it"),
+        gyration_m: [0.038; 2],
         gyration_known: false,
         first: First::Either,
         gravity_m_s2: G,

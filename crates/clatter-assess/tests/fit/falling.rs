@@ -88,6 +88,7 @@ impl Falling {
         let middle = self.speed / (1.0 + share * random.within(-1.0, 1.0));
         Known {
             body: Body::off_center(self.arms[0], self.arms[1], 1.1 * self.rho).expect("as the test has it"),
+            gyration_m: [1.1 * self.rho; 2],
             gyration_known: false,
             first: First::Either,
             gravity_m_s2: G,

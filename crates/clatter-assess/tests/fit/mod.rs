@@ -6,6 +6,7 @@
 mod curves;
 mod falling;
 mod intervals;
+mod modes;
 mod real;
 mod strikes;
 mod synthetic;

@@ -72,6 +72,7 @@ pub(crate) fn gyration_m(q: f64) -> f64 {
 pub(crate) fn known(q: f64) -> Known {
     Known {
         body: Body::new(LENGTH_M, 1.1 * gyration_m(q)).expect("as the test has it"),
+        gyration_m: [1.1 * gyration_m(q); 2],
         gyration_known: false,
         first: First::Either,
         gravity_m_s2: 0.0,
