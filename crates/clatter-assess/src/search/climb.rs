@@ -20,8 +20,8 @@ const EDGES_REACH: f64 = 0.1;
 const EDGES_TRIES: u32 = 96;
 /// The same of a box.
 const BOX_REACH: f64 = 0.3;
-const BOX_TRIES: u32 = 16;
-const FACE_TRIES: u32 = 32;
+const BOX_TRIES: u32 = 24;
+const FACE_TRIES: u32 = 72;
 /// How far beyond the time of its first peak a climb after rebounds follows.
 const LATER: f64 = 2.0;
 /// How close the last try of a climb is over the first.
