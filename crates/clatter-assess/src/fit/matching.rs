@@ -9,7 +9,7 @@ use super::first_strikes::meeting;
 use super::premise::Premise;
 use super::records::missing;
 use super::solve::{Minimum, Problem};
-use super::starts::{TAKEN, misfit, on_grid, starts};
+use super::starts::{FINE_GRID, ROUGH_GRID, TAKEN, misfit, on_grid, starts};
 use super::student;
 use super::{Error, MeasuredStrike, Set, Which};
 use std::cmp::Ordering;
@@ -23,8 +23,8 @@ const WIDELY_TAKEN: usize = 48;
 /// Patience and precision of a search that only tells where to go on.
 const QUICK_PATIENCE: usize = 12;
 const QUICK_PRECISION: f64 = 1e-4;
-/// Of a grid over the ranges so many drops go on.
-const OF_GRID: usize = 320;
+/// Of a rough and of a fine grid over the ranges so many drops go on.
+const OF_GRID: [usize; 2] = [80, 320];
 /// Of the flights that are left that search takes this part.
 const WIDE_SHARE: usize = 3;
 /// The first strikes are met there as they were measured and as they may be: by two standard deviations or, where none is given, a
@@ -134,8 +134,11 @@ impl<'d> Search<'d> {
         let mut plain = self.staged(&premise, false);
         plain.extend(self.from(&premise, hints));
         plain.sort_by(Candidate::order);
-        if !self.is_likely(&plain[0]) {
-            plain.extend(self.gridded(&premise));
+        for (grid, taken) in [ROUGH_GRID, FINE_GRID].into_iter().zip(OF_GRID) {
+            if grid == FINE_GRID && self.is_likely(&plain[0]) {
+                break;
+            }
+            plain.extend(self.gridded(&premise, grid, taken));
             plain.sort_by(Candidate::order);
         }
         plain.dedup_by(|a, b| a.is_same(b));
@@ -200,14 +203,14 @@ impl<'d> Search<'d> {
     }
 
     /// The minima next to the best drops of a grid over the ranges, of strikes with instant impacts.
-    fn gridded(&mut self, premise: &Premise) -> Vec<Candidate> {
+    fn gridded(&mut self, premise: &Premise, grid: [u32; 3], taken: usize) -> Vec<Candidate> {
         if !self.drop.is_quick() {
             return Vec::new();
         }
         let (free, _) = self.assume(premise);
         // Its flights are counted by the grid.
         let left = self.drop.left.replace(usize::MAX);
-        let begins = on_grid(&self.drop, &free, OF_GRID);
+        let begins = on_grid(&self.drop, &free, grid, taken);
         let found = self.from(premise, &begins);
         self.drop.left.set(left);
         found

@@ -34,8 +34,10 @@ pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
     found.into_iter().take(taken).map(|(_, x)| x).collect()
 }
 
-/// Steps of a grid over the restitution and over the radius of gyration, and speeds of a range.
-const GRID: [u32; 3] = [72, 60, 9];
+/// Steps of a grid over the restitution, over the radius of gyration and over a range of the speed: of one that looks for other explanations,
+/// and of one that looks for any.
+pub(super) const ROUGH_GRID: [u32; 3] = [36, 30, 4];
+pub(super) const FINE_GRID: [u32; 3] = [72, 60, 8];
 /// Radii of gyration of the grid, over half the length.
 const RADII: [f64; 2] = [0.15, 0.98];
 /// Flights that bring the second strike to its time, which is nearly proportional to the gap.
@@ -43,13 +45,13 @@ const TO_SECOND: usize = 3;
 
 /// The best drops of a grid over the restitution, the radius of gyration and the range of the speed, so many, the best first: each with
 /// the gap that the second strike tells. Where ends are told, drops come first whose ends strike in the order that was measured.
-pub(super) fn on_grid(drop: &Drop<'_>, free: &[usize], taken: usize) -> Vec<Vec<f64>> {
+pub(super) fn on_grid(drop: &Drop<'_>, free: &[usize], grid: [u32; 3], taken: usize) -> Vec<Vec<f64>> {
     let Set::Strikes { strikes, .. } = &drop.sets[0] else { return Vec::new() };
     let along = |[lo, hi]: [f64; 2], k: u32, of: u32| lo + (hi - lo) * f64::from(k) / f64::from(of.max(1));
     let given = drop.given();
     let counts = [RESTITUTION, GYRATION].map(|unknown| free.contains(&unknown));
-    let [restitutions, radii] = [0, 1].map(|i| if counts[i] { GRID[i] } else { 0 });
-    let speeds = drop.range(SPEED).map_or(0, |_| GRID[2] - 1);
+    let [restitutions, radii] = [0, 1].map(|i| if counts[i] { grid[i] } else { 0 });
+    let speeds = drop.range(SPEED).map_or(0, |_| grid[2]);
     let mut found: Vec<(usize, f64, Vec<f64>)> = Vec::new();
     for e in 0..=restitutions {
         for speed in 0..=speeds {
