@@ -119,8 +119,11 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
     all.sort_by(order);
     // Of those that are about as good the one comes first that drops and invents least, then the one within the ranges of the file.
     if let Some((_, best)) = all.first() {
-        let best = best.clone();
-        all.retain(|(_, told)| best.excess.is_some() || told.is_about_as_good(&best));
+        let (best, beyond) = (best.clone(), all[0].0.beyond(&best.minimum.x));
+        all.retain(|(drop, told)| {
+            let is_within = told.excess.is_none() && drop.beyond(&told.minimum.x) < beyond;
+            best.excess.is_some() || told.is_about_as_good(&best) || is_within
+        });
         all.sort_by_key(|(drop, told)| (told.faults, drop.beyond(&told.minimum.x)));
     }
     let Some((best, others)) = all.split_first() else { return Err(refused.unwrap_or(Error::Nothing)) };

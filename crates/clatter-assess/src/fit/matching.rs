@@ -24,7 +24,7 @@ const WIDELY_TAKEN: usize = 48;
 const QUICK_PATIENCE: usize = 12;
 const QUICK_PRECISION: f64 = 1e-4;
 /// Of a rough and of a fine grid over the ranges so many drops go on.
-const OF_GRID: [usize; 2] = [80, 320];
+const OF_GRID: [usize; 2] = [160, 320];
 /// Of the flights that are left that search takes this part.
 const WIDE_SHARE: usize = 3;
 /// The first strikes are met there as they were measured and as they may be: by two standard deviations or, where none is given, a
@@ -189,7 +189,12 @@ impl<'d> Search<'d> {
         all.sort_by(|a, b| a.score.above(&b.score).total_cmp(&0.0));
         let best = all[0].score;
         let least = (all[0].premise.clone(), all[0].minimum.sum(), all[0].degrees);
-        all.retain(|other| other.score.above(&best) <= SIMILAR || self.is_within(&least, other));
+        // An explanation that needs values beyond the ranges of the file does not displace one that needs none.
+        let beyond = self.drop.beyond(&all[0].minimum.x);
+        all.retain(|other| {
+            let is_within = self.is_met(other) && self.drop.beyond(&other.minimum.x) < beyond;
+            other.score.above(&best) <= SIMILAR || self.is_within(&least, other) || is_within
+        });
         // Of those that are about as good the one comes first that drops and invents least.
         all.sort_by_key(|other| other.premise.faults().count);
         let matched = |of: Candidate| Matched {

@@ -36,8 +36,10 @@ pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
 
 /// Steps of a grid over the restitution, over the radius of gyration and over a range of the speed: of one that looks for other explanations,
 /// and of one that looks for any.
-pub(super) const ROUGH_GRID: [u32; 3] = [36, 30, 4];
+pub(super) const ROUGH_GRID: [u32; 3] = [60, 48, 4];
 pub(super) const FINE_GRID: [u32; 3] = [72, 60, 8];
+/// Half a range of the speed, as a share, over which three of them are enough.
+const NARROW: f64 = 0.03;
 /// Radii of gyration of the grid, over half the length.
 const RADII: [f64; 2] = [0.15, 0.98];
 /// Flights that bring the second strike to its time, which is nearly proportional to the gap.
@@ -51,7 +53,7 @@ pub(super) fn on_grid(drop: &Drop<'_>, free: &[usize], grid: [u32; 3], taken: us
     let given = drop.given();
     let counts = [RESTITUTION, GYRATION].map(|unknown| free.contains(&unknown));
     let [restitutions, radii] = [0, 1].map(|i| if counts[i] { grid[i] } else { 0 });
-    let speeds = drop.range(SPEED).map_or(0, |_| grid[2]);
+    let speeds = drop.range(SPEED).map_or(0, |[_, half]| if half < NARROW { 2 } else { grid[2] });
     let mut found: Vec<(usize, f64, Vec<f64>)> = Vec::new();
     for e in 0..=restitutions {
         for speed in 0..=speeds {
