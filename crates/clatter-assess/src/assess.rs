@@ -492,15 +492,15 @@ fn governing(of_drops: &[LimitAssessment], names: &[DropName]) -> LimitAssessmen
         if let Some(demand) = limit.demand {
             limit.uncertainty = (most_of_all / share(&limit, demand) - 1.0).max(0.0);
         }
-        if governor.verdict != limit.verdict {
-            (limit.verdict, limit.undecided) = (governor.verdict, governor.undecided);
-            limit.governs = names.get(governs).copied();
-        } else {
+        if governor.verdict == limit.verdict {
             for doubt in &mut limit.undecided {
                 if let Doubt::Others { most, .. } = doubt {
                     *most = most_of_all;
                 }
             }
+        } else {
+            (limit.verdict, limit.undecided) = (governor.verdict, governor.undecided);
+            limit.governs = names.get(governs).copied();
         }
         let open = &of_drops[widest].undecided;
         if most_of_all.is_infinite() && widest != governs && !open.is_empty() {

@@ -44,7 +44,7 @@ pub enum Doubt {
     Friction {
         /// The share that the worst drop found asks for without friction.
         found: f64,
-        /// The share that others may ask for with friction up to [`FRICTION`](crate::bound::FRICTION).
+        /// The share that others may ask for with friction up to 0.6.
         most: f64,
     },
     /// The assessment contradicts itself.
@@ -166,7 +166,7 @@ pub enum Note {
     Error(f64),
     /// Rebounds may ask for up to this share, by their energy.
     Rebounds(f64),
-    /// Friction up to [`FRICTION`](crate::bound::FRICTION), which drops are followed without, may bring them to this share.
+    /// Friction up to 0.6, which drops are followed without, may bring them to this share.
     Friction(f64),
     /// Nothing tells how far other drops may exceed the worst one found, for this.
     Open(Vec<Doubt>),

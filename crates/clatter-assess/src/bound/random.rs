@@ -29,7 +29,8 @@ impl Random {
         self.unit() < share
     }
     fn one_of<T: Copy>(&mut self, all: &[T]) -> T {
-        all[((self.unit() * all.len() as f64) as usize).min(all.len() - 1)]
+        self.unit();
+        all[usize::try_from((self.0 >> 33) % all.len() as u64).unwrap()]
     }
 }
 
@@ -175,7 +176,6 @@ fn later_landings_stay_within(products: u64) {
     for (k, name) in ["rigid", "suspended"].into_iter().enumerate() {
         let worst = all.iter().max_by(|a, b| a.0[k].total_cmp(&b.0[k])).unwrap();
         let over = all.iter().filter(|one| one.0[k] > 1.01).count();
-        println!("{name}: {over} of {} above; the most is {:.3} of what was told\n{}", all.len(), worst.0[k], worst.1);
         let allowed = if k == 0 { 0 } else { all.len() / 300 };
         assert!(over <= allowed, "{name}: {over} of {} above; {}\n{}", all.len(), worst.0[k], worst.1);
     }
@@ -189,13 +189,12 @@ fn later_landings_of_random_products_stay_within_what_is_told() {
 /// Follows one drop of each of so many random products.
 fn no_drop_exceeds(products: u64) {
     let all: Vec<([f64; 5], String)> = (0..products).into_par_iter().filter_map(tightest).collect();
-    assert!(all.len() as f64 > 0.7 * products as f64, "of {products} drops {} are answered", all.len());
+    assert!(10 * all.len() as u64 > 7 * products, "of {products} drops {} are answered", all.len());
     for kind in [LimitKind::Acceleration, LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
         let of = |one: &([f64; 5], String)| one.0[kind as usize];
         let worst = all.iter().max_by(|a, b| of(a).total_cmp(&of(b))).unwrap();
         // Answers are off by up to their tolerance.
         let over = all.iter().filter(|one| of(one) > 1.01).count();
-        println!("{kind:?}: {over} above; the most is {:.3} of its bound\n{}", of(worst), worst.1);
         assert!(over == 0, "{kind:?}: {over} above; {}\n{}", of(worst), worst.1);
         assert!(of(worst) > 0.5, "{kind:?}: {}: nothing comes near its bound", of(worst));
     }

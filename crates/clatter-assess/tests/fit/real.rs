@@ -74,7 +74,6 @@ fn covers(seed: u64, count: usize, (share, is_given): (f64, bool)) {
             held[k] += usize::from(holds(estimate, true_value));
         }
     }
-    println!("{share} {is_given}: {held:?} of {told:?} held, {refused} refused, {far_off} far off");
     // Where the speed is hardly known another drop may explain six strikes alone.
     assert!(far_off == 0 || share >= 0.5, "{far_off} are off by more than 5 deviations");
     assert!(20 * refused <= count, "{refused} of {count} are refused");
