@@ -143,12 +143,13 @@ impl Drop<'_> {
         };
         (hi > lo).then_some([0.5 * (lo + hi), 0.5 * (hi - lo)])
     }
-    /// How many unknowns are beyond the range that the product file gives.
+    /// Whether the radius of gyration and the speed are beyond the ranges that the product file gives, counted. The restitution is what a
+    /// fit is for.
     pub(super) fn beyond(&self, x: &[f64]) -> usize {
         let is_beyond = |unknown: &usize| {
             self.range(*unknown).is_some_and(|[middle, half]| (x[*unknown] - middle).abs() > half * (1.0 + 1e-9))
         };
-        [RESTITUTION, GYRATION, SPEED].iter().filter(|unknown| is_beyond(unknown)).count()
+        [GYRATION, SPEED].iter().filter(|unknown| is_beyond(unknown)).count()
     }
     /// The minimum next to `x` over these unknowns, and within their ranges over those that the file gives in one. `known`: whether
     /// the deviations of the data are given; else what they scatter by says how much a range counts beside them.
