@@ -23,7 +23,8 @@ const WIDELY_TAKEN: usize = 48;
 /// Patience and precision of a search that only tells where to go on.
 const QUICK_PATIENCE: usize = 12;
 const QUICK_PRECISION: f64 = 1e-4;
-/// Of a rough and of a fine grid over the ranges so many drops go on.
+/// So many of the first strikes are looked at over a grid, and of a rough and of a fine one so many drops go on.
+const GRIDDED: usize = 8;
 const OF_GRID: [usize; 2] = [160, 320];
 /// Of the flights that are left that search takes this part.
 const WIDE_SHARE: usize = 3;
@@ -207,18 +208,29 @@ impl<'d> Search<'d> {
         Ok(all.into_iter().map(matched).collect())
     }
 
-    /// The minima next to the best drops of a grid over the ranges, of strikes with instant impacts.
+    /// The minima next to the best drops of a grid over the ranges, of strikes with instant impacts: of those that explain the first strikes.
     fn gridded(&mut self, premise: &Premise, grid: [u32; 3], taken: usize) -> Vec<Candidate> {
         if !self.drop.is_quick() {
             return Vec::new();
         }
-        let (free, _) = self.assume(premise);
-        // Its flights are counted by the grid.
+        let (free, all) = self.assume(premise);
+        let count = self.drop.sets[0].len().min(GRIDDED);
+        let early = self.drop.first(count);
+        // The grid counts its flights itself, and so many strikes are quickly followed.
         let left = self.drop.left.replace(usize::MAX);
-        let begins = on_grid(&self.drop, &free, grid, taken);
-        let found = self.from(premise, &begins);
+        let problem = early.problem();
+        let mut begins: Vec<Minimum> = Vec::new();
+        for x in on_grid(&early, &free, grid, taken) {
+            let minimum = problem.minimize(&x, &all);
+            let is_same =
+                |other: &Minimum| free.iter().all(|&unknown| (minimum.x[unknown] - other.x[unknown]).abs() < SAME);
+            if self.explains(minimum.sum(), count.saturating_sub(free.len())) && !begins.iter().any(is_same) {
+                begins.push(minimum);
+            }
+        }
         self.drop.left.set(left);
-        found
+        let begins: Vec<Vec<f64>> = begins.into_iter().map(|minimum| minimum.x).collect();
+        self.from(premise, &begins)
     }
 
     /// The explanations that meet the record, of those that are supported.
