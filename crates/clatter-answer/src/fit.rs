@@ -182,9 +182,7 @@ impl DropRecords {
     pub fn fitted(self, known: &Known) -> Result<MeasuredDrop, Error> {
         let found = match nearest(known, &self.records, self.timing_s) {
             Ok(fit) => Ok(fit),
-            Err(Error::Fit(error @ (fit::Error::Far { .. } | fit::Error::Scatter { .. } | fit::Error::NoDrop(_)))) => {
-                Err(error.to_string())
-            }
+            Err(Error::Fit(error)) if error.is_no_drop() => Err(error.to_string()),
             Err(error) => return Err(error),
         };
         Ok(self.told(found))

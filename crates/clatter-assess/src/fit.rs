@@ -445,10 +445,30 @@ pub enum Error {
         /// Over the standard deviation that was given.
         factor: f64,
     },
+    /// What the nearest drop leaves of accelerations is more than the noise before the first touch.
+    #[error(
+        "record {record}: no drop was found that explains it: the nearest one leaves {factor:.1} times the noise before the first touch. \
+             Either the case rings or the sensor filters, or another drop was not found: check --position, the sign of the axis, the units and \
+             the length in the product file, or cut the record after the first strikes"
+    )]
+    Noise {
+        /// Which record, from 1.
+        record: usize,
+        /// Over the root mean square before the first touch.
+        factor: f64,
+    },
     /// No computed drop comes near the data.
     #[error(
         "no drop was found whose {0} are as measured: check units, ends and the length in the product file. Where strikes come within \
              a millisecond of each other, what follows depends on them so much that it may not be found: leave later strikes out"
     )]
     NoDrop(&'static str),
+}
+
+impl Error {
+    /// Whether the records are as they should be, and no drop explains them.
+    #[must_use]
+    pub const fn is_no_drop(&self) -> bool {
+        matches!(self, Self::Far { .. } | Self::Scatter { .. } | Self::Noise { .. } | Self::NoDrop(_))
+    }
 }

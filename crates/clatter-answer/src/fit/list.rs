@@ -196,7 +196,7 @@ pub fn refusal(error: &Error, name: impl Fn(usize) -> String) -> String {
             format!("{}: {count} {what}; allowed: {allowed}", name(*record))
         }
         // The name of the file in place of "record 1".
-        fit::Error::Far { record, .. } | fit::Error::Scatter { record, .. } => {
+        fit::Error::Far { record, .. } | fit::Error::Scatter { record, .. } | fit::Error::Noise { record, .. } => {
             error.to_string().replacen(&format!("record {record}"), &name(*record), 1)
         }
         error => error.to_string(),

@@ -1,6 +1,6 @@
 //! Which of several explanations of the same data counts: Akaike's information criterion.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// Explanations whose criterion is above the least one by no more are about as good: their likelihood is a twentieth of that of the
 /// best one or more, 2 ln 20.
@@ -68,6 +68,11 @@ pub(super) fn chi_square(alpha: f64, degrees: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a count of data")]
     let chi = ChiSquared::new(degrees as f64);
     chi.map_or(f64::INFINITY, |chi| chi.inverse_cdf(1.0 - alpha))
+}
+
+/// The probability that of two variances of the same noise, by so many degrees of freedom each, the first is so many times the second or more.
+pub(super) fn variances_differ(ratio: f64, [first, second]: [f64; 2]) -> f64 {
+    FisherSnedecor::new(first, second).map_or(1.0, |distribution| distribution.sf(ratio))
 }
 
 #[cfg(test)]

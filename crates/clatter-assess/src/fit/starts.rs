@@ -213,8 +213,10 @@ fn by_heights(drop: &Drop<'_>, set: usize, samples: &[MeasuredHeights], x: &mut 
     x[OFFSET + set] = touch / drop.unit_s;
 }
 
+/// Gaps from a quarter of a pulse to all of a record of accelerations.
+const GAPS: u32 = 16;
 /// Share of the largest value at which a pulse begins.
-const ONSET: f64 = 0.05;
+pub(super) const ONSET: f64 = 0.05;
 
 /// When pulses begin and how long the first takes; the gap from the time between the first two where nothing else tells it.
 fn by_acceleration(
@@ -250,10 +252,15 @@ fn by_acceleration(
         x[CONTACT] = libm::log(width);
         x
     }]);
-    let mut all = if drop.known.contact_time_s.is_some() { vec![x] } else { measured_width };
+    let mut all = measured_width;
+    all.extend(drop.known.contact_time_s.is_some().then_some(x));
     if alone {
-        // The next pulses, one of which is the other end's, and the tilt of the product file.
-        let gaps: Vec<f64> = pulses.iter().skip(1).take(3).map(|(next, _)| time(next - from)).collect();
+        // The next pulses, one of which is the other end's, gaps over all of the record, as where pulses overlap, and the tilt of the product
+        // file.
+        let next = pulses.iter().skip(1).take(3).map(|(next, _)| time(next - from));
+        let whole = time(values.len().saturating_sub(from)).max(2.0 * width);
+        let apart = |k: u32| 0.25 * width * libm::pow(4.0 * whole / width, f64::from(k) / f64::from(GAPS));
+        let gaps: Vec<f64> = next.chain((0..GAPS).map(apart)).collect();
         let q = |x: &[f64]| {
             let k = libm::exp(x[GYRATION]);
             (1.0 - k * k) / (1.0 + k * k)

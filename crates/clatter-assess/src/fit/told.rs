@@ -69,9 +69,14 @@ pub(super) fn find(
     faults: Faults,
 ) -> Result<DeterminedFit, Error> {
     let count: usize = drop.sets.iter().map(Set::len).sum();
-    let (begins, freed) = match begin {
-        Some((x, freed)) => (vec![x], freed),
-        None => (starts(drop, TAKEN), None),
+    let (begins, freed) = if let Some((x, freed)) = begin {
+        (vec![x], freed)
+    } else {
+        // What a start asks for is no search.
+        let left = drop.left.get();
+        let begins = starts(drop, TAKEN);
+        drop.left.set(left);
+        (begins, None)
     };
     drop.is_rough = true;
     let mut search = Search { drop, known, count, faults };

@@ -51,7 +51,7 @@ fn covers(seed: u64, count: usize, (share, is_given): (f64, bool)) {
         let found = match fit(&known, &[Measured::Strikes { strikes: strikes(&list), deviation_s }]) {
             Ok(found) => found,
             // Strikes may be too sensitive for the search. That it says so is an answer too.
-            Err(Error::NoDrop(_) | Error::Scatter { .. } | Error::Far { .. }) => {
+            Err(error) if error.is_no_drop() => {
                 refused += 1;
                 continue;
             }
