@@ -144,6 +144,10 @@ impl BlockMotion {
         all.sort_by(|a, b| a[0].total_cmp(&b[0]));
         all
     }
+    /// How far a corner has sunk in at most.
+    pub(crate) fn deepest_m(&self) -> f64 {
+        self.flight.deepest_m
+    }
     /// What pushes the center of mass, as straight lines: when each begins and ends, and the force over the mass.
     pub(crate) fn pushed(&self) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
         let size = |felt: &[[f64; 4]; 3]| libm::hypot(libm::hypot(felt[0][0], felt[1][0]), felt[2][0]);

@@ -190,7 +190,8 @@ impl Answer {
             let until = if drop.is_box() { Until::Past(PAST_PEAK * self.time_s) } else { Until::Over };
             let other =
                 Followed::until(other, model, tolerance, until).and_then(|other| of_followed(&other, part, limit));
-            other.map_or(f64::INFINITY, |other| (other.value - self.value).abs())
+            // As shares of what is allowed: of a damage boundary one may be a change of velocity, the other an acceleration.
+            other.map_or(f64::INFINITY, |other| (other.utilization() - self.utilization()).abs() * self.allowed)
         };
         // A box is followed as exactly for any tolerance.
         let mut most = if drop.is_box() { 0.0 } else { off(drop, FINER * tolerance) };

@@ -4,8 +4,8 @@ use clatter::End;
 use clatter_assess::ladder::{Groups, Ladder};
 use clatter_assess::scatter::{Sampler, Settings};
 use clatter_assess::{
-    Accuracy, Damping, Law, Limit, LimitKind, Model, Part, ProductFile, SingleDrop, Spread, Unit, Verdict, answer,
-    repeat,
+    Accuracy, Across, Damping, Law, Limit, LimitKind, Model, OwnContacts, Part, ProductFile, SingleDrop, Spread, Unit,
+    Verdict, answer, repeat,
 };
 use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
@@ -113,7 +113,7 @@ fn the_largest_shock_is_the_largest_of_the_train() {
             contact_time_s: None,
             contact_law: ContactLaw::Hysteretic,
             feet: None,
-            own_contacts: clatter_assess::OwnContacts::NONE,
+            own_contacts: OwnContacts::NONE,
         };
         for kind in [LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
             let of =
@@ -140,7 +140,7 @@ fn a_damage_boundary_is_used_up_by_the_lesser_share() {
         contact_time_s: Some(2e-4),
         contact_law: ContactLaw::Hysteretic,
         feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        own_contacts: OwnContacts::NONE,
     };
     let of = |limit: &Limit| answer(&drop, &Part::new(0.0, None), limit, Model::Compliant, 0.01).expect("an answer");
     for (change, acceleration, unit) in [(1.0, 1e5, Unit::MeterPerSecondSquared), (10.0, 1e3, Unit::MeterPerSecond)] {
@@ -157,6 +157,40 @@ fn a_damage_boundary_is_used_up_by_the_lesser_share() {
         let alone = of(&Limit::new(of_kind.0, of_kind.1));
         assert!(alone.off_by > 0.0 && (found.off_by / alone.off_by - 1.0).abs() < 1e-9, "{found:?}, not {alone:?}");
     }
+}
+
+/// Where a drop and those next to it use up the two limits of a damage boundary about alike, the one by its change of velocity and the other
+/// by its acceleration, shares are compared and not a velocity with an acceleration.
+#[test]
+fn a_damage_boundary_is_as_exact_as_its_shares() {
+    let laptop = read(include_str!("../../../reports/examples/laptop.toml")).product;
+    let width = laptop.width.expect("a plate");
+    let drop = SingleDrop {
+        body: laptop.body,
+        across: Some(Across { width, direction_rad: 84.98_f64.to_radians(), posture: None }),
+        first: End::A,
+        tilt_rad: 7.01_f64.to_radians(),
+        flat: false,
+        speed_m_s: 3.861,
+        spin_rad_s: 0.0,
+        restitution: 0.35,
+        gravity_m_s2: 9.806_65,
+        contact_time_s: Some(1e-3),
+        contact_law: ContactLaw::Hysteretic,
+        feet: None,
+        own_contacts: OwnContacts::NONE,
+    };
+    let part = Part { across_m: 0.104, ..Part::new(0.0165, None) };
+    let ask = |limit: &Limit| answer(&drop, &part, limit, Model::Compliant, 0.01).expect("an answer");
+    let [change, acceleration] =
+        [LimitKind::VelocityChange, LimitKind::Acceleration].map(|kind| ask(&Limit::new(kind, 1.0)));
+    assert!(change.impact > 2, "{change:?}");
+    let boundary = Limit {
+        critical_acceleration_m_s2: acceleration.value / 3.0,
+        ..Limit::new(LimitKind::DamageBoundary, change.value / 3.0)
+    };
+    let asked = ask(&boundary);
+    assert!((asked.utilization() - 3.0).abs() < 1e-9 && asked.error() < 0.05, "{asked:?}");
 }
 
 /// A quality factor from 5 to 10 is a damping ratio from 1/20 to 1/10.
@@ -185,7 +219,7 @@ fn the_groups_of_a_drop_belong_together() {
         contact_time_s: Some(2e-4),
         contact_law: ContactLaw::Hysteretic,
         feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        own_contacts: OwnContacts::NONE,
     };
     let ratio = DampingRatio::new(0.07).expect("a ratio");
     let part = Part::new(0.0, Some(Suspension::from_hz(120.0, ratio).expect("a part")));

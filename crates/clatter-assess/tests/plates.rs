@@ -426,3 +426,29 @@ fn a_plate_with_its_masses_on_a_diagonal_is_searched_all_around() {
     let all = of("");
     assert!(all > (1.0 - SEARCHES) * heavy.max(light), "{all} beside {heavy}, {light}");
 }
+
+/// A plate of 5 mm on contacts of 2.5 ms: its corners sink in by more than it is thick, so that those of its top, which are not followed, would
+/// touch as well.
+#[test]
+fn what_sinks_in_deeper_than_it_is_thick_is_undecided() {
+    let of = |contact_ms: f64| {
+        let text = format!(
+            "[product]\nname = \"soft\"\nlength = \"107 mm\"\nwidth = \"88 mm\"\nthickness = \"5 mm\"\n\
+             masses = [{{ mass = \"1 kg\", from = [\"-53.5 mm\", \"-44 mm\"], to = [\"53.5 mm\", \"44 mm\"] }}, {{ mass = \"0.78 kg\", \
+             position = [\"7 mm\", \"-4 mm\"] }}]\nrestitution = 0.21\ncontact_time = \"{contact_ms} ms\"\n\
+             contact_law = \"hysteretic\"\n[drop]\nheight = \"0.8 m\"\ntilt = \"2.8 deg\"\ndirection = \"91.4 deg\"\n\
+             [[component]]\nname = \"part\"\nposition = [\"0 mm\", \"5 mm\"]\nnatural_frequency = \"347 Hz\"\n\
+             damping_ratio = 0.2\nrattle_space = \"2 mm\"\n"
+        );
+        let file = ProductFile::read(&text, "soft.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let assessment = file.assess().expect("an assessment");
+        let limit = &assessment.components[0].limits[0];
+        (limit.verdict, limit.undecided.iter().map(ToString::to_string).collect::<String>())
+    };
+    let (verdict, said) = of(2.5);
+    assert!(
+        verdict == Verdict::Undecided && said.contains("so that corners sink in by the thickness at most"),
+        "{said}"
+    );
+    assert_eq!(of(1.0).0, Verdict::Safe);
+}

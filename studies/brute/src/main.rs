@@ -30,6 +30,9 @@ impl Args {
 }
 
 fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
+    if args.0.iter().any(|arg| arg == "--help") {
+        return writeln!(out, "{USAGE}").map_err(|error| error.to_string());
+    }
     let (drops, seed) = (args.option("drops", 4000)?, args.option("seed", 1)?);
     let said = match args.at(0)? {
         "hunt" => {

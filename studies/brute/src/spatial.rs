@@ -150,7 +150,7 @@ impl Product {
                 let _ = writeln!(text, "direction = [\"{from} deg\", \"{} deg\"]", from + 40.0);
             }
         }
-        let solid = Solid {
+        let mut solid = Solid {
             sides: [length, width, thickness],
             center: [center[0], center[1], 0.0],
             radii: [ky.hypot(kz), kx.hypot(kz), kx.hypot(ky)],
@@ -175,6 +175,11 @@ impl Product {
             spin = [low, high];
         }
         let parts = (0..2).map(|n| part(r, n, &solid, is_box, &mut text)).collect();
+        if !is_box {
+            // What lands of a plate are the corners of its bottom, however deep they dent: those of its top are out of reach.
+            solid.sides[2] = length;
+            solid.center[2] = 0.5 * (thickness - length);
+        }
         Self { solid, law, e, time: [time; 2], speed, tilt, direction, spin, upward, parts, text }
     }
 

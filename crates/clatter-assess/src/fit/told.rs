@@ -208,10 +208,14 @@ impl Search<'_, '_> {
     fn judge(&self, told: &mut DeterminedFit) {
         told.degrees = (self.count + self.drop.ranged.len()).saturating_sub(self.drop.with_ranged(&told.free).len());
         #[expect(clippy::cast_precision_loss, reason = "a count of data")]
-        let (degrees, count, sum) = (told.degrees as f64, self.count as f64, told.minimum.sum());
+        let (count, sum) = (self.count as f64, told.minimum.sum());
         told.scatter = self.scatter(&told.minimum, &told.free);
-        let is_odd = self.known && told.degrees > 0 && sum > chi_square(ODD, told.degrees);
-        told.excess = is_odd.then(|| (sum / degrees).sqrt());
+        // As many unknowns as data meet them, unless the search was left on the way.
+        let degrees = told.degrees.max(1);
+        let is_odd = self.known && sum > chi_square(ODD, degrees);
+        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+        let excess = || (sum / degrees as f64).sqrt();
+        told.excess = is_odd.then(excess);
         let sum = sum.max(count * self.drop.least_scatter().powi(2));
         let dropped = self.drop.sets.iter().map(Set::left_out).sum::<usize>();
         told.score = Score::new(sum, self.count + dropped, told.free.len(), self.faults, self.known);

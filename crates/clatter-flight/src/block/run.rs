@@ -67,6 +67,8 @@ pub struct BlockFlight {
     /// The speed of the center of mass that all of the energy left would give it: what the box has over lying still, on the face under
     /// it where it cannot fall over an edge, else on the broadest.
     pub left_m_s: f64,
+    /// How far a corner has sunk in at most.
+    pub deepest_m: f64,
 }
 
 impl BlockFlight {
@@ -492,7 +494,8 @@ impl<'a> Run<'a> {
         let (center_m, center_m_s, upward, spin_rad_s) = parts(&self.y);
         let (energy_error, left_m_s) = (self.misfit / self.opened, (2.0 * self.left()).sqrt());
         let strikes = self.strikes;
-        Ok(BlockFlight { strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s, left_m_s })
+        let deepest_m = self.sunk;
+        Ok(BlockFlight { strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s, left_m_s, deepest_m })
     }
 }
 
