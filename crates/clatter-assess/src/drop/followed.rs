@@ -56,24 +56,27 @@ impl Followed {
     /// A drop of a plate as one of a box of this thickness, at real tilt, followed until a time.
     ///
     /// # Errors
-    /// [`Error::Contact`], and [`Error::Flight`] and [`Error::Bar`] for a box that is not followed so, as where corners sink in deeper than
-    /// the thickness of the file: those of the top, which are not followed, would touch as well.
+    /// [`Error::Contact`], and [`Error::Flight`] and [`Error::Bar`] for a box that is not followed so.
     pub(crate) fn as_block(drop: &SingleDrop, thickness_m: f64, until_s: f64) -> Result<Self, Error> {
         let Some(across) = &drop.across else { return Err(Error::Contact) };
         let block = drop.block_drop(across, thickness_m)?.with_time_limit_s(until_s)?;
-        let motion = BlockMotion::new(&block, &drop.contacts_of_block()?)?;
-        let (deepest_m, longest_s) =
-            (motion.deepest_m(), drop.contact_times_s().map_or(0.0, |[_, longest_s]| longest_s));
-        if let Some(most_m) = across.width.thickness_m.filter(|most_m| deepest_m > *most_m) {
-            let (value, bound, unit) = (longest_s, longest_s * most_m / deepest_m, "s");
-            let reason = "so that corners sink in by the thickness at most";
-            return Err(
-                clatter_flight::Error::Bound { name: "contact time", value, bound, most: true, unit, reason }.into()
-            );
-        }
-        let motion = Course::Block(motion);
+        let motion = Course::Block(BlockMotion::new(&block, &drop.contacts_of_block()?)?);
         let largest_m_s = motion.largest_m_s();
         Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s })
+    }
+
+    /// Refuses corners of a plate that sink in deeper than the thickness of its file: those of its top, which are not followed, would touch as
+    /// well.
+    ///
+    /// # Errors
+    /// [`Error::Flight`].
+    pub(crate) fn check_depth(&self) -> Result<(), Error> {
+        let (Course::Block(motion), Some(across)) = (&self.motion, &self.drop.across) else { return Ok(()) };
+        let (deepest_m, value) =
+            (motion.deepest_m(), self.drop.contact_times_s().map_or(0.0, |[_, longest_s]| longest_s));
+        let Some(most_m) = across.width.thickness_m.filter(|most_m| deepest_m > *most_m) else { return Ok(()) };
+        let (bound, reason) = (value * most_m / deepest_m, "so that corners sink in by the thickness at most");
+        Err(clatter_flight::Error::Bound { name: "contact time", value, bound, most: true, unit: "s", reason }.into())
     }
 
     /// The same motion as that of another drop, of which more may come.

@@ -203,6 +203,7 @@ impl Ranges<'_> {
             let drop = self.single(place);
             let until_s = (BEYOND_PEAK * at.answer.time_s).max(drop.clatter_s());
             let followed = Followed::as_block(&drop, thickness_m, until_s)?;
+            followed.check_depth()?;
             let part = Candidate { place: *place, ..*at }.part_there(task.component);
             Ok(of_followed(&followed, &part, &task.limit)?.utilization())
         };
