@@ -88,7 +88,9 @@ fn run(command: &mut Command) -> Result<(), String> {
 /// As small as gzip can be, which takes some seconds; a browser unpacks it.
 fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let mut packed = Vec::new();
-    zopfli::compress(zopfli::Options::default(), zopfli::Format::Gzip, bytes, &mut packed)?;
+    // More blocks each have their own codes: 15 instead of 200 take 13 kB more.
+    let options = zopfli::Options { maximum_block_splits: 200, ..zopfli::Options::default() };
+    zopfli::compress(options, zopfli::Format::Gzip, bytes, &mut packed)?;
     Ok(packed)
 }
 
