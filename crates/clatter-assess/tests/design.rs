@@ -512,13 +512,15 @@ drop = [{ speed = "4 m/s", tilt = "3 deg" }, { speed = "2 m/s", tilt = ["10 deg"
 component = [{ name = "part", position = "30 mm", natural_frequency = "200 Hz", damping_ratio = 0.05, acceleration_limit = "400 gn" }]
 "#;
     let terminal = include_str!("../../../reports/examples/handheld-terminal.toml");
+    // Its disk drive, which needs two changes together.
+    let laptop = include_str!("../../../reports/examples/laptop.toml");
+    let laptop = &laptop[..laptop.match_indices("[[component]]").nth(1).expect("a second part").0];
     let named = terminal.replace("contact_time = ", "contact_law = \"dashpot\"\ncontact_time = ");
     vec![
         ("example", EXAMPLE.to_owned()),
-        ("terminal", terminal.to_owned()),
         ("named", named),
         ("phone", include_str!("../../../reports/examples/phone.toml").to_owned()),
-        ("laptop", include_str!("../../../reports/examples/laptop.toml").to_owned()),
+        ("laptop", laptop.to_owned()),
         ("plate", plate.to_owned()),
         ("block", block.to_owned()),
         ("list", list.to_owned()),

@@ -38,7 +38,7 @@ const MET: f64 = 0.002;
 /// # Accuracy
 /// The intervals of 95 % hold the truth in 93 to 97 of 100 synthetic drops with normal noise, for strikes with instant
 /// impacts where both ends have one restitution (`tests/fit`); less often where they differ and the timing is not given, see
-/// [the module](super). Of accelerations ten drops are explained to 1 % or refused. Intervals know of noise alone: a bar that bends, an edge that is not flat
+/// [the module](super). Of accelerations ten synthetic drops are explained to 1 % or refused. Intervals know of noise alone: a bar that bends, an edge that is not flat
 /// or slides, or a restitution that is another one in the next drop is not in them.
 ///
 /// # Errors
@@ -137,7 +137,7 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
     let mut fit = report(&best.0, &best.1);
     for (k, (record, set)) in fit.records.iter().zip(&best.0.sets).enumerate() {
         near(k + 1, record, set, &best.0)?;
-        if !is_above_noise(k + 1, record, set)? {
+        if !is_told_by_noise(k + 1, record, set)? {
             fit.notes.push(
                 "before the first touch nothing tells the noise: whether this drop explains the record is not tested"
                     .into(),
@@ -171,11 +171,12 @@ fn near(number: usize, found: &RecordFit, set: &Set, drop: &Drop<'_>) -> Result<
     Err(Error::Far { record: number, name: what, percent: 100.0 * found.scatter / unit, of, allowed: 100.0 * allowed })
 }
 
-/// Whether the noise before the first touch tells if the drop explains a record of accelerations; of other records there is nothing to tell.
+/// Returns whether a record tells its noise, so that the drop was tested to explain it: accelerations by what they are before the first touch,
+/// other records always.
 ///
 /// # Errors
-/// [`Error::Noise`] where it leaves more than that noise, by the test of two variances.
-fn is_above_noise(record: usize, found: &RecordFit, set: &Set) -> Result<bool, Error> {
+/// [`Error::Noise`] where the drop leaves more than that noise, by the test of two variances.
+fn is_told_by_noise(record: usize, found: &RecordFit, set: &Set) -> Result<bool, Error> {
     let (Set::Acceleration { step_s, .. }, [curve]) = (set, &found.curves[..]) else { return Ok(true) };
     // The sample at the touch may hold some of the first press; and what was found may touch later than what was measured.
     let largest = curve.iter().fold(0.0_f64, |most, [_, measured, _]| most.max(measured.abs()));
