@@ -45,8 +45,8 @@
 //!
 //! With gravity (`tests/fit/real.rs`: an own simulation, tilts of 0.5 to 5 degrees, a center of mass off by up to 5 %, e of 0.25 to 0.6,
 //! six strikes timed to 5 µs, at least a quarter of a millisecond apart), of 200 drops each with the speed exact, known to 1, 10 and
-//! 50 %, and with the timing not told, no true strike is left out, and 92 to 97 of 100 intervals hold the restitution, the radius of
-//! gyration and the tilt. Where neither the timing is told nor the speed to better than 50 %, 88 of 100 hold the restitution: that is
+//! 50 %, and with the timing not told, no true strike is left out, and 92 to 98 of 100 intervals hold the restitution, the radius of
+//! gyration and the tilt. Where neither the timing is told nor the speed to better than 50 %, 90 of 100 hold the restitution: that is
 //! too few. Where strikes come closer the search may fail, and the record is then refused.
 //!
 //! # Both ends

@@ -162,7 +162,7 @@ fn near(number: usize, found: &RecordFit, set: &Set, drop: &Drop<'_>) -> Result<
         Set::Heights { .. } => (drop.known.body.length_m(), FAR_OFF, "heights", "the length"),
         Set::Acceleration { .. } => {
             let size = found.curves.iter().map(root_mean_square).fold(0.0, f64::max);
-            (size, FAR_OFF_ACCELERATION, "accelerations", "their own root mean square")
+            (size, FAR_OFF_ACCELERATION, "accelerations", "the measured ones")
         }
     };
     if found.scatter <= allowed * unit {
