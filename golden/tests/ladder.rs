@@ -67,7 +67,7 @@ fn a_handheld_terminal() {
             limit.limit.name(),
             worst.tilt_deg(),
             worst.drop.restitution,
-            1e3 * worst.part.position_m
+            1e3 * worst.part.place.at_m[0]
         );
         text.push_str(&rows(&limit.ladder));
     }

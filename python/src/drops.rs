@@ -2,7 +2,7 @@
 
 use clatter_answer::{neat, simulate as simulate_of};
 use clatter_assess::Model;
-use clatter_flight::{Block, BlockDrop, Body, Contact, Model as Physics, Plate, PlateScene, Scene};
+use clatter_flight::{Block, BlockDrop, Contact, Model as Physics, Plate, PlateScene, Profile, Scene};
 use pyo3::prelude::*;
 
 use crate::answered::{Answered, Drawing, json};
@@ -33,7 +33,7 @@ const TOO_LONG: &str =
 pub(crate) fn scene(fall: &Fall) -> PyResult<Scene> {
     let Fall { length_m, gyration_m, center_of_mass, thickness_m, e, tilt_deg, gravity_m_s2, .. } = *fall;
     let half = 0.5 * length_m;
-    let body = Body::off_center(half * (1.0 + center_of_mass), half * (1.0 - center_of_mass), gyration_m);
+    let body = Profile::off_center(half * (1.0 + center_of_mass), half * (1.0 - center_of_mass), gyration_m);
     let body = body.and_then(|body| body.with_thickness(thickness_m)).map_err(refused)?;
     match (fall.speed_m_s, fall.height_m) {
         (Some(speed), None) => Scene::new(body, e, speed, tilt_deg, gravity_m_s2),

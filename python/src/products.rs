@@ -100,7 +100,7 @@ pub(crate) fn assess(
     let (text, warnings, (file, assessment)) = done??;
     let draw = move || {
         // Of a plate they take long, and its picture shows none of them.
-        let portraits = if file.product.width.is_some() { Vec::new() } else { file.portraits(&assessment) };
+        let portraits = if file.product.body.is_wide() { Vec::new() } else { file.portraits(&assessment) };
         clatter_figures::assessed(&file, &assessment, &portraits)
     };
     Ok(((text, Some(Drawing::new(draw))), warnings))

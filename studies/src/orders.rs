@@ -1,6 +1,6 @@
 //! How the models tend to one another, measured: rows for the accuracy table.
 
-use clatter_flight::{Body, Contact, ContactLaw, Error, Model, Motion, Scene, Strike};
+use clatter_flight::{Contact, ContactLaw, Error, Model, Motion, Profile, Scene, Strike};
 
 /// One model against the one it tends to, as a parameter goes to zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +42,7 @@ pub struct Residue {
 /// Half-length 70 mm, 4.43 m/s.
 fn phone(q: f64, e: f64, tilt_deg: f64, gravity: f64) -> Result<Scene, clatter::Error> {
     let half = 0.07;
-    Scene::new(Body::new(2.0 * half, half * ((1.0 - q) / (1.0 + q)).sqrt())?, e, 4.43, tilt_deg, gravity)
+    Scene::new(Profile::new(2.0 * half, half * ((1.0 - q) / (1.0 + q)).sqrt())?, e, 4.43, tilt_deg, gravity)
 }
 
 /// Largest difference of times (relative) and of shocks (over the drop speed) of the first strikes; infinite if the
@@ -168,7 +168,7 @@ pub fn residues() -> Result<Vec<Residue>, Error> {
         for (law, contact) in [(ContactLaw::Hysteretic, 1e-3), (ContactLaw::Dashpot, 1e-3), (ContactLaw::Dashpot, 1e-6)]
         {
             // A body that touches with one point below its center of mass does not turn.
-            let lone = Scene::new(Body::of_points([[0.0, -1.0]], 0.5)?, e, 4.43, 0.0, 0.0)?;
+            let lone = Scene::new(Profile::of_points([[0.0, -1.0]], 0.5)?, e, 4.43, 0.0, 0.0)?;
             let lone = lone.contacts_until(&Contact::new(law, e, contact)?, 1e-4, |_| false)?;
             let had = lone.strikes.first().map_or(f64::NAN, |s| -(s.delta_v_m_s[0] / s.approach_m_s) - 1.0);
             fitted = fitted.max((had - e).abs());

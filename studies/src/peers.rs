@@ -272,7 +272,7 @@ mod tests {
     use super::*;
     use clatter::design::DESIGNS;
     use clatter::{Bar, Count, Start};
-    use clatter_flight::{Body, Model, Scene};
+    use clatter_flight::{Model, Profile, Scene};
 
     #[test]
     fn the_last_run_left_no_tool_out() {
@@ -321,7 +321,8 @@ mod tests {
             let summary = bar.summary(&Start::default());
             assert_eq!(summary.count, Count::Finite(truth), "({q}, {e})");
             assert_eq!(bar.train(&Start::default()).count() as u64, truth, "({q}, {e})");
-            let body = Body::new(2.0 * results.bars.half_length_m, results.bars.half_length_m * bar.gyration_ratio());
+            let body =
+                Profile::new(2.0 * results.bars.half_length_m, results.bars.half_length_m * bar.gyration_ratio());
             let scene = Scene::new(body.unwrap(), e, results.bars.speed_m_s, results.bars.tilt_deg, 0.0).unwrap();
             let strikes = scene.fly(Model::FiniteTilt).unwrap().strikes;
             assert_eq!(strikes.len() as u64, truth, "({q}, {e}) at real tilt");

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use clatter::design::DESIGNS;
 use clatter_assess::ladder::{Ladder, LimitLadder, Machine};
-use clatter_assess::{Accuracy, Limit, LimitKind, Part, ProductFile, SingleDrop};
+use clatter_assess::{Accuracy, Drop, Limit, LimitKind, Part, ProductFile};
 use clatter_figures::{LadderPanel as Panel, ladders as panels, three};
-use clatter_flight::{Body, ContactLaw};
+use clatter_flight::Body;
 use clatter_report::{File, ladder_svg, words};
 use clatter_shock::{DampingRatio, STANDARD_GRAVITY_M_S2, Suspension};
 use serde::Serialize;
@@ -28,30 +28,20 @@ const EXAMPLES: [(&str, &str); 3] = [
 ///
 /// # Errors
 /// None in practice: the numbers are valid.
-pub fn bars() -> Result<[(SingleDrop, Part, Limit); 4], clatter_assess::Error> {
+pub fn bars() -> Result<[(Drop, Part, Limit); 4], clatter_assess::Error> {
     let [a, b, c, d] = DESIGNS.map(|[q, e]| bar(q, e));
     Ok([a?, b?, c?, d?])
 }
 
 /// One of them.
-fn bar(q: f64, e: f64) -> Result<(SingleDrop, Part, Limit), clatter_assess::Error> {
+fn bar(q: f64, e: f64) -> Result<(Drop, Part, Limit), clatter_assess::Error> {
     let part = Suspension::new(TAU * 230.0, DampingRatio::from_quality_factor(10.0)?)?;
     // q = (L² − ρ²)/(L² + ρ²)
     let gyration_m = 0.07 * ((1.0 - q) / (1.0 + q)).sqrt();
-    let drop = SingleDrop {
-        body: Body::new(0.14, gyration_m)?,
-        across: None,
-        first: clatter::End::A,
-        tilt_rad: 5f64.to_radians(),
-        flat: false,
-        speed_m_s: 4.43,
-        spin_rad_s: 0.0,
-        restitution: e,
+    let drop = Drop {
         gravity_m_s2: STANDARD_GRAVITY_M_S2,
         contact_time_s: Some(2e-4),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(Body::new(0.14, gyration_m)?, 4.43, 5f64.to_radians(), e)
     };
     let place = Part::new(0.9 * 0.07, Some(part));
     Ok((drop, place, Limit::new(LimitKind::Acceleration, 1.0)))
@@ -109,7 +99,7 @@ pub fn trade_files() -> Result<Vec<File>, Error> {
         "length_mm": three(1e3 * drop.body.length_m()), "speed_m_s": three(drop.speed_m_s),
         "tilt_deg": three(drop.tilt_rad.to_degrees()), "contact_ms": drop.contact_time_s.map(|time| three(1e3 * time)),
         "frequency_hz": part.suspension.map(|part| three(part.omega() / TAU)),
-        "position": three(2.0 * part.position_m / drop.body.length_m()),
+        "position": three(2.0 * part.place.at_m[0] / drop.body.length_m()),
     });
     let of_bars: Vec<String> = ladders.iter().map(|bar| words::reason(&bar.ladder.reason)).collect();
     let of_products: Vec<Vec<String>> = products.iter().map(|product| reasons(&product.limits)).collect();

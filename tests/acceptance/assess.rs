@@ -147,10 +147,10 @@ fn every_worked_product_has_a_width() {
     for file in fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();
         let product = clatter_assess::ProductFile::read(&fs::read_to_string(&path).unwrap(), "worked").unwrap().product;
-        assert!(product.width.is_some(), "{}", path.display());
+        assert!(product.body.is_wide(), "{}", path.display());
     }
     let init = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "init").unwrap();
-    assert!(init.product.width.is_some());
+    assert!(init.product.body.is_wide());
 }
 
 /// The words of a command as a shell takes them apart, without its name.

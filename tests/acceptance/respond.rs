@@ -365,24 +365,14 @@ fn the_map_in_meters_is_the_bar() {
 /// Every model as an assessment answers it, the center of mass off the middle.
 #[test]
 fn drops_drive_components_as_in_an_assessment() {
-    use clatter_assess::{ContactLaw, Model, Part, SingleDrop};
+    use clatter_assess::{Drop, Model, Part};
     use clatter_flight::Body;
     use clatter_shock::{DampingRatio, Suspension};
     let contact_s = 4e-4;
-    let drop = SingleDrop {
-        body: Body::off_center(0.07 * 1.2, 0.07 * 0.8, 0.045).unwrap(),
-        across: None,
-        first: clatter::End::A,
-        tilt_rad: 4_f64.to_radians(),
-        flat: false,
-        speed_m_s: 3.0,
-        spin_rad_s: 0.0,
-        restitution: 0.3,
+    let drop = Drop {
         gravity_m_s2: 9.806_65,
         contact_time_s: Some(contact_s),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(Body::off_center(0.07 * 1.2, 0.07 * 0.8, 0.045).unwrap(), 3.0, 4_f64.to_radians(), 0.3)
     };
     let part = Suspension::new(1131.0, DampingRatio::new(0.05).unwrap()).unwrap();
     for model in Model::FOLLOWED {

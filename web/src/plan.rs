@@ -48,7 +48,7 @@ pub(crate) fn plan(name: &str, given: &str) -> Result<Reply, String> {
     let (file, warnings) = products::read(name, given)?;
     let body = &file.product.body;
     let [a, b] = body.arms_m();
-    let (width, sides_m) = (file.product.width, file.product.sides_m());
+    let (width, sides_m) = (file.product.body.width, file.product.sides_m());
     let e = file.product.restitution.at(0.5);
     let bar = clatter::Bar::from_arms([a, b], body.gyration_m(), e);
     let plan = Plan {

@@ -53,7 +53,7 @@ const FIRST: usize = 8;
 /// the first drops of a plate or a box ask.
 pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_>) -> Result<Reply, String> {
     let (file, warnings) = read(name, given)?;
-    let is_plate = file.product.width.is_some();
+    let is_plate = file.product.body.is_wide();
     let model = (quick && !is_plate).then_some(Model::FiniteTilt);
     let accuracy = Accuracy { model, ..Accuracy::default() };
     let answer = assess_of::watched(&file, &accuracy, &|done, all| {
@@ -103,7 +103,7 @@ fn drawn(
     portraits: &[Portrait],
 ) -> Result<Vec<(String, String)>, FigureError> {
     let mut figures = Vec::new();
-    if file.product.width.is_none() {
+    if !file.product.body.is_wide() {
         figures.push((
             "Where each part would be safe".to_owned(),
             clatter_figures::assessed(file, assessment, portraits)?,

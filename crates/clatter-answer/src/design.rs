@@ -52,7 +52,7 @@ pub fn answer<'a>(file: &'a ProductFile, bounds: &Bounds, margin: f64) -> Result
 /// # Errors
 /// As [`ProductFile::remedies_watched`].
 pub fn of_pages(file: &ProductFile, assessment: &Assessment, watch: Watch<'_>) -> Result<Vec<Remedies>, Error> {
-    if file.product.width.is_some() {
+    if file.product.body.is_wide() {
         return Ok(Vec::new());
     }
     file.remedies_watched(assessment, &Bounds::default(), 0.1, watch)
@@ -77,7 +77,7 @@ impl<'a> Answer<'a> {
         let components = self.assessment.components.iter().enumerate();
         ProductJson {
             product: &product.name,
-            q: product.width.is_none().then(|| Json(product.inertia_ratio())),
+            q: (!product.body.is_wide()).then(|| Json(product.inertia_ratio())),
             restitution: [Json(product.restitution.lo()), Json(product.restitution.hi())],
             verdict: self.assessment.verdict,
             margin: Json(self.margin),

@@ -136,7 +136,7 @@ pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
         return Err(Error::GyrationRange([gyration.lo(), gyration.hi()]));
     }
     let bounces = matches!(&records[..], [Record { data: Data::Bounces(_), .. }]);
-    if file.product.width.is_some() && !bounces {
+    if file.product.body.is_wide() && !bounces {
         return Err(clatter_assess::Error::FitOfPlate.into());
     }
     if !file.product.own_contacts.is_none() {

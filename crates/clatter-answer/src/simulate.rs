@@ -2,9 +2,9 @@
 //!
 //! ```
 //! use clatter_answer::simulate;
-//! use clatter_flight::{Body, Model, Scene};
+//! use clatter_flight::{Profile, Model, Scene};
 //! // Mass spread evenly over 140 mm, at 4.43 m/s and a tilt of 5°.
-//! let scene = Scene::new(Body::new(0.14, 0.0404)?, 0.3, 4.43, 5.0, 9.806_65)?;
+//! let scene = Scene::new(Profile::new(0.14, 0.0404)?, 0.3, 4.43, 5.0, 9.806_65)?;
 //! let answer = simulate::answer(&simulate::Question::new(scene, Model::FiniteTilt))?;
 //! let first = answer.impacts.iter().next().expect("an impact");
 //! assert_eq!((first.end, first.approach_m_s.0, answer.stop.reason()), ("a", -4.43, "at-rest"));

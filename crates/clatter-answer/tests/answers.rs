@@ -15,7 +15,7 @@ use clatter_assess::design::Bounds;
 use clatter_assess::fit::{Known, Measured, MeasuredStrike};
 use clatter_assess::scatter::{Sampler, Settings};
 use clatter_assess::{Accuracy, ProductFile};
-use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model, PlateScene, Scene};
+use clatter_flight::{Block, BlockDrop, Contact, ContactLaw, Model, PlateScene, Profile, Scene};
 use clatter_record::{Options, Record};
 use clatter_shock::{
     DampingRatio, Frequencies, LimitCurve, Pulse, Pulses, Search, Shape, ShockTable, SpectrumFilter, Suspension,
@@ -57,7 +57,7 @@ fn without_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
 }
 
 fn in_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
-    let body = Body::off_center(0.08, 0.06, 0.041)?.with_thickness(0.012)?;
+    let body = Profile::off_center(0.08, 0.06, 0.041)?.with_thickness(0.012)?;
     let scene = Scene::new(body, 0.6, 4.43, 17.0, 9.806_65)?.with_impact_limit(100)?;
     let contact = |law| Contact::new(law, 0.6, 4e-4);
     let [hysteretic, dashpot] = [contact(ContactLaw::Hysteretic)?, contact(ContactLaw::Dashpot)?];
@@ -126,7 +126,7 @@ fn responses(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
         question.shock_table = Some(table);
         lines.push(serde_json::to_string(&respond::answer(&question)?)?);
     }
-    let scene = Scene::new(Body::off_center(0.08, 0.06, 0.041)?, 0.4, 4.43, 4.0, 9.806_65)?;
+    let scene = Scene::new(Profile::off_center(0.08, 0.06, 0.041)?, 0.4, 4.43, 4.0, 9.806_65)?;
     let contact = Contact::new(ContactLaw::Hysteretic, 0.4, 4e-4)?;
     for (model, suspension) in [
         (clatter_assess::Model::Map, None),
@@ -144,7 +144,7 @@ fn responses(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
     lines.push(serde_json::to_string(&respond::plate::answer(&question)?)?);
     let handheld = Block::new([0.15, 0.07, 0.015], [0.002, 0.0, 0.001], [0.0207, 0.0435, 0.0478])?;
     let drop = BlockDrop::tilted(handheld, 0.7, 0.4, 4.43, 9.806_65)?;
-    let mut question = respond::block::Question::new(drop, contact, [0.01, 0.02, 0.0], clatter_assess::Axis::Z)?;
+    let mut question = respond::block::Question::new(drop, contact, [0.01, 0.02, 0.0], clatter_assess::Axis::Z);
     question.suspension = Some(board);
     lines.push(serde_json::to_string(&respond::block::answer(&question)?)?);
     Ok(())

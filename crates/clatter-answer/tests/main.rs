@@ -5,7 +5,7 @@ use clatter_answer::respond::{self, Excitation};
 use clatter_answer::{atlas, fit, impacts, map, simulate, spectrum, zone};
 use clatter_assess::ProductFile;
 use clatter_assess::fit::Measured;
-use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model, PlateScene, Scene};
+use clatter_flight::{Block, BlockDrop, Contact, ContactLaw, Model, PlateScene, Profile, Scene};
 use clatter_record::{Options, Record};
 use clatter_shock::{DampingRatio, Pulse, Search, Shape, Suspension};
 use serde_json::{Value, json};
@@ -33,7 +33,7 @@ fn plate() -> Plate {
 }
 
 fn scene() -> Scene {
-    let body = Body::new(0.14, 0.0404).expect("a body");
+    let body = Profile::new(0.14, 0.0404).expect("a body");
     Scene::new(body, 0.3, 4.43, 5.0, 9.806_65).expect("a drop")
 }
 
@@ -88,8 +88,7 @@ fn parts_that_no_drop_answers_are_refused() {
     says(respond::plate::answer(&question).expect_err("too slow"), "natural frequency in rad/s = 1e-13");
     let block = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478]).expect("a box");
     let drop = BlockDrop::tilted(block, 0.5, 0.0, 1.0, 9.806_65).expect("a drop");
-    let question = respond::block::Question::new(drop, contact, [0.0, 0.04, 0.0], clatter_assess::Axis::Any);
-    let mut question = question.expect("a question");
+    let mut question = respond::block::Question::new(drop, contact, [0.0, 0.04, 0.0], clatter_assess::Axis::Any);
     says(respond::block::answer(&question).expect_err("beyond the box"), "position in m = 0.04");
     (question.at_m, question.suspension) = ([0.0; 3], Some(part(100.0)));
     says(respond::block::answer(&question).expect_err("no axis"), "100.0");
@@ -122,13 +121,8 @@ fn records_that_answer_nothing_are_refused() {
     says(fit::answer(&question).expect_err("not known"), "0.05 to 0.06 m");
     // A plate lands on corners; flat it bounces as any body does.
     let mut plate = file.clone();
-    plate.product.width = Some(clatter_assess::Width {
-        edges_m: [0.035; 2],
-        gyration_m: 0.02,
-        product_of_inertia_m2: 0.0,
-        thickness_m: None,
-        depth: None,
-    });
+    let width = clatter_assess::Side { ends_m: [0.035; 2], gyration_m: 0.02 };
+    plate.product.body = plate.product.body.with_width(width);
     let strikes = fit::Data::Measured(Measured::Strikes { strikes: Vec::new(), deviation_s: None });
     let question = fit::Question::new(&plate, vec![one(strikes)]);
     says(

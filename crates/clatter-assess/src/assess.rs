@@ -4,16 +4,19 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use crate::Model;
+use crate::attitude::Base;
 use crate::bound::bound;
-use crate::drop::{Model, Posture, SingleDrop};
 use crate::engine::answer;
 use crate::quantity::Source;
 use crate::reason::{Contradiction, Doubt, Note, Reason};
-use crate::search::{Candidate, Place, Ranges, Task, Watch, Worst};
+use crate::search::{Candidate, Coordinates, Ranges, Task, Watch, Worst};
 use crate::{
-    Accuracy, Assessment, Assumed, Component, ComponentAssessment, Drop, DropName, Error, Landing, LandingAssessment,
-    Limit, LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Unit, Verdict, WorstCase,
+    Accuracy, Assessment, Assumed, Component, ComponentAssessment, DropName, DropRanges, Error, Landing,
+    LandingAssessment, Limit, LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Unit, Verdict,
+    WorstCase,
 };
+use clatter_flight::Drop;
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
 pub(crate) const COVERAGE: f64 = 0.02;
@@ -22,9 +25,6 @@ pub(crate) const COVERAGE: f64 = 0.02;
 /// 10 % in 4, in which energy allowed more.
 const COVERAGE_WHERE_ROUGH: f64 = 0.1;
 
-/// A plate whose file does not tell its thickness is taken as so thick over its length where real tilt counts.
-pub(crate) const THIN: f64 = 0.05;
-
 /// A drop that asks for more than is of use.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Breaker {
@@ -32,7 +32,7 @@ pub(crate) struct Breaker {
     pub(crate) other_law: bool,
     /// Which of the drops that are searched.
     pub(crate) listed: usize,
-    pub(crate) place: Place,
+    pub(crate) place: Coordinates,
 }
 
 /// What no drop exceeds, by either contact law.
@@ -131,7 +131,7 @@ impl ProductFile {
         accuracy.check()?;
         self.check()?;
         self.check_apart(accuracy.merge_s)?;
-        if let Some(model) = accuracy.model.filter(|model| self.product.width.is_some() && *model != Model::Compliant) {
+        if let Some(model) = accuracy.model.filter(|model| self.product.body.is_wide() && *model != Model::Compliant) {
             return Err(Error::PlateModel(model));
         }
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
@@ -152,7 +152,7 @@ impl ProductFile {
         let searched: Vec<Vec<Ranges<'_>>> = listed
             .iter()
             .map(|one| {
-                let ranges = self.ranges_of(&one.drop, one.posture, accuracy);
+                let ranges = self.ranges_of(&one.drop, one.base, accuracy);
                 laws(ranges).into_iter().map(|law| Ranges { law, ..ranges }).collect()
             })
             .collect();
@@ -169,7 +169,7 @@ impl ProductFile {
                 progress.done.fetch_add(1, Ordering::Relaxed);
                 found
             };
-            let found: Vec<Result<Vec<Worst>, Place>> = some.par_iter().map(search).collect();
+            let found: Vec<Result<Vec<Worst>, Coordinates>> = some.par_iter().map(search).collect();
             for (&(listed, n), found) in some.iter().zip(found) {
                 match found {
                     Ok(of_law) => worst[listed].push(of_law),
@@ -208,21 +208,21 @@ impl ProductFile {
                 }
             }
             let limits = of_limits.into_iter().map(|of_drops| governing(&of_drops, &names)).collect();
-            components.push(verdict(component, self.product.width.is_some(), limits));
+            components.push(verdict(component, self.product.body.is_wide(), limits));
         }
         Ok(Ok(Found { components, landings }))
     }
 
     /// The drops that are searched one after the other: all that are listed, or the one of the file.
     pub(crate) fn listed(&self) -> Vec<Listed> {
-        let posture = |landing: &Landing| {
-            let ((faces, thickness_m), attitude) = self.product.faces_m().zip(landing.attitude)?;
-            Some(Posture { upward: attitude.upward(faces), thickness_m, about: attitude.about() })
+        let base = |landing: &Landing| {
+            let (faces_m, attitude) = self.product.body.faces_m().zip(landing.attitude)?;
+            Some(Base { up: attitude.upward(faces_m), spin_axis: attitude.about() })
         };
         if self.landings.is_empty() {
-            return vec![Listed { drop: self.drop, posture: None }];
+            return vec![Listed { drop: self.drop, base: None }];
         }
-        self.landings.iter().map(|landing| Listed { drop: landing.drop, posture: posture(landing) }).collect()
+        self.landings.iter().map(|landing| Listed { drop: landing.drop, base: base(landing) }).collect()
     }
 
     /// The ranges as the search takes them, of a product that falls once.
@@ -231,18 +231,18 @@ impl ProductFile {
         self.ranges_of(&self.drop, None, accuracy)
     }
 
-    pub(crate) fn ranges_of<'a>(&'a self, drop: &'a Drop, posture: Option<Posture>, accuracy: &Accuracy) -> Ranges<'a> {
+    pub(crate) fn ranges_of<'a>(&'a self, drop: &'a DropRanges, base: Option<Base>, accuracy: &Accuracy) -> Ranges<'a> {
         let fullest = if self.product.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt };
         let model = accuracy.model.unwrap_or(fullest);
         let law = self.product.law();
         let listed = self.landings.len().max(1);
         let Accuracy { tolerance, merge_s, .. } = *accuracy;
-        Ranges { product: &self.product, drop, model, posture, listed, law, tolerance, merge_s }
+        Ranges { product: &self.product, drop, model, base, listed, law, tolerance, merge_s }
     }
 
     /// What the worst drop by one contact law says of a limit.
     fn judge(&self, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst) -> Result<Judged, Error> {
-        let bound = bound(&self.product, ranges.drop, ranges.posture, task.component, &task.limit, ranges.law);
+        let bound = bound(&self.product, ranges.drop, ranges.base, task.component, &task.limit, ranges.law);
         let bound = bound.filter(|bound| bound.is_finite());
         let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound)) };
         // What takes further drops is left where the time is over.
@@ -252,11 +252,11 @@ impl ProductFile {
         }
         let found = asked.answer;
         let utilization = found.utilization();
-        let is_rough = ranges.posture.is_some() || asked.late;
+        let is_rough = ranges.base.is_some() || asked.late;
         let covered = utilization * (1.0 + if is_rough { COVERAGE_WHERE_ROUGH } else { COVERAGE });
         let covered = covered.max(worst.late * (1.0 + COVERAGE_WHERE_ROUGH));
         let mut of = Judged { most: covered + found.off_by / found.allowed, ..Judged::new(bound) };
-        if self.product.width.is_none() && task.limit.kind == LimitKind::AngularVelocityChange {
+        if !self.product.body.is_wide() && task.limit.kind == LimitKind::AngularVelocityChange {
             of.notes.push(Note::Rolls);
         }
         if found.off_by.is_infinite() && !worst.stopped {
@@ -269,14 +269,14 @@ impl ProductFile {
             of.notes.push(Note::Rebounds(of.most));
         }
         // With contacts the edges beyond feet are followed.
-        let by_impacts = self.product.feet.is_some() && ranges.model < Model::Compliant;
+        let by_impacts = self.product.body.feet.is_some() && ranges.model < Model::Compliant;
         if by_impacts && (worst.later > 0.0 || of.most.is_infinite()) {
             of.notes.push(Note::Edges);
         }
         let drop = ranges.single(&asked.place);
-        if ranges.model < drop.fullest() && !worst.stopped {
+        if ranges.model < Model::fullest(&drop) && !worst.stopped {
             let place = asked.part_there(task.component);
-            let (asked, fullest) = (ranges.model, drop.fullest());
+            let (asked, fullest) = (ranges.model, Model::fullest(&drop));
             match answer(&drop, &place, &task.limit, fullest, ranges.tolerance) {
                 Ok(full) => {
                     let off = full.utilization() - utilization;
@@ -287,9 +287,9 @@ impl ProductFile {
                 Err(error) => of.doubts.push(Doubt::Fullest(fullest, error)),
             }
         }
-        if let (Some(width), false, None) = (&self.product.width, worst.stopped, ranges.posture) {
-            let thickness_m = width.thickness_m.unwrap_or(THIN * self.product.body.length_m());
-            match ranges.as_block(task, &asked, &worst.near, thickness_m) {
+        if drop.body.is_wide() && drop.is_level && !worst.stopped {
+            let thickness_m = drop.body.thickness().m();
+            match ranges.as_block(task, &asked, &worst.near) {
                 Ok(most) => {
                     of.most += (most - utilization).max(0.0);
                     if utilization > 0.0 {
@@ -351,7 +351,7 @@ impl ProductFile {
             Err(Error::Stopped) => return Err(Error::Stopped),
             flat => flat.ok(),
         };
-        let place = worst.place.flattened(drop.flat);
+        let place = worst.place.flattened(drop.is_flat);
         Ok(flat.map(|answer| Candidate { place, part: worst.part, answer, late: false }))
     }
 
@@ -455,9 +455,9 @@ pub(crate) struct Found {
 
 /// A drop that is searched.
 pub(crate) struct Listed {
-    pub(crate) drop: Drop,
-    /// Of a box.
-    pub(crate) posture: Option<Posture>,
+    pub(crate) drop: DropRanges,
+    /// How a box lies as it lands.
+    pub(crate) base: Option<Base>,
 }
 
 /// What the drops that are listed say of a limit together. The demand is the largest of all drops that were answered, with the drop that
@@ -576,8 +576,8 @@ fn in_unit(limit: &Limit, unit: Unit) -> Limit {
     }
 }
 
-fn accuracy_reason(ranges: &Ranges<'_>, drop: &SingleDrop) -> Reason {
-    match (ranges.model, drop.fullest()) {
+fn accuracy_reason(ranges: &Ranges<'_>, drop: &Drop) -> Reason {
+    match (ranges.model, Model::fullest(drop)) {
         (Model::Compliant, _) => Reason::ContactTime,
         (model, fullest) if model < fullest => Reason::ByRequest(model),
         _ => Reason::NoContactTime,

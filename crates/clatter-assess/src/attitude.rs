@@ -124,36 +124,19 @@ impl Serialize for Attitude {
     }
 }
 
-/// The vertical of a box that is turned off an attitude by an angle, towards a direction around it.
-pub(crate) fn turned_off(upward: [f64; 3], angle_rad: f64, direction_rad: f64) -> [f64; 3] {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    // Two axes across the vertical: from the axis of the box that is farthest from it.
-    let far = (0..3).min_by(|a, b| upward[*a].abs().total_cmp(&upward[*b].abs())).unwrap_or(0);
-    let mut first = [0.0; 3];
-    first[far] = 1.0;
-    let along = dot(first, upward);
-    let off: [f64; 3] = std::array::from_fn(|i| first[i] - along * upward[i]);
-    let size = dot(off, off).sqrt();
-    let first = off.map(|x| x / size);
-    let second = [
-        upward[1] * first[2] - upward[2] * first[1],
-        upward[2] * first[0] - upward[0] * first[2],
-        upward[0] * first[1] - upward[1] * first[0],
-    ];
-    let ((sin, cos), (s, c)) = (libm::sincos(angle_rad), libm::sincos(direction_rad));
-    std::array::from_fn(|i| cos * upward[i] + sin * (c * first[i] + s * second[i]))
-}
-
-/// The axis about which the vertical of a box turns off an attitude towards a direction around it, positive as the angle grows.
-pub(crate) fn turns_off(upward: [f64; 3], direction_rad: f64) -> [f64; 3] {
-    let [x, y, z] = turned_off(upward, FRAC_PI_2, direction_rad);
-    let [a, b, c] = upward;
-    [y * c - z * b, z * a - x * c, x * b - y * a]
+/// How a box lies as it lands, but for its tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Base {
+    /// The vertical in its axes.
+    pub(crate) up: [f64; 3],
+    /// The axis about which it turns, of one that lands at a tilt: then the tilt grows. Else it turns off what it lands on.
+    pub(crate) spin_axis: Option<[f64; 3]>,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clatter_flight::turned_off;
 
     #[test]
     fn a_box_has_six_faces_twelve_edges_and_eight_corners() {

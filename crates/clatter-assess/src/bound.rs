@@ -4,13 +4,11 @@
 //! on, whatever the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by
 //! √(2E (1 + x²/ρ²)), of the turning by √(2E)/ρ. A suspended part has no such bound: it may add up shocks.
 
-use clatter_flight::{Contact, ContactLaw};
+use clatter_flight::{Axis, Body, Contact, ContactLaw, Drop, Levers, Place};
 
-use crate::assess::THIN;
-use crate::drop::{Across, Levers, Posture, SingleDrop};
-use crate::engine::Spot;
+use crate::attitude::Base;
 use crate::quantity::Source;
-use crate::{Axis, Component, Drop, Limit, Mount, Product};
+use crate::{Component, DropRanges, Limit, Mount, Product};
 
 /// Drops are followed without friction. Parts of a box that move along the ground are judged with what so much friction may add: steel,
 /// glass and hard plastics on concrete and wood have less, rubber may have more.
@@ -27,17 +25,17 @@ pub(crate) const FRICTION: f64 = 0.6;
 /// of first loading: its force is at most √(2E) ω₁/√μ.
 pub(crate) fn bound(
     product: &Product,
-    drop: &Drop,
-    posture: Option<Posture>,
+    drop: &DropRanges,
+    base: Option<Base>,
     component: &Component,
     limit: &Limit,
     law: ContactLaw,
 ) -> Option<f64> {
-    if product.width.is_some() {
-        return of_plate(product, drop, posture, component, limit, law);
+    if product.body.is_wide() {
+        return of_plate(product, drop, base, component, limit, law);
     }
     // Beyond feet an edge may touch, if not before the product lands again.
-    let beyond = product.feet.map_or(0.0, |feet| feet.inset_m[0]);
+    let beyond = product.body.feet.map_or(0.0, |feet| feet.inset_m[0]);
     let [a, b] = product.body.arms_m().map(|arm| arm + beyond);
     // All that follows grows as the radius of gyration shrinks.
     let rho = product.gyration_m.lo();
@@ -76,7 +74,7 @@ pub(crate) fn bound(
         }
         (Source::Turn, _) => Some(2.0 * speed / rho),
         // How hard edges beyond feet press is not known.
-        (Source::Response(peak), Some(_)) if peak.is_acceleration() && product.feet.is_none() => {
+        (Source::Response(peak), Some(_)) if peak.is_acceleration() && product.body.feet.is_none() => {
             let hard = component.mount == Mount::Hard && law.leaves_a_dent();
             let contacts = product.stiffest(law).filter(|_| hard)?;
             let most = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.frequency_rad_s()));
@@ -99,38 +97,36 @@ pub(crate) fn bound(
 /// their squares. A box may land on any face: [`box_acceleration`].
 fn of_plate(
     product: &Product,
-    drop: &Drop,
-    posture: Option<Posture>,
+    drop: &DropRanges,
+    base: Option<Base>,
     component: &Component,
     limit: &Limit,
     law: ContactLaw,
 ) -> Option<f64> {
     let [shortest_s, longest_s] = product.contact_times_s()?;
     let [_, fastest] = drop.speeds_m_s();
-    let one = SingleDrop {
-        body: product.body_at(0.0),
-        across: Some(Across { width: product.width?, direction_rad: 0.0, posture }),
-        first: clatter::End::A,
-        tilt_rad: drop.tilt_rad.hi(),
-        flat: false,
-        speed_m_s: fastest,
-        spin_rad_s: 0.0,
-        restitution: product.restitution.hi(),
+    let one = Drop {
+        is_level: base.is_none(),
+        base: base.map_or([0.0, 0.0, 1.0], |base| base.up),
         gravity_m_s2: drop.gravity_m_s2,
         contact_time_s: Some(shortest_s),
         contact_law: law,
-        feet: product.feet,
         own_contacts: product.own_contacts,
+        ..Drop::new(product.body_at(0.0), fastest, drop.tilt_rad.hi(), product.restitution.hi())
     };
     let norm = |[x, y]: [f64; 2]| libm::hypot(x, y);
-    let spots = || component.ends_m().into_iter().map(|at_m| Spot { at_m, inside: component.inside });
-    let corners = one.in_radii(&Spot::from([0.0; 2])).0;
-    let farthest = spots().map(|spot| norm(one.in_radii(&spot).1)).fold(0.0, f64::max);
-    let ([a, b], [front, back]) = (product.body.arms_m(), product.width?.edges_m);
+    let places = || component.ends_m().into_iter().map(|at_m| component.inside.place(at_m));
+    let corners = one.in_radii(&Place::default()).0;
+    let farthest = places().map(|place| norm(one.in_radii(&place).1)).fold(0.0, f64::max);
+    let ([a, b], [front, back]) = (product.body.arms_m(), product.body.width?.ends_m);
     let reach = libm::hypot(a.max(b), front.max(back));
     // A box may come to lie on another face.
-    let height = posture.map_or(reach * libm::sin(drop.tilt_rad.hi()), |of| libm::hypot(reach, of.thickness_m));
-    let turns = drop.fastest_rad_s() * most_gyration_m(product, posture.is_some());
+    let height = if one.is_solid() {
+        libm::hypot(reach, product.body.thickness().m())
+    } else {
+        reach * libm::sin(drop.tilt_rad.hi())
+    };
+    let turns = drop.fastest_rad_s() * most_gyration_m(product, one.is_solid());
     let squared = fastest * fastest + turns * turns;
     // Corners sink in by no more than the fastest of them goes while a contact lasts.
     let lever = corners.iter().fold(1.0_f64, |most, &q| most.max(libm::hypot(1.0, norm(q))));
@@ -139,7 +135,7 @@ fn of_plate(
     match limit.kind.source() {
         Source::Shock | Source::Boundary => {
             // The axis of the part turns with a box while it is pushed.
-            let turned = if posture.is_some() { speed * longest_s / one.least_gyration_m() } else { 0.0 };
+            let turned = if one.is_solid() { speed * longest_s / one.least_gyration_m() } else { 0.0 };
             Some((2.0 + turned) * speed * libm::hypot(1.0, farthest) + drop.gravity_m_s2 * longest_s)
         }
         Source::Turn => Some(2.0 * speed / one.least_gyration_m()),
@@ -147,13 +143,13 @@ fn of_plate(
             if peak.is_acceleration()
                 && component.mount == Mount::Hard
                 && law.leaves_a_dent()
-                && product.feet.is_none() =>
+                && product.body.feet.is_none() =>
         {
             let contacts = product.stiffest(law)?;
             let most = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.frequency_rad_s()));
-            if posture.is_some() {
-                let of = |spot: Spot| box_acceleration(&one, &spot, speed, speed * most, longest_s);
-                return Some(spots().map(of).fold(0.0, f64::max));
+            if one.is_solid() {
+                let of = |place: Place| box_acceleration(&one, &place, speed, speed * most, longest_s);
+                return Some(places().map(of).fold(0.0, f64::max));
             }
             // Each corner with its rate over the fastest.
             let rates = contacts.iter().map(|contact| contact.frequency_rad_s() / most);
@@ -176,24 +172,29 @@ fn of_plate(
 /// 1 + ω τ r/k, as the box turns by ω τ (r the distance of the farthest corner, k the least radius of gyration, ω = √(2E)/k). Four
 /// corners of a face do at most √4 times as much as one that has all of the energy. A box that turns feels ω² |p| besides, and of a
 /// torque-free change of its axis of spin at most ω² |p|/√3. Friction of the ground pushes across by [`FRICTION`] of each force.
-pub(crate) fn box_acceleration(drop: &SingleDrop, spot: &Spot, speed: f64, stops_m_s2: f64, longest_s: f64) -> f64 {
-    let Some(Levers { farthest_m, place_m, across }) = drop.levers(spot) else { return f64::INFINITY };
+pub(crate) fn box_acceleration(drop: &Drop, place: &Place, speed: f64, stops_m_s2: f64, longest_s: f64) -> f64 {
+    let Some(Levers { farthest_m, place_m, across }) = drop.levers(place) else { return f64::INFINITY };
     let least = drop.least_gyration_m();
     let spins = speed / least;
     let grows = 1.0 + spins * longest_s * farthest_m / least;
-    let [x, y] = drop.in_radii(spot).1;
+    let [x, y] = drop.in_radii(place).1;
     let along = (1.0 + x * x + y * y).sqrt() * grows;
-    let pushed = if spot.inside.axis == Axis::Z { along } else { along + FRICTION * across };
+    let pushed = if place.axis == Axis::Z { along } else { along + FRICTION * across };
     2.0 * stops_m_s2 * pushed + (1.0 + 3_f64.sqrt().recip()) * spins * spins * place_m
 }
 
 /// The largest radius of gyration about an axis that a plate or a box turns about, as thick as it is taken where real tilt counts.
 fn most_gyration_m(product: &Product, is_box: bool) -> f64 {
-    let Some(width) = &product.width else { return product.gyration_m.hi() };
-    let thickness_m = width.thickness_m.unwrap_or(THIN * product.body.length_m());
-    let (along, across, deep) = (product.gyration_m.hi(), width.gyration_m, width.depth_of(thickness_m).gyration_m);
+    let Some(width) = &product.body.width else { return product.gyration_m.hi() };
+    let along = product.gyration_m.hi();
     // About no axis more than all of it.
-    let in_plane = if is_box { libm::hypot(along, across) } else { width.most_gyration_m(along) };
+    let in_plane = if is_box {
+        libm::hypot(along, width.gyration_m)
+    } else {
+        Body { length: clatter_flight::Side { gyration_m: along, ..product.body.length }, ..product.body }
+            .gyrations_in_plane_m()[1]
+    };
+    let deep = product.body.thickness().gyration_m;
     libm::hypot(in_plane, deep)
 }
 
@@ -213,10 +214,10 @@ drop = { speed = "0.1 m/s", face = "end-a" }
 component = [{ name = "part", position = ["0 mm", "0 mm"], mount = "hard", velocity_change_limit = "9 m/s", angular_velocity_change_limit = "99 rad/s" }]
 "#;
         let file = ProductFile::read(text, "box.toml").unwrap_or_else(|faults| panic!("{faults}"));
-        let (faces_m, thickness_m) = file.product.faces_m().unwrap();
-        let posture = Posture { upward: file.landings[0].attitude.unwrap().upward(faces_m), thickness_m, about: None };
+        let faces_m = file.product.body.faces_m().unwrap();
+        let base = Base { up: file.landings[0].attitude.unwrap().upward(faces_m), spin_axis: None };
         let component = &file.components[0];
-        let of = |limit: &Limit| bound(&file.product, &file.drop, Some(posture), component, limit, file.product.law());
+        let of = |limit: &Limit| bound(&file.product, &file.drop, Some(base), component, limit, file.product.law());
         let over_m_s = (0.1_f64.powi(2) + 2.0 * file.drop.gravity_m_s2 * (0.075 - 0.007)).sqrt();
         let limits = Limit::of(component);
         // Turned around by strikes that are one shock.

@@ -3,15 +3,15 @@
 use std::collections::HashSet;
 
 use clatter::End;
-use clatter_flight::{Body, ContactLaw};
+use clatter_flight::{Axis, Body, ContactLaw, Feet, Side};
 
 use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
 use crate::verdict::MERGE_S;
 use crate::{
-    Axis, Component, Damping, DataFault, Depth, Drop, Error, Fall, Feet, First, Inside, Landing, Law, LimitKind, Mount,
-    Product, ProductFile, RecordFile, Spread, Width,
+    Component, Damping, DataFault, DropRanges, Error, Fall, First, Inside, Landing, Law, LimitKind, Mount, Product,
+    ProductFile, RecordFile, Spread,
 };
 
 /// Feet may lie so far inside the edges, over the side.
@@ -46,7 +46,7 @@ impl ProductFile {
     /// ```
     pub fn check(&self) -> Result<(), Error> {
         self.product.check()?;
-        self.drop.check(self.product.width.is_some())?;
+        self.drop.check(self.product.body.is_wide())?;
         self.check_landings()?;
         self.check_feet()?;
         self.check_spin()?;
@@ -61,7 +61,7 @@ impl ProductFile {
                 return Err(DataFault::SameName(component.name.clone()).into());
             }
         }
-        if self.product.width.is_some() && !self.records.is_empty() {
+        if self.product.body.is_wide() && !self.records.is_empty() {
             return Err(DataFault::OfPlate { field: "record" }.into());
         }
         if !(self.product.own_contacts.is_none() || self.records.is_empty()) {
@@ -82,7 +82,7 @@ pub(crate) const STEEPEST_RAD: f64 = std::f64::consts::FRAC_PI_6 * (1.0 + ROUNDI
 impl ProductFile {
     fn check_landings(&self) -> Result<(), DataFault> {
         let is_box = self.is_box();
-        if is_box && self.product.width.is_none_or(|width| width.thickness_m.is_none()) {
+        if is_box && self.product.body.faces_m().is_none() {
             return Err(DataFault::BoxWithoutThickness);
         }
         for (n, (name, landing)) in self.drop_names().into_iter().zip(&self.landings).enumerate() {
@@ -99,24 +99,25 @@ impl ProductFile {
             if is_box {
                 // Its tilt is its tolerance.
                 one(keys::DROP, "attitude_tolerance", landing.tolerance_rad())?;
-                Drop { tilt_rad: Spread::finite(0.0), ..*drop }.check(true)?;
+                DropRanges { tilt_rad: Spread::finite(0.0), ..*drop }.check(true)?;
                 if drop.direction_rad.is_some() {
                     return Err(DataFault::OfPlate { field: "direction" });
                 }
             } else {
-                drop.check(self.product.width.is_some())?;
+                drop.check(self.product.body.is_wide())?;
             }
         }
         Ok(())
     }
     /// Whether feet touch first, also in the steepest drop.
     fn check_feet(&self) -> Result<(), DataFault> {
-        let Some(feet) = &self.product.feet else { return Ok(()) };
+        let Some(feet) = &self.product.body.feet else { return Ok(()) };
         if self.is_box() {
             return Err(DataFault::FeetOfBox);
         }
         self.drops().iter().try_for_each(|drop| {
-            let (tilt_rad, most_rad) = (drop.tilt_rad.hi(), feet.steepest_rad(drop.direction_rad.as_ref()));
+            let (tilt_rad, most_rad) =
+                (drop.tilt_rad.hi(), feet.steepest_rad(drop.direction_rad.map(|given| [given.lo(), given.hi()])));
             if tilt_rad > most_rad { Err(DataFault::FeetLow { tilt_rad, most_rad }) } else { Ok(()) }
         })
     }
@@ -126,7 +127,7 @@ impl ProductFile {
     }
     /// Whether what touches first comes down, whatever the spin.
     fn check_spin(&self) -> Result<(), DataFault> {
-        self.listed().iter().try_for_each(|one| spin_down(&self.product, &one.drop, one.posture.is_some()))
+        self.listed().iter().try_for_each(|one| spin_down(&self.product, &one.drop, one.base.is_some()))
     }
     /// Whether strikes that are apart are told apart: without contact time those within a time would be one, which with a spin they are not.
     pub(crate) fn check_apart(&self, merge_s: f64) -> Result<(), DataFault> {
@@ -143,7 +144,7 @@ impl ProductFile {
     }
     /// Refuses a plate where bars alone are taken.
     pub(crate) fn check_bar(&self, what: &'static str) -> Result<(), Error> {
-        if self.product.width.is_some() { Err(Error::OfBars(what)) } else { Ok(()) }
+        if self.product.body.is_wide() { Err(Error::OfBars(what)) } else { Ok(()) }
     }
 }
 
@@ -154,25 +155,24 @@ impl Product {
         spread(keys::PRODUCT, "restitution", Some(&self.restitution))?;
         spread(keys::PRODUCT, "contact_time", self.contact_time_s.as_ref())?;
         self.mass_kg.map_or(Ok(()), mass)?;
-        let points_m = self.body.points_m();
-        let [[a, below_a], [b, below_b]] = points_m;
-        if !(a < 0.0 && b > 0.0 && below_a == 0.0 && below_b == 0.0) {
-            return Err(DataFault::Ends { points_m });
-        }
-        let inset_m = self.feet.map_or(0.0, |feet| feet.inset_m[0]);
+        let inset_m = self.body.feet.map_or(0.0, |feet| feet.inset_m[0]);
         for gyration_m in [self.gyration_m.lo(), self.gyration_m.hi()] {
-            body_of(self.body.length_m(), inset_m, -0.5 * (a + b), gyration_m)?;
+            body_of(self.body.length_m(), inset_m, self.body.length.center_m(), gyration_m)?;
         }
         let (gyration_m, middle_m) = (self.body.gyration_m(), self.gyration_m.at(0.5));
         if (gyration_m - middle_m).abs() > ROUNDINGS * middle_m {
             return Err(DataFault::OtherGyration { gyration_m, middle_m });
         }
-        self.feet.as_ref().map_or(Ok(()), |feet| self.check_feet(feet))?;
+        self.body.feet.as_ref().map_or(Ok(()), |feet| self.check_feet(feet))?;
+        if !self.body.is_wide() && (self.body.thickness.is_some() || self.body.products_m2.iter().any(|of| *of != 0.0))
+        {
+            return Err(DataFault::OfBar { field: "thickness" });
+        }
         self.check_own_contacts()?;
         if self.contact_law.is_some() && self.contact_time_s.is_none() {
             return Err(DataFault::LawWithoutTime);
         }
-        self.width.as_ref().map_or(Ok(()), |width| self.check_width(width))
+        self.body.width.as_ref().map_or(Ok(()), |width| self.check_width(width))
     }
 
     fn check_own_contacts(&self) -> Result<(), DataFault> {
@@ -180,7 +180,7 @@ impl Product {
             return Ok(());
         }
         for (at, own) in self.own_contacts.given() {
-            if self.width.is_none() && !["a", "b"].contains(&at) {
+            if !self.body.is_wide() && !["a", "b"].contains(&at) {
                 return Err(DataFault::CornerOfBar(at));
             }
             optional(keys::CONTACT, "restitution", own.restitution)?;
@@ -203,15 +203,15 @@ impl Product {
         Ok(())
     }
 
-    fn check_width(&self, width: &Width) -> Result<(), DataFault> {
+    fn check_width(&self, width: &Side) -> Result<(), DataFault> {
         let width_m = width.m();
         one(keys::PRODUCT, "width", width_m)?;
-        optional(keys::PRODUCT, "thickness", width.thickness_m)?;
-        let inset_m = self.feet.map_or(0.0, |feet| feet.inset_m[1]);
+        let inset_m = self.body.feet.map_or(0.0, |feet| feet.inset_m[1]);
         width_of(width_m, inset_m, width.center_m(), width.gyration_m)?;
-        if let (Some(depth), Some(thickness_m)) = (width.depth, width.thickness_m) {
-            center("thickness", depth.center_m, thickness_m)?;
-            gyration("thickness", depth.gyration_m, 0.0, width.faces_m(thickness_m))?;
+        if let Some(thickness) = &self.body.thickness {
+            one(keys::PRODUCT, "thickness", thickness.m())?;
+            center("thickness", thickness.center_m(), thickness.m())?;
+            gyration("thickness", thickness.gyration_m, 0.0, thickness.ends_m)?;
         }
         self.check_products(width)?;
         if self.contact_time_s.is_none() { Err(DataFault::PlateWithoutContactTime) } else { Ok(()) }
@@ -219,16 +219,15 @@ impl Product {
 
     /// Refuses products of inertia that no masses within the body have. Of ∫x y dm, x from −a to b and y from −c to d about the center of
     /// mass, the largest is that of (x + a)(d − y) or (b − x)(y + c), which are nowhere negative, and of both radii of gyration.
-    fn check_products(&self, width: &Width) -> Result<(), DataFault> {
-        let [x, y] = self.feet.map_or([0.0; 2], |feet| feet.inset_m);
+    fn check_products(&self, width: &Side) -> Result<(), DataFault> {
+        let [x, y] = self.body.feet.map_or([0.0; 2], |feet| feet.inset_m);
         let beyond = |arms_m: [f64; 2], inset_m: f64| arms_m.map(|arm_m| arm_m + inset_m);
-        let (along, across) = (beyond(self.body.arms_m(), x), beyond(width.edges_m, y));
-        let faces = width.thickness_m.map_or([0.0; 2], |thickness_m| width.faces_m(thickness_m));
-        let depth = width.depth.unwrap_or(Depth { center_m: 0.0, gyration_m: 0.0, products_of_inertia_m2: [0.0; 2] });
+        let (along, across) = (beyond(self.body.arms_m(), x), beyond(width.ends_m, y));
+        let deep = self.body.thickness.unwrap_or(Side { ends_m: [0.0; 2], gyration_m: 0.0 });
+        let faces = deep.ends_m;
         // The least radius leaves the least room.
-        let radii_m = [self.gyration_m.lo(), width.gyration_m, depth.gyration_m];
-        let [xz, yz] = depth.products_of_inertia_m2;
-        let products_m2 = [width.product_of_inertia_m2, xz, yz];
+        let radii_m = [self.gyration_m.lo(), width.gyration_m, deep.gyration_m];
+        let products_m2 @ [_, xz, yz] = self.body.products_m2;
         for (product_m2, sides, [one, other], lean) in [
             (products_m2[0], "xy", [(along, radii_m[0]), (across, radii_m[1])], FARTHEST_LEAN),
             (xz, "xz", [(along, radii_m[0]), (faces, radii_m[2])], 1.0),
@@ -253,17 +252,17 @@ impl Product {
 
 /// Whether what touches first comes down in all drops of the ranges, with a thousandth of the speed at least: of a bar an end, of a plate a
 /// corner, of a box any corner.
-pub(crate) fn spin_down(product: &Product, drop: &Drop, is_box: bool) -> Result<(), DataFault> {
+pub(crate) fn spin_down(product: &Product, drop: &DropRanges, is_box: bool) -> Result<(), DataFault> {
     let [speed_m_s, _] = drop.speeds_m_s();
-    let [x, y] = product.feet.map_or([0.0; 2], |feet| feet.inset_m);
+    let [x, y] = product.body.feet.map_or([0.0; 2], |feet| feet.inset_m);
     let most = |[one, other]: [f64; 2]| one.max(other);
-    let arm_m = match &product.width {
+    let arm_m = match &product.body.width {
         None => {
             let [a, b] = product.body.arms_m();
             x + drop.first_ends().iter().map(|end| if *end == End::A { a } else { b }).fold(0.0, f64::max)
         }
         Some(width) => {
-            let [along, across] = [x + most(product.body.arms_m()), y + most(width.edges_m)];
+            let [along, across] = [x + most(product.body.arms_m()), y + most(width.ends_m)];
             let up = match &drop.direction_rad {
                 Some(given) if given.is_value() && !is_box => {
                     let (sin, cos) = libm::sincos(given.lo());
@@ -271,7 +270,7 @@ pub(crate) fn spin_down(product: &Product, drop: &Drop, is_box: bool) -> Result<
                 }
                 _ => libm::hypot(along, across),
             };
-            let deep = width.thickness_m.filter(|_| is_box).map_or(0.0, |thickness_m| most(width.faces_m(thickness_m)));
+            let deep = product.body.thickness.filter(|_| is_box).map_or(0.0, |thickness| most(thickness.ends_m));
             libm::hypot(up, deep)
         }
     };
@@ -323,7 +322,7 @@ pub(crate) fn within(
 
 /// The largest radius of gyration of masses within a product, about its center of mass.
 pub(crate) fn most_gyration_m(product: &Product) -> f64 {
-    let inset_m = product.feet.map_or(0.0, |feet| feet.inset_m[0]);
+    let inset_m = product.body.feet.map_or(0.0, |feet| feet.inset_m[0]);
     let [a, b] = product.body.arms_m().map(|arm_m| arm_m + inset_m);
     (a * b).sqrt()
 }
@@ -345,15 +344,15 @@ pub(crate) fn body_of(length_m: f64, inset_m: f64, center_m: f64, gyration_m: f6
 }
 
 /// The side across a plate with its center of mass so far from the middle; the product goes on beyond it by `inset_m`.
-pub(crate) fn width_of(width_m: f64, inset_m: f64, center_m: f64, gyration_m: f64) -> Result<Width, DataFault> {
+pub(crate) fn width_of(width_m: f64, inset_m: f64, center_m: f64, gyration_m: f64) -> Result<Side, DataFault> {
     center("width", center_m, width_m)?;
     let half = 0.5 * width_m;
-    let edges_m = [half + center_m, half - center_m];
-    gyration("width", gyration_m, LEAST_GYRATION * width_m, edges_m.map(|edge_m| edge_m + inset_m))?;
-    Ok(Width { edges_m, gyration_m, product_of_inertia_m2: 0.0, thickness_m: None, depth: None })
+    let ends_m = [half + center_m, half - center_m];
+    gyration("width", gyration_m, LEAST_GYRATION * width_m, ends_m.map(|end_m| end_m + inset_m))?;
+    Ok(Side { ends_m, gyration_m })
 }
 
-impl Drop {
+impl DropRanges {
     fn check(&self, of_plate: bool) -> Result<(), DataFault> {
         match &self.fall {
             Fall::HeightM(height) => spread(keys::DROP, "height", Some(height))?,
@@ -399,8 +398,9 @@ impl Component {
         let reach = |place: &Spread, extent_m: f64| place.lo().abs().max(place.hi().abs()) + 0.5 * extent_m;
         within(PART, "length", reach(&self.position_m, self.extent_m), length_m, ROUNDINGS)?;
         within(PART, "width", reach(&self.across_m, self.extent_across_m), width_m, ROUNDINGS)?;
-        let thickness_m = product.width.and_then(|width| width.thickness_m);
-        thickness_m.map_or(Ok(()), |side_m| within(PART, "thickness", self.inside.height_m.abs(), side_m, ROUNDINGS))
+        let thickness = product.body.thickness;
+        let reach_m = self.inside.height_m.abs();
+        thickness.map_or(Ok(()), |side| within(PART, "thickness", reach_m, side.m(), ROUNDINGS))
     }
 
     /// Everything but whether its name is its own.

@@ -1,7 +1,8 @@
 //! A fragile part: where it is, how it is held and what it stands.
 
 use clatter_shock::{DampingRatio, Suspension};
-use serde::Serialize;
+
+use clatter_flight::{Axis, Place};
 
 use crate::{Error, LimitKind, Spread, Unit, units};
 
@@ -145,34 +146,6 @@ impl Limits {
     }
 }
 
-/// Along which axis of a box a part moves and is shaken. A product file that names none means the magnitude of a part that is mounted
-/// rigidly in a box, and the thickness else.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// Along the length.
-    X,
-    /// Along the width.
-    Y,
-    /// Along the thickness, as every part of a bar and of a plate.
-    #[default]
-    Z,
-    /// Along the blow: the magnitude, of a part that is mounted rigidly.
-    Any,
-}
-
-impl Axis {
-    /// By its name; z of any other word.
-    pub(crate) fn of(name: &str) -> Self {
-        [Self::X, Self::Y, Self::Any].into_iter().find(|axis| axis.name() == name).unwrap_or_default()
-    }
-    /// `x`, `y`, `z` or `any`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        ["x", "y", "z", "any"][self as usize]
-    }
-}
-
 /// How a part lies in the thickness of a box.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Inside {
@@ -180,6 +153,14 @@ pub struct Inside {
     pub height_m: f64,
     /// Along which axis it moves.
     pub axis: Axis,
+}
+
+impl Inside {
+    /// The place of a part there, along the product and across it.
+    #[must_use]
+    pub fn place(&self, [x, y]: [f64; 2]) -> Place {
+        Place { at_m: [x, y, self.height_m], axis: self.axis }
+    }
 }
 
 impl Component {

@@ -102,11 +102,6 @@ pub enum DataFault {
     },
     /// An axis of a part that is no box's, or that a part on a suspension does not have.
     Axis(&'static str),
-    /// A body whose end a is not left of its center of mass and end b right of it, both level with it.
-    Ends {
-        /// Both ends from the center of mass, \[x, z\].
-        points_m: [[f64; 2]; 2],
-    },
     /// A body with another radius of gyration than the middle of the range of the product.
     OtherGyration {
         /// That of the body.
@@ -202,10 +197,6 @@ impl DataFault {
             Self::Outside { what, side, reach_m, half_m } => [
                 format!("{what} reaches {} mm from the middle along the {side}", mm(*reach_m)),
                 format!("allowed: up to {} mm, half of the product's {side}: it lies within the body", mm(*half_m)),
-            ],
-            Self::Ends { points_m } => [
-                format!("the ends of the body are at {points_m:?} m from its center of mass"),
-                "allowed: end a at [-x, 0], end b at [x, 0], x above 0".to_owned(),
             ],
             Self::OtherGyration { gyration_m, middle_m } => [
                 format!("the radius of gyration of the body is {} mm", mm(*gyration_m)),

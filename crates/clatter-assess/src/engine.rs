@@ -10,23 +10,20 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use clatter::{Bar, End, EndPeaks, Excitation, Start};
+use clatter_flight::{Drop, Followed, PRECISION, Place, Until};
 use clatter_shock::{Pulses, Response, State, Suspension};
 
-use crate::drop::{Followed, Model, PRECISION, SingleDrop, Until};
 use crate::history::{SHORT, pulses};
+use crate::model::{check_drop, follow};
 use crate::quantity::{ResponsePeak, Source};
-use crate::shock::{Shock, largest, samples};
-use crate::{DataFault, Error, Inside, Limit, Unit};
+use crate::shock::{Shock, largest, largest_turn, samples, shocks_at};
+use crate::{DataFault, Error, Limit, Model, Unit};
 
 /// A part at one place of the product.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Part {
-    /// From the middle of the product towards end b.
-    pub position_m: f64,
-    /// From the middle across a plate; 0 of a bar.
-    pub across_m: f64,
-    /// How it lies in a box.
-    pub inside: Inside,
+    /// Where it is, and along which axis it moves.
+    pub place: Place,
     /// How it is held; none where it is mounted rigidly.
     pub suspension: Option<Suspension>,
 }
@@ -35,28 +32,16 @@ impl Part {
     /// A part of a bar, so far from its middle towards end b.
     #[must_use]
     pub fn new(position_m: f64, suspension: Option<Suspension>) -> Self {
-        Self { position_m, across_m: 0.0, inside: Inside::default(), suspension }
+        Self::at(Place::flat([position_m, 0.0]), suspension)
+    }
+    /// A part at a place.
+    #[must_use]
+    pub fn at(place: Place, suspension: Option<Suspension>) -> Self {
+        Self { place, suspension }
     }
     /// Where it is, along and across the product.
     pub(crate) fn at_m(&self) -> [f64; 2] {
-        [self.position_m, self.across_m]
-    }
-    pub(crate) fn spot(&self) -> Spot {
-        Spot { at_m: self.at_m(), inside: self.inside }
-    }
-}
-
-/// A place, and along which axis of a box it is shaken.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Spot {
-    pub(crate) at_m: [f64; 2],
-    pub(crate) inside: Inside,
-}
-
-impl From<[f64; 2]> for Spot {
-    /// Of a bar or of a plate.
-    fn from(at_m: [f64; 2]) -> Self {
-        Self { at_m, inside: Inside::default() }
+        self.place.plan_m()
     }
 }
 
@@ -115,39 +100,23 @@ impl Answer {
 /// # Examples
 /// The end of the paper's reference bar (q = ½, e = 0.3) feels 2.145 v₀ at most, by instant impacts without gravity:
 /// ```
-/// use clatter::End;
-/// use clatter_assess::{Limit, LimitKind, Model, OwnContacts, Part, SingleDrop, answer};
-/// use clatter_flight::{Body, ContactLaw};
-/// let drop = SingleDrop {
-///     body: Body::new(0.15, 0.15 / 12_f64.sqrt())?,
-///     across: None,
-///     first: End::A,
-///     tilt_rad: 0.05,
-///     flat: false,
-///     speed_m_s: 4.0,
-///     spin_rad_s: 0.0,
-///     restitution: 0.3,
-///     gravity_m_s2: 0.0,
-///     contact_time_s: None,
-///     contact_law: ContactLaw::Hysteretic,
-///     feet: None,
-///     own_contacts: OwnContacts::NONE,
-/// };
+/// use clatter_assess::{Body, Drop, Limit, LimitKind, Model, Part, answer};
+/// let drop = Drop { gravity_m_s2: 0.0, ..Drop::new(Body::new(0.15, 0.15 / 12_f64.sqrt())?, 4.0, 0.05, 0.3) };
 /// let part = Part::new(0.075, None);
 /// let asked = answer(&drop, &part, &Limit::new(LimitKind::VelocityChange, 9.0), Model::Map, 0.01)?;
 /// assert!((asked.value - 4.0 * 2.145).abs() < 1e-12 && asked.impact == 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, tolerance: f64) -> Result<Answer, Error> {
+pub fn answer(drop: &Drop, part: &Part, limit: &Limit, model: Model, tolerance: f64) -> Result<Answer, Error> {
     if !(1e-6..=0.5).contains(&tolerance) {
         return Err(Error::Tolerance(tolerance));
     }
-    drop.check(part.at_m())?;
+    check_drop(drop, part.at_m())?;
     limit.check()?;
     if part.suspension.is_none() && limit.kind.needs_suspension() {
         return Err(DataFault::Hard { field: limit.kind.key() }.into());
     }
-    if drop.across.is_some() && model != Model::Compliant {
+    if drop.body.is_wide() && model != Model::Compliant {
         return Err(Error::PlateModel(model));
     }
     if model != Model::Compliant && !drop.own_contacts.is_none() {
@@ -175,7 +144,7 @@ impl Answer {
     /// largest difference is told.
     pub(crate) fn with_what_strikes_multiply(
         self,
-        drop: &SingleDrop,
+        drop: &Drop,
         part: &Part,
         limit: &Limit,
         model: Model,
@@ -185,22 +154,21 @@ impl Answer {
             return self;
         }
         // Where a drop next to this one is not answered, nothing tells how far off this one is.
-        let off = |other: &SingleDrop, tolerance: f64| {
+        let off = |other: &Drop, tolerance: f64| {
             // How a box lands again is another question: the energy that is left answers it.
-            let until = if drop.is_box() { Until::Past(PAST_PEAK * self.time_s) } else { Until::Over };
-            let other =
-                Followed::until(other, model, tolerance, until).and_then(|other| of_followed(&other, part, limit));
+            let until = if drop.is_solid() { Until::Past(PAST_PEAK * self.time_s) } else { Until::Over };
+            let other = follow(other, model, tolerance, until).and_then(|other| of_followed(&other, part, limit));
             // As shares of what is allowed: of a damage boundary one may be a change of velocity, the other an acceleration.
             other.map_or(f64::INFINITY, |other| (other.utilization() - self.utilization()).abs() * self.allowed)
         };
         // A box is followed as exactly for any tolerance.
-        let mut most = if drop.is_box() { 0.0 } else { off(drop, FINER * tolerance) };
+        let mut most = if drop.is_solid() { 0.0 } else { off(drop, FINER * tolerance) };
         for off_by in [-KEPT_ARMS, KEPT_ARMS].map(|arms| arms * PRECISION * tolerance) {
             let bounces = drop.with_restitutions(|e| (e + off_by * (1.0 + e)).clamp(0.0, 1.0));
             most = most.max(off(&bounces, tolerance));
             let tilt_rad = (drop.tilt_rad * (1.0 + off_by)).min(UPRIGHT);
             if tilt_rad.to_bits() != drop.tilt_rad.to_bits() {
-                most = most.max(off(&SingleDrop { tilt_rad, ..*drop }, tolerance));
+                most = most.max(off(&Drop { tilt_rad, ..*drop }, tolerance));
             }
         }
         Self { off_by: self.off_by.max(SAFETY * most), ..self }
@@ -208,38 +176,32 @@ impl Answer {
 }
 
 /// The answer of a drop that is followed once, whose error leaves out that strikes multiply those before them.
-pub(crate) fn once(
-    drop: &SingleDrop,
-    part: &Part,
-    limit: &Limit,
-    model: Model,
-    tolerance: f64,
-) -> Result<Answer, Error> {
-    of_followed(&Followed::new(drop, model, tolerance)?, part, limit)
+pub(crate) fn once(drop: &Drop, part: &Part, limit: &Limit, model: Model, tolerance: f64) -> Result<Answer, Error> {
+    of_followed(&follow(drop, model, tolerance, Until::Over)?, part, limit)
 }
 
 /// The same of a drop that is followed already.
 pub(crate) fn of_followed(followed: &Followed, part: &Part, limit: &Limit) -> Result<Answer, Error> {
-    PlaceHistory::new(followed, part.spot())?.answer_or_nothing(limit, part.suspension.as_ref())
+    PlaceHistory::new(followed, part.place)?.answer_or_nothing(limit, part.suspension.as_ref())
 }
 
 /// An answer from the largest shock or the net change of velocity alone, without following a strike.
-fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> Result<Answer, Error> {
+fn closed_form(drop: &Drop, part: &Part, limit: &Limit, model: Model) -> Result<Answer, Error> {
     let [a, b] = drop.body.arms_m();
     let flat_m_s = (1.0 + drop.restitution) * drop.speed_m_s;
     let bar = Bar::from_arms([a, b], drop.body.gyration_m(), drop.restitution)?;
     let start = Start::new(drop.approaches_m_s(), drop.body.length_m() * libm::sin(drop.tilt_rad))?;
-    let s = 2.0 * part.position_m / drop.body.length_m();
+    let s = 2.0 * part.place.at_m[0] / drop.body.length_m();
     let of_turn = 2.0 / drop.body.length_m();
-    let (shock, turn) = if drop.flat {
+    let (shock, turn) = if drop.is_flat {
         (flat_m_s, 0.0)
     } else if model == Model::LargestShock {
-        let EndPeaks { a, b } = bar.shocks(&start, drop.first).struck();
+        let EndPeaks { a, b } = bar.shocks(&start, drop.first()).struck();
         let [qa, qb] = bar.inertia_ratios();
         let turn = 0.5 * of_turn * (a * (1.0 + qa)).max(b * (1.0 + qb));
-        (bar.shocks(&start, drop.first).at(s), turn)
+        (bar.shocks(&start, drop.first()).at(s), turn)
     } else {
-        let (bar, s) = if drop.first == End::A { (bar, s) } else { (bar.exchanged(), -s) };
+        let (bar, s) = if drop.first() == End::A { (bar, s) } else { (bar.exchanged(), -s) };
         let net = bar.summary(&start).net.ok_or(Error::Unfinished)?;
         (0.5 * ((1.0 - s) * net.a + (1.0 + s) * net.b).abs(), 0.5 * of_turn * (net.b - net.a).abs())
     };
@@ -271,15 +233,15 @@ fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> R
 /// # Errors
 /// As [`answer`].
 pub fn respond(
-    drop: &SingleDrop,
+    drop: &Drop,
     place: &Part,
     suspension: &Suspension,
     model: Model,
     tolerance: f64,
 ) -> Result<Response, Error> {
-    drop.check(place.at_m())?;
-    let followed = Followed::new(drop, model, tolerance)?;
-    let pulses = PlaceHistory::new(&followed, place.spot())?.pulses;
+    check_drop(drop, place.at_m())?;
+    let followed = follow(drop, model, tolerance, Until::Over)?;
+    let pulses = PlaceHistory::new(&followed, place.place)?.pulses;
     // What comes after a motion that was left early is no ring-down.
     Ok(if followed.is_early() { pulses.respond_within(suspension) } else { pulses.respond(suspension) })
 }
@@ -290,7 +252,7 @@ pub(crate) struct PlaceHistory<'a> {
     followed: &'a Followed,
     history: Excitation,
     pulses: Pulses,
-    spot: Spot,
+    place: Place,
     fastest_rad_s: f64,
     /// Its velocity shocks, as they are asked for.
     shocks: OnceLock<Vec<Shock>>,
@@ -301,26 +263,25 @@ pub(crate) struct PlaceHistory<'a> {
 }
 
 impl<'a> PlaceHistory<'a> {
-    pub(crate) fn new(followed: &'a Followed, spot: impl Into<Spot>) -> Result<Self, Error> {
-        Self::rough(followed, spot, f64::INFINITY)
+    pub(crate) fn new(followed: &'a Followed, place: Place) -> Result<Self, Error> {
+        Self::rough(followed, place, f64::INFINITY)
     }
 
     /// The same for responses of parts up to a natural frequency, to about 1 %: pulses that are short beside the period of
     /// the fastest part are taken as velocity shocks of the same impulse at the mean time.
-    pub(crate) fn rough(followed: &'a Followed, spot: impl Into<Spot>, fastest_rad_s: f64) -> Result<Self, Error> {
+    pub(crate) fn rough(followed: &'a Followed, place: Place, fastest_rad_s: f64) -> Result<Self, Error> {
         if followed.is_cut() {
             return Err(Error::Unfinished);
         }
-        let spot = spot.into();
-        let history = followed.drop.felt(&followed.motion, &spot);
-        let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2(&spot))?;
+        let history = followed.felt(&place);
+        let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2(&place))?;
         let (shocks, ends) = (OnceLock::new(), Mutex::default());
-        Ok(Self { followed, history, pulses, spot, fastest_rad_s, shocks, ends, known: None })
+        Ok(Self { followed, history, pulses, place, fastest_rad_s, shocks, ends, known: None })
     }
 
     /// The same place in the same drop, followed for longer.
     pub(crate) fn longer(&'a self, followed: &'a Followed) -> Result<Self, Error> {
-        Ok(Self { known: Some(self), ..Self::rough(followed, self.spot, self.fastest_rad_s)? })
+        Ok(Self { known: Some(self), ..Self::rough(followed, self.place, self.fastest_rad_s)? })
     }
 
     /// The answer for one limit, if its utilization passes `above`.
@@ -353,11 +314,11 @@ impl<'a> PlaceHistory<'a> {
                 (change, time_s, self.off_by(change, |later| later.turned_m_s))
             }
             (Source::Turn, _) => {
-                let Some(Shock { change, time_s, .. }) = self.followed.largest_turn(above * limit.allowed) else {
+                let Some(Shock { change, time_s, .. }) = largest_turn(self.followed, above * limit.allowed) else {
                     return Ok(None);
                 };
                 let drop = &self.followed.drop;
-                let arm = drop.across.map_or(0.5 * drop.body.length_m(), |_| drop.least_gyration_m());
+                let arm = if drop.body.is_wide() { drop.least_gyration_m() } else { 0.5 * drop.body.length_m() };
                 (change, time_s, self.off_by(change * arm, |later| later.turn_rad_s * arm) / arm)
             }
             (Source::Boundary, _) => return Ok(self.boundary(limit, above)),
@@ -410,7 +371,7 @@ impl<'a> PlaceHistory<'a> {
     }
     /// The velocity shocks.
     pub(crate) fn shocks(&self) -> &[Shock] {
-        self.shocks.get_or_init(|| self.followed.shocks(&self.spot, &self.history))
+        self.shocks.get_or_init(|| shocks_at(self.followed, &self.place, &self.history))
     }
     /// Peak of a suspended part where it passes `above`: value, time and what it may be off by.
     fn peak(&self, of: ResponsePeak, part: &Suspension, above: f64) -> Option<(f64, f64, f64)> {
@@ -422,7 +383,7 @@ impl<'a> PlaceHistory<'a> {
         let peak = peak?;
         let velocity = peak.value.abs();
         // What rings on as the motion is left, and the later shocks, as if all came at its crest.
-        let doubt = if self.followed.motion.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
+        let doubt = if self.followed.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
             let most = libm::hypot(omega * end.displacement, end.velocity) + self.later().shock_of(part);
             most * libm::hypot(of.of_damper(part.damping()), 1.0) - velocity
         } else {
@@ -430,7 +391,7 @@ impl<'a> PlaceHistory<'a> {
         };
         // A part that is fast beside a contact follows its force and not its velocity.
         let follows = (omega / self.peak_per_change()).max(1.0);
-        let off = self.followed.kept_arms() * self.followed.largest_m_s / follows;
+        let off = kept_arms(self.followed) * self.followed.largest_m_s / follows;
         Some((unit * velocity, peak.time, unit * (off + doubt.max(0.0))))
     }
 
@@ -450,7 +411,7 @@ impl<'a> PlaceHistory<'a> {
     /// Largest acceleration in a lone contact over its change of velocity; infinite where no contact time is known.
     fn peak_per_change(&self) -> f64 {
         let half_sine = || self.followed.drop.contact_time_s.map_or(f64::INFINITY, |time| FRAC_PI_2 / time);
-        self.followed.motion.peak_per_change().unwrap_or_else(half_sine)
+        self.followed.peak_per_change().unwrap_or_else(half_sine)
     }
 
     fn contact_s(&self) -> Result<f64, Error> {
@@ -495,9 +456,7 @@ impl<'a> PlaceHistory<'a> {
 /// What lever arms kept through a phase may get wrong of a shock, in precisions of the flight (clatter-flight).
 const KEPT_ARMS: f64 = 4.0;
 
-impl Followed {
-    /// Share of the largest shock that lever arms kept through a phase may get wrong.
-    fn kept_arms(&self) -> f64 {
-        if self.motion.has_contacts() { KEPT_ARMS * self.precision } else { 0.0 }
-    }
+/// Share of the largest shock that lever arms kept through a phase may get wrong.
+fn kept_arms(followed: &Followed) -> f64 {
+    if followed.has_contacts() { KEPT_ARMS * followed.precision } else { 0.0 }
 }

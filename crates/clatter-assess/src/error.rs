@@ -68,23 +68,10 @@ pub enum Error {
     },
     /// A drop that a flight does not answer.
     #[error(transparent)]
-    Flight(#[from] clatter_flight::Error),
+    Flight(clatter_flight::Error),
     /// A motion that was given up while more was to come.
     #[error("the motion goes on beyond 1024 strikes or 150 000 phases, and was left there")]
     Unfinished,
-    /// An edge beyond the feet that comes down to the ground in the clatter of instant impacts.
-    #[error(
-        "an edge beyond the feet comes down to {} mm below the ground, {} ms after the first touch, and instant impacts do not \
-         follow it: a contact time, higher feet, or feet nearer to the edges",
-        rounded(1e3 * depth_m),
-        rounded(1e3 * time_s)
-    )]
-    Edge {
-        /// When it is found there, since the first touch.
-        time_s: f64,
-        /// How far below it would be then.
-        depth_m: f64,
-    },
     /// A search that was told to stop.
     #[error("the search for the worst drop was stopped before")]
     Stopped,
@@ -119,9 +106,23 @@ pub enum Error {
 impl Error {
     /// Of edges that touch the one that does deeper, so that what is told is enough; else the first.
     pub(crate) fn or_deeper(self, other: Self) -> Self {
-        match (&self, &other) {
-            (Self::Edge { depth_m: one, .. }, Self::Edge { depth_m: two, .. }) if two > one => other,
+        let depth_m = |error: &Self| match error {
+            Self::Flight(clatter_flight::Error::Edge { depth_m, .. }) => Some(*depth_m),
+            _ => None,
+        };
+        match (depth_m(&self), depth_m(&other)) {
+            (Some(one), Some(two)) if two > one => other,
             _ => self,
+        }
+    }
+}
+
+impl From<clatter_flight::Error> for Error {
+    fn from(error: clatter_flight::Error) -> Self {
+        match error {
+            clatter_flight::Error::ContactTime => Self::Contact,
+            clatter_flight::Error::Given(given) => Self::Bar(given),
+            error => Self::Flight(error),
         }
     }
 }
@@ -130,11 +131,6 @@ impl From<DataFault> for Error {
     fn from(fault: DataFault) -> Self {
         Self::Data { component: None, fault }
     }
-}
-
-/// To two decimals.
-fn rounded(value: f64) -> f64 {
-    (100.0 * value).round() / 100.0
 }
 
 fn of(component: Option<&String>) -> String {

@@ -1,6 +1,7 @@
 //! The keys of a product file: one table that the reader, its messages and the schema share.
 
-use crate::own::PLACES as PLACES_OF_CONTACTS;
+use clatter_flight::PLACES as PLACES_OF_CONTACTS;
+
 use crate::units::{self, Dimension};
 
 /// One key of a table.

@@ -17,10 +17,12 @@ use serde::{Serialize, Serializer};
 pub use block::LandingLadder;
 pub use time::Machine;
 
-use crate::drop::{Followed, Model, SingleDrop};
+use crate::Model;
 use crate::engine::{Part, answer};
+use crate::model::follow;
 use crate::verdict::{number, number_or_null};
 use crate::{Assessment, Error, Limit, LimitKind, ProductFile, Unit, WorstCase};
+use clatter_flight::{Drop, Until};
 
 /// The reference is worked out so much more exactly than the tolerance asks.
 const FINER: f64 = 0.1;
@@ -174,35 +176,21 @@ impl Ladder {
     /// # Examples
     /// ```
     /// use clatter_assess::ladder::Ladder;
-    /// use clatter_assess::{Limit, LimitKind, OwnContacts, Part, SingleDrop};
-    /// let drop = SingleDrop {
-    ///     body: clatter_flight::Body::new(0.14, 0.04)?,
-    ///     across: None,
-    ///     first: clatter::End::A,
-    ///     tilt_rad: 0.09,
-    ///     flat: false,
-    ///     speed_m_s: 4.43,
-    ///     spin_rad_s: 0.0,
-    ///     restitution: 0.3,
-    ///     gravity_m_s2: 9.81,
-    ///     contact_time_s: Some(2e-4),
-    ///     contact_law: clatter_flight::ContactLaw::Hysteretic,
-    ///     feet: None,
-    ///     own_contacts: OwnContacts::NONE,
-    /// };
+    /// use clatter_assess::{Body, Drop, Limit, LimitKind, Part};
+    /// let drop = Drop { contact_time_s: Some(2e-4), ..Drop::new(Body::new(0.14, 0.04)?, 4.43, 0.09, 0.3) };
     /// let part = Part::new(0.06, None);
     /// let ladder = Ladder::measure(&drop, &part, &Limit::new(LimitKind::VelocityChange, 3.0), 0.01)?;
     /// assert!(ladder.models.last().is_some_and(|fullest| fullest.error < 0.01));
     /// # Ok::<(), clatter_assess::Error>(())
     /// ```
-    pub fn measure(drop: &SingleDrop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
-        if let Some(across) = &drop.across {
-            return match across.posture {
-                Some(_) => Self::of_box(drop, part, limit, tolerance),
-                None => Self::of_plate(drop, across, part, limit, tolerance),
-            };
+    pub fn measure(drop: &Drop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
+        if drop.is_solid() {
+            return Self::of_box(drop, part, limit, tolerance);
         }
-        let fullest = drop.fullest();
+        if drop.body.is_wide() {
+            return Self::of_plate(drop, part, limit, tolerance);
+        }
+        let fullest = Model::fullest(drop);
         let exact = answer(drop, part, limit, fullest, FINER * tolerance)?;
         let says = |model: &Model| *model <= fullest && (*model != Model::NetChange || part.suspension.is_some());
         let mut models = Vec::new();
@@ -210,7 +198,7 @@ impl Ladder {
             // What a model refuses is left out: an endless train has no net change.
             let Ok((found, seconds)) = time::measured(|| answer(drop, part, limit, model, tolerance)) else { continue };
             let strikes =
-                if model < Model::Map { 0 } else { Followed::new(drop, model, tolerance)?.motion.struck_s().len() };
+                if model < Model::Map { 0 } else { follow(drop, model, tolerance, Until::Over)?.struck_s().len() };
             let error = (found.utilization() / exact.utilization() - 1.0).abs();
             models.push(Measured { model: Rung::Model(model), value: found.value, error, seconds, strikes });
         }
@@ -224,12 +212,12 @@ impl Ladder {
 }
 
 impl Groups {
-    fn of(drop: &SingleDrop, part: &Part) -> Result<Self, Error> {
+    fn of(drop: &Drop, part: &Part) -> Result<Self, Error> {
         let h0 = drop.gap_m();
         // Of a plate and of contacts that differ those that take time alone are followed.
-        let alone = drop.across.is_some() || !drop.own_contacts.is_none();
+        let alone = drop.body.is_wide() || !drop.own_contacts.is_none();
         let model = if alone { Model::Compliant } else { Model::Map };
-        let times = Followed::new(drop, model, 0.01)?.motion.struck_s();
+        let times = follow(drop, model, 0.01, Until::Over)?.struck_s();
         let gap = times.get(1).copied().unwrap_or(f64::INFINITY);
         let last = times.last().copied().unwrap_or(0.0);
         let omega = part.suspension.map(|part| part.omega());
@@ -240,8 +228,8 @@ impl Groups {
             pulse: omega.zip(drop.contact_times_s()).map(|(omega, [_, longest])| omega * longest),
             train: omega.map(|omega| omega * last),
             damping: part.suspension.map(|part| part.damping().get() * part.omega() * gap),
-            across: drop.across.filter(|across| across.posture.is_none()).map(|across| {
-                let [along, across] = drop.gaps_m(&across);
+            across: (drop.body.is_wide() && drop.is_level).then(|| {
+                let [along, across] = drop.gaps_m();
                 across / along
             }),
         })

@@ -7,7 +7,7 @@
 //!
 //! # If you have X, call Y
 //! - The text of a product file: [`ProductFile::read`], then [`ProductFile::assess`].
-//! - The data of a product: [`Product::new`], [`Drop::new`] and [`Component::new`], and from them [`ProductFile::new`].
+//! - The data of a product: [`Product::new`], [`DropRanges::new`] and [`Component::new`], and from them [`ProductFile::new`].
 //! - An assessment with parts that are not safe: [`ProductFile::remedies`].
 //! - Distributions in place of ranges: [`scatter::Sampler`].
 //! - Measured strikes, heights or accelerations: [`fit::fit`].
@@ -27,11 +27,11 @@
 //! A board on a soft mount in a handheld that falls from a meter on either end; its limit is that of the data sheet.
 //! ```
 //! use clatter_assess::{
-//!     Component, Damping, DataFault, Drop, Error, Fall, Law, LimitKind, Limits, Mount, Product, ProductFile, Spread, Verdict,
+//!     Component, Damping, DataFault, DropRanges, Error, Fall, Law, LimitKind, Limits, Mount, Product, ProductFile, Spread, Verdict,
 //! };
 //! use clatter_flight::Body;
 //! let handheld = Product::new("handheld", Body::new(0.15, 0.045)?, Spread::value(0.3)?);
-//! let drop = Drop::new(Fall::HeightM(Spread::value(1.0)?), Spread::new(0.02, 0.1, Law::Range)?);
+//! let drop = DropRanges::new(Fall::HeightM(Spread::value(1.0)?), Spread::new(0.02, 0.1, Law::Range)?);
 //! let mount = Mount::Suspended { frequency_hz: Spread::value(40.0)?, damping: Damping::Ratio(Spread::value(0.05)?) };
 //! let limits = Limits::default().with(LimitKind::Acceleration, Spread::value(300.0)?);
 //! let board = Component::new("board", Spread::value(0.05)?, mount, limits);
@@ -55,10 +55,8 @@ mod attitude;
 mod bound;
 mod check;
 mod component;
-mod course;
 mod data_fault;
 pub mod design;
-mod drop;
 mod engine;
 mod error;
 mod fault;
@@ -66,7 +64,7 @@ pub mod fit;
 mod history;
 mod keys;
 pub mod ladder;
-mod own;
+mod model;
 mod portrait;
 mod product;
 mod quantity;
@@ -85,17 +83,16 @@ mod verdict;
 mod visible;
 
 pub use attitude::Attitude;
-pub use clatter_flight::ContactLaw;
+pub use clatter_flight::{Axis, Body, ContactLaw, Drop, Feet, OwnContact, OwnContacts, Place, Side};
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
-pub use component::{Axis, Component, Damping, Inside, Limits, Mount};
+pub use component::{Component, Damping, Inside, Limits, Mount};
 pub use data_fault::DataFault;
-pub use drop::{Across, Model, Posture, SingleDrop};
 pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
-pub use own::{OwnContact, OwnContacts};
+pub use model::Model;
 pub use portrait::{CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
-pub use product::{Depth, Drop, DropName, Fall, Feet, First, Landing, Product, ProductFile, RecordFile, Width};
+pub use product::{DropName, DropRanges, Fall, First, Landing, Product, ProductFile, RecordFile};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::{Family, GridAxis, LARGEST_FILE, Plan};
 pub use reason::{Contradiction, Doubt, Note, Reason};

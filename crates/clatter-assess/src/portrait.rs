@@ -14,15 +14,17 @@ use clatter::End;
 use clatter_shock::{State, Suspension};
 use rayon::prelude::*;
 
-use crate::drop::{Followed, Model, SingleDrop, Until};
+use crate::Model;
 use crate::engine::PlaceHistory;
+use crate::model::follow;
 use crate::quantity::Source;
 use crate::search::{Ranges, rough_to_rad_s};
-use crate::shock::Shock;
+use crate::shock::{Shock, hardest_turn};
 use crate::{
     Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, Part, ProductFile, Unit,
     WorstCase,
 };
+use clatter_flight::{Drop, Until};
 use drops::{Drops, Places, Tilt, along, parts, tilts};
 pub use plate::{CornerStrike, PlaceMap, PlatePortrait};
 use scale::Scale;
@@ -36,7 +38,7 @@ pub struct Point {
     /// The tilt that it stands at, in rad; a drop that lands as one is followed without it.
     pub tilt_rad: f64,
     /// The drop, which was followed.
-    pub drop: SingleDrop,
+    pub drop: Drop,
     /// The place of the part, and its suspension where that is asked for.
     pub part: Part,
     /// The demand as a share of what is allowed.
@@ -82,12 +84,12 @@ impl ProductFile {
             return Vec::new();
         }
         let listed = self.listed();
-        let of = listed.iter().map(|one| self.ranges_of(&one.drop, one.posture, &assessment.accuracy));
+        let of = listed.iter().map(|one| self.ranges_of(&one.drop, one.base, &assessment.accuracy));
         let each: Vec<Ranges<'_>> = of.collect();
         let at_worst = |limit: &LimitAssessment| each[limit.worst_case.map_or(0, |worst| worst.listed)];
         let ranges = each[0];
         let until = Self::until(assessment);
-        if self.product.width.is_some() {
+        if self.product.body.is_wide() {
             let portrait = |(component, assessed): (&Component, &ComponentAssessment)| {
                 let tightest = assessed.tightest();
                 let ranges = at_worst(tightest);
@@ -136,9 +138,9 @@ impl ProductFile {
     fn history(limit: &LimitAssessment, ranges: &Ranges<'_>) -> Result<(Curve, Vec<f64>), Error> {
         let Some(worst) = &limit.worst_case else { return Ok(Default::default()) };
         let WorstCase { drop, part, .. } = worst;
-        let followed = Followed::new(drop, ranges.model, ranges.tolerance)?;
-        let felt = PlaceHistory::new(&followed, part.spot())?;
-        let impacts = followed.motion.struck_s();
+        let followed = follow(drop, ranges.model, ranges.tolerance, Until::Over)?;
+        let felt = PlaceHistory::new(&followed, part.place)?;
+        let impacts = followed.struck_s();
         let period = part.suspension.map_or(0.0, |s| std::f64::consts::TAU / s.omega());
         // to the peak and a little on; what comes long after it is far weaker
         let second = impacts.get(1).copied().unwrap_or(0.0);
@@ -151,10 +153,10 @@ impl ProductFile {
                 let slices = felt.slices((end / POINTS).min(period / 64.0), end);
                 respond(&suspension, &slices, end, |state| peak.of_state(&suspension, state))
             }
-            (Source::Turn, _) => spikes(&followed.turns(), 1.0, end),
+            (Source::Turn, _) => spikes(&hardest_turn(&followed, 0.0).unwrap_or_default(), 1.0, end),
             (Source::Shock, _) => spikes(felt.shocks(), 1.0, end),
             (Source::Boundary, _) if limit.unit == Unit::MeterPerSecond => spikes(felt.shocks(), 1.0, end),
-            _ if !followed.motion.has_contacts() => {
+            _ if !followed.has_contacts() => {
                 let factor = std::f64::consts::FRAC_PI_2 / drop.contact_time_s.ok_or(Error::Contact)?;
                 spikes(felt.shocks(), factor, end)
             }

@@ -3,10 +3,10 @@
 //! Positions run along the bar from its middle, towards end b positive; across a plate from its middle as well.
 
 use clatter::End;
-use clatter_flight::{Body, Contact, ContactLaw};
+use clatter_flight::{Body, Contact, ContactLaw, OwnContacts};
 use serde::{Serialize, Serializer};
 
-use crate::{Attitude, Component, Error, OwnContacts, Spread};
+use crate::{Attitude, Component, Error, Spread};
 
 /// A product, its drop and its parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +14,7 @@ pub struct ProductFile {
     /// What falls.
     pub product: Product,
     /// How it falls.
-    pub drop: Drop,
+    pub drop: DropRanges,
     /// The drops that it goes through one after the other, all of a box or none: none of a product that falls once, as its drop says.
     pub landings: Vec<Landing>,
     /// What must survive; at least one.
@@ -32,11 +32,11 @@ impl ProductFile {
     /// # Examples
     /// A display on its frame, in a phone that is dropped from a meter at up to 10 degrees:
     /// ```
-    /// use clatter_assess::{Component, Drop, Fall, Law, LimitKind, Limits, Mount, Product, ProductFile, Spread};
+    /// use clatter_assess::{Component, DropRanges, Fall, Law, LimitKind, Limits, Mount, Product, ProductFile, Spread};
     /// use clatter_flight::Body;
     /// let phone = Product::new("phone", Body::new(0.15, 0.045)?, Spread::new(0.3, 0.5, Law::Range)?);
     /// let fall = Fall::HeightM(Spread::value(1.0)?);
-    /// let drop = Drop::new(fall, Spread::new(0.0, 10_f64.to_radians(), Law::Range)?);
+    /// let drop = DropRanges::new(fall, Spread::new(0.0, 10_f64.to_radians(), Law::Range)?);
     /// let limits = Limits::default().with(LimitKind::VelocityChange, Spread::value(12.0)?);
     /// let display = Component::new("display", Spread::value(0.03)?, Mount::Hard, limits);
     /// let file = ProductFile::new(phone.clone(), drop, vec![display.clone()])?;
@@ -47,7 +47,7 @@ impl ProductFile {
     /// assert_eq!(said, "component \"display\": `extent` = -0.02 m is out of its range; allowed: from 0 mm to 100 m");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn new(product: Product, drop: Drop, components: Vec<Component>) -> Result<Self, Error> {
+    pub fn new(product: Product, drop: DropRanges, components: Vec<Component>) -> Result<Self, Error> {
         let file = Self { product, drop, landings: Vec::new(), components, records: Vec::new() };
         file.check()?;
         Ok(file)
@@ -65,7 +65,7 @@ impl ProductFile {
         (1..).zip(&self.landings).map(name).collect()
     }
     /// All of its drops: those that are listed, or the one.
-    pub(crate) fn drops(&self) -> Vec<Drop> {
+    pub(crate) fn drops(&self) -> Vec<DropRanges> {
         if self.landings.is_empty() { vec![self.drop] } else { self.landings.iter().map(|one| one.drop).collect() }
     }
 }
@@ -75,12 +75,8 @@ impl ProductFile {
 pub struct Product {
     /// As the file names it.
     pub name: String,
-    /// Length, or how far apart its feet are, center of mass and radius of gyration; where that has a range, of the middle of it.
+    /// Its sides, center of mass and inertia, and feet that it lands on; where the radius of gyration has a range, of the middle of it.
     pub body: Body,
-    /// What makes a plate of the bar: none of a product that is followed as a bar.
-    pub width: Option<Width>,
-    /// What it lands on where that is not its ends or corners: body and width are then as long as its feet are apart.
-    pub feet: Option<Feet>,
     /// Ends, corners or feet with a contact of their own.
     pub own_contacts: OwnContacts,
     /// Radius of gyration about the center of mass, in m.
@@ -95,74 +91,6 @@ pub struct Product {
     pub contact_law: Option<ContactLaw>,
 }
 
-/// The side of a plate across its length.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Width {
-    /// Distances of the long edges from the center of mass, −y and +y.
-    pub edges_m: [f64; 2],
-    /// Radius of gyration of the mass along y, √(∫y² dm/m) about the center of mass.
-    pub gyration_m: f64,
-    /// ∫x y dm/m about the center of mass: 0 where the mass is even about one of the axes.
-    pub product_of_inertia_m2: f64,
-    /// Thickness, where it is known.
-    pub thickness_m: Option<f64>,
-    /// How mass lies across the thickness; spread evenly over it if not given.
-    pub depth: Option<Depth>,
-}
-
-/// Feet or bumpers inside the edges: they touch the ground first, and the product goes on beyond them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Feet {
-    /// How far inside the edges, along the length and along the width; 0 across a bar.
-    pub inset_m: [f64; 2],
-    /// By how much they stand out.
-    pub height_m: f64,
-}
-
-/// How mass lies across a thickness.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Depth {
-    /// The center of mass, from the middle.
-    pub center_m: f64,
-    /// Radius of gyration of the mass along z, √(∫z² dm/m) about the center of mass.
-    pub gyration_m: f64,
-    /// ∫x z dm/m and ∫y z dm/m about the center of mass.
-    pub products_of_inertia_m2: [f64; 2],
-}
-
-impl Width {
-    /// From edge to edge.
-    #[must_use]
-    pub fn m(&self) -> f64 {
-        self.edges_m[0] + self.edges_m[1]
-    }
-    /// The smallest radius of gyration about any axis in the plane, that along the length given: by the smaller principal second moment.
-    pub(crate) fn least_gyration_m(&self, along_m: f64) -> f64 {
-        let ([xx, yy], xy) = ([along_m, self.gyration_m].map(|k| k * k), self.product_of_inertia_m2);
-        (0.5 * (xx + yy) - libm::hypot(0.5 * (xx - yy), xy)).max(0.0).sqrt()
-    }
-    /// The largest one, likewise.
-    pub(crate) fn most_gyration_m(&self, along_m: f64) -> f64 {
-        let ([xx, yy], xy) = ([along_m, self.gyration_m].map(|k| k * k), self.product_of_inertia_m2);
-        (0.5 * (xx + yy) + libm::hypot(0.5 * (xx - yy), xy)).sqrt()
-    }
-    /// How mass lies across this thickness.
-    pub(crate) fn depth_of(&self, thickness_m: f64) -> Depth {
-        let even = Depth { center_m: 0.0, gyration_m: thickness_m / 12_f64.sqrt(), products_of_inertia_m2: [0.0; 2] };
-        self.depth.unwrap_or(even)
-    }
-    /// Distances of the faces across this thickness from the center of mass, −z and +z.
-    pub(crate) fn faces_m(&self, thickness_m: f64) -> [f64; 2] {
-        let center_m = self.depth_of(thickness_m).center_m;
-        [0.5 * thickness_m + center_m, 0.5 * thickness_m - center_m]
-    }
-    /// Where the center of mass is, from the middle.
-    #[must_use]
-    pub fn center_m(&self) -> f64 {
-        0.5 * (self.edges_m[0] - self.edges_m[1])
-    }
-}
-
 impl Product {
     /// A product with one radius of gyration, that of the body; mass, contact time and contact law are not known.
     #[must_use]
@@ -170,8 +98,6 @@ impl Product {
         Self {
             name: name.into(),
             body,
-            width: None,
-            feet: None,
             own_contacts: OwnContacts::NONE,
             gyration_m: Spread::finite(body.gyration_m()),
             mass_kg: None,
@@ -194,14 +120,13 @@ impl Product {
     }
     /// The shortest and the longest contact of all ranges, where that of the product is known.
     pub(crate) fn contact_times_s(&self) -> Option<[f64; 2]> {
-        let of = |time_s: f64| self.own_contacts.contact_times_s(self.width.is_some(), time_s);
+        let of = |time_s: f64| self.own_contacts.contact_times_s(self.body.points(), time_s);
         self.contact_time_s.as_ref().map(|time| [of(time.lo())[0], of(time.hi())[1]])
     }
     /// The longest contact of each kind: of the product first, unless all have their own, and of others whose time is their own.
     pub(crate) fn longest_contacts_s(&self) -> Vec<f64> {
         let Some(time) = &self.contact_time_s else { return Vec::new() };
-        let points = if self.width.is_some() { 4 } else { 2 };
-        let all = self.own_contacts.0[..points].iter().map(|own| own.contact_time_s.unwrap_or(time.hi()));
+        let all = self.own_contacts.0[..self.body.points()].iter().map(|own| own.contact_time_s.unwrap_or(time.hi()));
         let mut all: Vec<f64> = all.collect();
         all.sort_by(f64::total_cmp);
         all.dedup();
@@ -211,26 +136,19 @@ impl Product {
     pub(crate) fn stiffest(&self, law: ContactLaw) -> Option<Vec<Contact>> {
         let (e, time_s) = (self.restitution.hi(), self.contact_time_s.as_ref()?.lo());
         let all: [Contact; 4] = self.own_contacts.contacts(law, e, time_s).ok()?;
-        Some(all[..if self.width.is_some() { 4 } else { 2 }].to_vec())
+        Some(all[..self.body.points()].to_vec())
     }
     /// From edge to edge, along the length and along the width; 0 across a bar.
     #[must_use]
     pub fn sides_m(&self) -> [f64; 2] {
-        let [x, y] = self.feet.map_or([0.0; 2], |feet| feet.inset_m);
-        [self.body.length_m() + 2.0 * x, self.width.map_or(0.0, |width| width.m() + 2.0 * y)]
-    }
-    /// Distances of the faces of a box from its center of mass, −x, +x, −y and so on, and its thickness; none without one.
-    pub(crate) fn faces_m(&self) -> Option<([[f64; 2]; 3], f64)> {
-        let (width, thickness_m) = (self.width?, self.width?.thickness_m?);
-        Some(([self.body.arms_m(), width.edges_m, width.faces_m(thickness_m)], thickness_m))
+        self.body.sides_m()
     }
     /// The body with this radius of gyration, in m.
     ///
     /// # Errors
     /// [`Error::Bar`] unless it is finite and positive.
     pub fn body_with(&self, gyration_m: f64) -> Result<Body, Error> {
-        let [a, b] = self.body.arms_m();
-        Ok(Body::off_center(a, b, gyration_m)?)
+        Ok(self.body.with_gyration_m(gyration_m)?)
     }
     /// The body at `share` in [0, 1] of the range of its radius of gyration.
     pub(crate) fn body_at(&self, share: f64) -> Body {
@@ -243,7 +161,7 @@ impl Product {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Landing {
     /// How it falls; a box is tilted by up to so much off what it lands on.
-    pub drop: Drop,
+    pub drop: DropRanges,
     /// What a box lands on; none of a bar and of a plate.
     pub attitude: Option<Attitude>,
     /// The standard that asks for it, with clause and title; none of one that was given by hand.
@@ -296,7 +214,7 @@ impl Serialize for DropName {
 impl Landing {
     /// A drop of a bar or of a plate, one of several.
     #[must_use]
-    pub fn tilted(drop: Drop) -> Self {
+    pub fn tilted(drop: DropRanges) -> Self {
         Self { drop, attitude: None, source: None }
     }
     /// By how much a box may be turned off what it lands on.
@@ -307,7 +225,7 @@ impl Landing {
     /// Whether another drop is the same; how far off what a box lands on either may be does not count.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let [one, two] = [self, other].map(|landing| match landing.attitude {
-            Some(_) => Drop { tilt_rad: Spread::finite(0.0), ..landing.drop },
+            Some(_) => DropRanges { tilt_rad: Spread::finite(0.0), ..landing.drop },
             None => landing.drop,
         });
         self.attitude == other.attitude && one == two
@@ -316,7 +234,7 @@ impl Landing {
 
 /// How it falls.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drop {
+pub struct DropRanges {
     /// From where, or how fast.
     pub fall: Fall,
     /// Angle to the ground at the first touch, within [0, π/6] rad.
@@ -394,7 +312,7 @@ fn ratio(body: &Body) -> f64 {
     (a * b).sqrt().copysign(a)
 }
 
-impl Drop {
+impl DropRanges {
     /// A drop on either end, without spin, with standard gravity.
     #[must_use]
     pub fn new(fall: Fall, tilt_rad: Spread) -> Self {

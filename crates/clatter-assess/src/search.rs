@@ -22,16 +22,17 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
-use crate::drop::{Followed, Model, SingleDrop, Until};
-use crate::engine::{Part, PlaceHistory, Spot, once};
+use crate::engine::{Part, PlaceHistory, once};
+use crate::model::{Model, follow};
 use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
+use clatter_flight::{Drop, Followed, Place, Until};
 use climb::{CLIMBS, NEAR, starts};
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
+pub(crate) use ranges::{Coordinates, Ranges};
 use ranges::{DAMPING, FREQUENCY};
-pub(crate) use ranges::{Place, Ranges};
 
 /// Is told how much of how much is done, from any thread, and says whether to go on.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);
@@ -66,8 +67,8 @@ pub(crate) struct Task<'a> {
 
 impl Task<'_> {
     /// A place of the part.
-    fn spot(&self, at_m: [f64; 2]) -> Spot {
-        Spot { at_m, inside: self.component.inside }
+    fn place(&self, at_m: [f64; 2]) -> Place {
+        self.component.inside.place(at_m)
     }
 }
 
@@ -101,12 +102,12 @@ impl Ranges<'_> {
         all_tasks: &[Task<'_>],
         most: f64,
         watch: Watch<'_>,
-    ) -> Result<Vec<Worst>, Place> {
+    ) -> Result<Vec<Worst>, Coordinates> {
         // A box is followed to its rest in some drops only: it is slow.
-        let of_all = self.posture.is_none();
+        let of_all = self.base.is_none();
         let [steps, turn_steps] = self.steps(all_tasks);
         let mut all = Candidates::none(tasks.len());
-        let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps, turn_steps)).collect();
+        let grid: Vec<(u32, Coordinates)> = (0..).zip(self.grid(steps, turn_steps)).collect();
         let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
         let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
         let climbing = CLIMB * CLIMBS * tasks.len();
@@ -115,11 +116,11 @@ impl Ranges<'_> {
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
         // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
         // any number of threads.
-        let ask = |all: &mut Candidates, drops: &[(u32, Place)], only: Option<&[bool]>, to_rest: bool| {
+        let ask = |all: &mut Candidates, drops: &[(u32, Coordinates)], only: Option<&[bool]>, to_rest: bool| {
             let mut orders = Vec::with_capacity(drops.len());
             for wave in drops.chunks(WAVE) {
                 let best = all.best();
-                let of_one = |drop: &(u32, Place)| {
+                let of_one = |drop: &(u32, Coordinates)| {
                     let early = work.go_on(1).and_then(|()| self.follow(&drop.1, Until::Lands));
                     let order = early.as_ref().ok().map(Order::of);
                     let asked = early.and_then(|early| self.ask(tasks, drop, &early, best.clone(), only, to_rest));
@@ -142,7 +143,7 @@ impl Ranges<'_> {
         // followed for longer as well.
         let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
         if only.contains(&true) {
-            let sample: Vec<(u32, Place)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
+            let sample: Vec<(u32, Coordinates)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
             ask(&mut all, &sample, Some(&only), true)?;
             // What stands and hardly ever falls over asks most where it does.
             let stands = all.leaning.filter(|(lean, _)| self.faces() == 1 && *lean < 1.0);
@@ -177,7 +178,7 @@ impl Ranges<'_> {
                 climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
             reached.extend_from_slice(&found[n]);
             let in_time = work.go_on(0).is_ok();
-            let near = if self.product.width.is_some() { starts(&mut reached) } else { Vec::new() };
+            let near = if self.product.body.is_wide() { starts(&mut reached) } else { Vec::new() };
             let mut worst =
                 if in_time { self.settle(&tasks[n], reached) } else { self.settle_at_once(&tasks[n], reached) };
             (worst.drops, worst.later, worst.near) = (drops, later[n], near);
@@ -199,7 +200,7 @@ impl Ranges<'_> {
     /// How many drops are followed besides those of the grid where rebounds count.
     fn sample(&self) -> usize {
         let [of_all_drops, of_each] = SAMPLE_OF_BOX;
-        match self.posture {
+        match self.base {
             Some(_) => (of_all_drops / self.listed).max(of_each),
             None => SAMPLE[self.by_impacts()],
         }
@@ -211,7 +212,7 @@ impl Ranges<'_> {
     }
 
     /// A drop of the last wave that asks for more than `most` of a limit, answered to the tolerance; `best` are those before it.
-    fn passes(&self, tasks: &[Task<'_>], all: &Candidates, best: &[f64], most: f64) -> Option<Place> {
+    fn passes(&self, tasks: &[Task<'_>], all: &Candidates, best: &[f64], most: f64) -> Option<Coordinates> {
         let of_one = |(n, task): (usize, &Task<'_>)| {
             let highest =
                 all.found[n].iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()))?;
@@ -226,13 +227,13 @@ impl Ranges<'_> {
     fn ask(
         &self,
         tasks: &[Task<'_>],
-        (k, drop): &(u32, Place),
+        (k, drop): &(u32, Coordinates),
         early: &Followed,
         mut best: Vec<f64>,
         only: Option<&[bool]>,
         to_rest: bool,
     ) -> Result<OfDrop, Error> {
-        let (mut of_drop, is_plate) = (OfDrop::default(), self.product.width.is_some());
+        let (mut of_drop, is_plate) = (OfDrop::default(), self.product.body.is_wide());
         let (mut rebounded, mut over) = (None, None);
         let mut first = 0;
         for of_one in tasks.chunk_by(|a, b| std::ptr::eq(a.component, b.component)) {
@@ -264,11 +265,11 @@ impl Ranges<'_> {
                     let felt = match &mut felt {
                         Some(felt) => felt,
                         none => {
-                            none.insert(PlaceHistory::rough(early, task.spot(at_m), rough_to_rad_s(task.component))?)
+                            none.insert(PlaceHistory::rough(early, task.place(at_m), rough_to_rad_s(task.component))?)
                         }
                     };
                     let worst = best[number];
-                    let place = Place { at_m, ..*drop };
+                    let place = Coordinates { at_m, ..*drop };
                     // That nothing is asked is an answer as well.
                     let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
                     let frequencies = Self::frequencies(task, &early.drop);
@@ -284,7 +285,7 @@ impl Ranges<'_> {
                     let mut friction = felt.most_friction(&task.limit, &parts);
                     if later > 0.0 && to_rest {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
-                        of_drop.lean = rebounded.motion.lean();
+                        of_drop.lean = rebounded.lean();
                         let longer = felt.longer(rebounded)?;
                         friction = friction.max(longer.most_friction(&task.limit, &parts));
                         let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());
@@ -310,21 +311,26 @@ impl Ranges<'_> {
         Ok(of_drop)
     }
 
-    fn follow(&self, place: &Place, until: Until) -> Result<Followed, Error> {
+    fn follow(&self, place: &Coordinates, until: Until) -> Result<Followed, Error> {
         let drop = self.single(place);
         // A plate that loses little goes on and on; what it may do later is bounded by its energy. A box topples late, onto its broad
         // faces at last, and lies soon after.
         let until = match until {
-            Until::Rebounded | Until::Over if self.posture.is_some() => until,
-            Until::Rebounded if self.product.width.is_some() => Until::Past(REBOUNDS[0] * drop.bounced_s()),
-            Until::Over if self.product.width.is_some() => Until::Past(REBOUNDS[1] * drop.bounced_s()),
+            Until::Rebounded | Until::Over if self.base.is_some() => until,
+            Until::Rebounded if self.product.body.is_wide() => Until::Past(REBOUNDS[0] * drop.bounced_s()),
+            Until::Over if self.product.body.is_wide() => Until::Past(REBOUNDS[1] * drop.bounced_s()),
             until => until,
         };
-        Followed::until(&drop, self.model, self.tolerance.max(0.02), until)
+        follow(&drop, self.model, self.tolerance.max(0.02), until)
     }
 
     /// The same, once.
-    fn followed<'f>(&self, place: &Place, until: Until, once: &'f mut Option<Followed>) -> Result<&'f Followed, Error> {
+    fn followed<'f>(
+        &self,
+        place: &Coordinates,
+        until: Until,
+        once: &'f mut Option<Followed>,
+    ) -> Result<&'f Followed, Error> {
         match once {
             Some(followed) => Ok(followed),
             none => Ok(none.insert(self.follow(place, until)?)),
@@ -332,7 +338,7 @@ impl Ranges<'_> {
     }
 
     /// How many natural frequencies are tried in one drop: some in each turn that the ends of their range differ by.
-    fn frequencies(task: &Task<'_>, drop: &SingleDrop) -> u32 {
+    fn frequencies(task: &Task<'_>, drop: &Drop) -> u32 {
         let Mount::Suspended { frequency_hz, .. } = task.component.mount else { return 0 };
         let gap_s = 0.25 * drop.clatter_s();
         let [least, most] = FREQUENCIES;
@@ -343,7 +349,7 @@ impl Ranges<'_> {
     }
 
     /// The part at a place, where the limit is on its response.
-    fn part(task: &Task<'_>, place: &Place) -> Result<Option<Suspension>, Error> {
+    fn part(task: &Task<'_>, place: &Coordinates) -> Result<Option<Suspension>, Error> {
         let Mount::Suspended { frequency_hz, damping } = task.component.mount else { return Ok(None) };
         if !task.limit.is_response() {
             return Ok(None);
@@ -354,7 +360,7 @@ impl Ranges<'_> {
     }
 
     /// The part with least damping at both ends of the range of its frequencies.
-    fn softest_and_stiffest(task: &Task<'_>, place: &Place) -> Result<Vec<Suspension>, Error> {
+    fn softest_and_stiffest(task: &Task<'_>, place: &Coordinates) -> Result<Vec<Suspension>, Error> {
         let at = |frequency: f64| Self::part(task, &place.with(FREQUENCY, frequency).with(DAMPING, 0.0)).transpose();
         [0.0, 1.0].into_iter().filter_map(at).collect()
     }
@@ -362,7 +368,7 @@ impl Ranges<'_> {
     /// What a part asks that feels this drop, where it passes `above`.
     fn in_drop(
         task: &Task<'_>,
-        place: &Place,
+        place: &Coordinates,
         felt: &PlaceHistory<'_>,
         above: f64,
     ) -> Result<Option<Candidate>, Error> {
@@ -375,7 +381,7 @@ impl Ranges<'_> {
     fn most(
         &self,
         task: &Task<'_>,
-        place: &Place,
+        place: &Coordinates,
         felt: &PlaceHistory<'_>,
         k: u32,
         others: u32,
@@ -385,7 +391,7 @@ impl Ranges<'_> {
         let grows = matches!(task.limit.kind.source(), Source::Response(peak) if peak.grows_with_frequency());
         let end = if grows { 1.0 } else { 0.0 };
         let mut worst = Self::in_drop(task, &place.with(FREQUENCY, end), felt, above)?;
-        let mut ask = |place: &Place| -> Result<(), Error> {
+        let mut ask = |place: &Coordinates| -> Result<(), Error> {
             let above = worst.map_or(above, |worst| worst.answer.utilization());
             worst = Self::in_drop(task, place, felt, above)?.or(worst);
             Ok(())
@@ -401,23 +407,21 @@ impl Ranges<'_> {
     }
 
     /// Whether a part at a place of the ranges is asked for more than `most` of a limit there, answered to the tolerance.
-    pub(crate) fn asks_more(&self, task: &Task<'_>, place: &Place, most: f64) -> bool {
+    pub(crate) fn asks_more(&self, task: &Task<'_>, place: &Coordinates, most: f64) -> bool {
         let of = |at_m: [f64; 2]| {
-            let place = Place { at_m, ..*place };
-            let [position_m, across_m] = at_m;
-            let (inside, suspension) = (task.component.inside, Self::part(task, &place)?);
-            let part = Part { position_m, across_m, inside, suspension };
+            let place = Coordinates { at_m, ..*place };
+            let part = Part::at(task.place(at_m), Self::part(task, &place)?);
             once(&self.single(&place), &part, &task.limit, self.model, self.tolerance)
         };
         task.component.places_m().into_iter().any(|x| of(x).is_ok_and(|answer| answer.utilization() > most))
     }
 
     /// What one drop of the ranges asks of a task, as a utilization; 0 where it is not answered.
-    pub(crate) fn in_one(&self, task: &Task<'_>, place: &Place) -> f64 {
+    pub(crate) fn in_one(&self, task: &Task<'_>, place: &Coordinates) -> f64 {
         let Ok(followed) = self.follow(place, Until::Lands) else { return 0.0 };
         let of = |at_m: [f64; 2]| {
-            let felt = PlaceHistory::new(&followed, task.spot(at_m)).ok()?;
-            Self::in_drop(task, &Place { at_m, ..*place }, &felt, 0.0).ok()?
+            let felt = PlaceHistory::new(&followed, task.place(at_m)).ok()?;
+            Self::in_drop(task, &Coordinates { at_m, ..*place }, &felt, 0.0).ok()?
         };
         let asked = task.component.places_m().into_iter().filter_map(of);
         asked.map(|asked| asked.answer.utilization()).fold(0.0, f64::max)

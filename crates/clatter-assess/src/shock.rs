@@ -11,10 +11,7 @@
 use std::slice::from_ref;
 
 use clatter::{Excitation, Section};
-
-use crate::course::{BlockMotion, Course, DIRECTIONS};
-use crate::drop::Followed;
-use crate::engine::Spot;
+use clatter_flight::{Followed, Place};
 
 /// One shock.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,106 +26,41 @@ pub(crate) struct Shock {
     pub(crate) time_s: f64,
 }
 
-/// Below this share of the largest no shock in a direction half a right angle off is the largest between.
-const NEAR_LARGEST: f64 = 0.85;
-/// The same of no direction at all, where what is asked for is that much.
-const NEAR_AT_ALL: f64 = 0.7;
-
 /// Share of its peak down to which a shock reaches, whatever the acceleration does in between.
 const TENTH: f64 = 0.1;
 /// Over g, what it reaches down to at least, by definition: a push of that size changes the velocity of a place by no more than its weight
 /// does in flight.
 const WEIGHTS: f64 = 2.0;
 
-impl Followed {
-    /// The shocks of a place that feels this, in order of time.
-    pub(crate) fn shocks(&self, spot: &Spot, felt: &Excitation) -> Vec<Shock> {
-        let (gravity, least) = (self.drop.gravity_m_s2, WEIGHTS * self.drop.gravity_m_s2);
-        match &self.motion {
-            Course::Bar(motion) if motion.contact().is_none() => {
-                let s = self.drop.relative(spot.at_m[0]);
-                at_instants(motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
-            }
-            Course::Bar(_) | Course::BarOnFeet(_) | Course::Plate(_) | Course::PlateOnFeet(_) => {
-                shocks(&Pushed { felt, moved: from_ref(felt), gravity, least })
-            }
-            Course::Block(motion) => {
-                let moved = motion.moved(self.drop.place_in_box(spot), spot.inside.axis);
-                shocks(&Pushed { felt, moved: &moved, gravity: 0.0, least })
-            }
-        }
+/// Returns the shocks of a place that feels this, in order of time.
+pub(crate) fn shocks_at(followed: &Followed, place: &Place, felt: &Excitation) -> Vec<Shock> {
+    let (gravity, least) = (followed.drop.gravity_m_s2, WEIGHTS * followed.drop.gravity_m_s2);
+    if let Some(jumps) = followed.jumps(place) {
+        return at_instants(jumps.into_iter());
     }
+    match followed.accelerations(place) {
+        Some(moved) => shocks(&Pushed { felt, moved: &moved, gravity: 0.0, least }),
+        None => shocks(&Pushed { felt, moved: from_ref(felt), gravity, least }),
+    }
+}
 
-    /// The shocks of an angular acceleration.
-    pub(crate) fn shocks_of_turning(&self, turned: &Excitation) -> Vec<Shock> {
-        shocks(&Pushed { felt: turned, moved: from_ref(turned), gravity: 0.0, least: self.least_turn() })
-    }
-    /// What pushes below this turn the body by.
-    fn least_turn(&self) -> f64 {
-        WEIGHTS * self.drop.gravity_m_s2 / self.drop.least_gyration_m()
-    }
+/// Returns the shocks of the turning of the product about the axis of the largest, where that passes `above`.
+pub(crate) fn hardest_turn(followed: &Followed, above: f64) -> Option<Vec<Shock>> {
+    followed.hardest_turn(above, |turned| shocks_of_turning(followed, turned), |shocks| largest(shocks).change)
+}
 
-    /// The largest of the turning of the product, where it passes `above`.
-    pub(crate) fn largest_turn(&self, above: f64) -> Option<Shock> {
-        let passes = |shock: &Shock| shock.change > above;
-        match &self.motion {
-            Course::Block(motion) => Some(largest(&self.turns_of_box(motion, above))).filter(passes),
-            Course::Plate(_) | Course::PlateOnFeet(_) => self.largest_turn_of_plate(above).filter(passes),
-            Course::Bar(_) | Course::BarOnFeet(_) => Some(largest(&self.turns())).filter(passes),
-        }
-    }
+/// Returns the largest shock of the turning of the product, where it passes `above`.
+pub(crate) fn largest_turn(followed: &Followed, above: f64) -> Option<Shock> {
+    hardest_turn(followed, above).map(|shocks| largest(&shocks))
+}
 
-    /// Of a plate directions half a right angle apart are looked at first: each shock is within cos 22.5° = 0.92 of what it is in one of
-    /// them. Others follow next to those that come near the largest.
-    fn largest_turn_of_plate(&self, above: f64) -> Option<Shock> {
-        let in_direction =
-            |k: u32| self.motion.turned_in(k).map_or(Shock::NONE, |turned| largest(&self.shocks_of_turning(&turned)));
-        let apart = DIRECTIONS / 4;
-        let first: Vec<Shock> = (0..4).map(|n| in_direction(n * apart)).collect();
-        let most = largest(&first);
-        if most.change < NEAR_AT_ALL * above {
-            return None;
-        }
-        let is_near = |n: usize| first[n % 4].change > NEAR_LARGEST * most.change;
-        let between = (0..DIRECTIONS).filter(|k| k % apart != 0);
-        let near = between.filter(|k| [k / apart, k / apart + 1].into_iter().any(|n| is_near(n as usize)));
-        Some(near.map(in_direction).fold(most, |most, shock| if shock.change > most.change { shock } else { most }))
+/// Returns the shocks of an angular acceleration: what pushes it by less than two weights at the least radius of gyration is none.
+pub(crate) fn shocks_of_turning(followed: &Followed, turned: &Excitation) -> Vec<Shock> {
+    if !followed.has_contacts() {
+        return at_instants(turned.sections().map(|k| (k.from, k.delta_v)));
     }
-
-    /// The same of the turning of the product; of a plate about the axis of the largest.
-    pub(crate) fn turns(&self) -> Vec<Shock> {
-        if let Course::Block(motion) = &self.motion {
-            return self.turns_of_box(motion, 0.0);
-        }
-        let contacts = self.motion.has_contacts();
-        let of = |turned: &Excitation| {
-            if contacts {
-                self.shocks_of_turning(turned)
-            } else {
-                at_instants(turned.sections().map(|k| (k.from, k.delta_v)))
-            }
-        };
-        let more = |a: Vec<Shock>, b: Vec<Shock>| if largest(&b).change > largest(&a).change { b } else { a };
-        self.motion.turned().map(|turned| of(&turned)).reduce(more).unwrap_or_default()
-    }
-
-    /// The shocks of a box about the axis of the largest; none where that is not above `above`. An axis about which the angular velocity
-    /// swings by no more than the largest shock so far is passed over.
-    fn turns_of_box(&self, motion: &BlockMotion, above: f64) -> Vec<Shock> {
-        let (mut most, mut found) = (above, Vec::new());
-        for (swing, about) in motion.swings() {
-            // Sums of the same terms, but for roundings.
-            if swing * (1.0 + 1e-9) < most {
-                break;
-            }
-            let about = self.shocks_of_turning(&motion.turned_about(about));
-            let change = largest(&about).change;
-            if change > most {
-                (most, found) = (change, about);
-            }
-        }
-        found
-    }
+    let least = WEIGHTS * followed.drop.gravity_m_s2 / followed.drop.least_gyration_m();
+    shocks(&Pushed { felt: turned, moved: from_ref(turned), gravity: 0.0, least })
 }
 
 impl Shock {

@@ -6,7 +6,7 @@ use clatter::End;
 use serde::{Serialize, Serializer};
 
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
-use crate::{Axis, Component, Drop, DropName, Landing, LimitKind, Model, Part, Product, ProductFile, SingleDrop, Unit};
+use crate::{Axis, Component, Drop, DropName, DropRanges, Landing, LimitKind, Model, Part, Product, ProductFile, Unit};
 
 /// Whether every limit holds in the worst drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -97,10 +97,10 @@ pub enum Assumed {
 
 impl Assumed {
     pub(crate) fn of(file: &ProductFile, accuracy: &Accuracy) -> Vec<Self> {
-        let Product { width, contact_time_s, contact_law, .. } = &file.product;
+        let Product { body, contact_time_s, contact_law, .. } = &file.product;
         let takes_time = contact_time_s.is_some() && accuracy.model.is_none_or(|model| model == Model::Compliant);
         let rows = [
-            (width.is_none(), Self::Bar),
+            (!body.is_wide(), Self::Bar),
             (takes_time && contact_law.is_none(), Self::EitherLaw),
             (file.is_box(), Self::NoFriction),
         ];
@@ -176,7 +176,7 @@ pub struct LandingLimit {
 
 impl LandingAssessment {
     pub(crate) fn new(name: DropName, landing: &Landing) -> Self {
-        let Drop { tilt_rad, spin_rad_s, .. } = &landing.drop;
+        let DropRanges { tilt_rad, spin_rad_s, .. } = &landing.drop;
         let tilt_deg = [tilt_rad.lo(), tilt_rad.hi()].map(f64::to_degrees);
         let is_of_box = landing.attitude.is_some();
         Self {
@@ -337,7 +337,7 @@ pub struct LimitAssessment {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstCase {
     /// The drop.
-    pub drop: SingleDrop,
+    pub drop: Drop,
     /// The place in the component, and the suspension that it has in this drop; none where it does not matter.
     pub part: Part,
     /// What the drop of the file is called, where it lists several.
@@ -365,7 +365,7 @@ impl WorstCase {
     /// Where a plate rises to from its lowest corner, in [0, 360): 0 along the length, towards end b, 90 along the width; none of a bar.
     #[must_use]
     pub fn direction_deg(&self) -> Option<f64> {
-        self.drop.across.map(|across| across.direction_rad.to_degrees().rem_euclid(360.0))
+        self.drop.body.is_wide().then(|| self.drop.direction_rad.to_degrees().rem_euclid(360.0))
     }
     /// How fast it turns at the first touch; none where it does not.
     #[must_use]
@@ -375,7 +375,7 @@ impl WorstCase {
     /// Along which axis of a box the part is shaken; none of a bar and of a plate.
     #[must_use]
     pub fn axis(&self) -> Option<Axis> {
-        self.drop.across.and_then(|across| across.posture).map(|_| self.part.inside.axis)
+        self.drop.is_solid().then_some(self.part.place.axis)
     }
     /// Radius of gyration; none where the file gives one value.
     #[must_use]
@@ -425,9 +425,9 @@ struct WorstCaseRow {
 
 impl Serialize for WorstCase {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let SingleDrop { first, flat, speed_m_s, restitution, contact_time_s, .. } = self.drop;
+        let Drop { is_flat: flat, speed_m_s, restitution, contact_time_s, .. } = self.drop;
         let row = WorstCaseRow {
-            first,
+            first: self.drop.first(),
             landing: self.landing,
             tilt_deg: self.tilt_deg(),
             direction_deg: self.direction_deg(),
@@ -459,7 +459,7 @@ struct ContactRow {
 }
 
 impl ContactRow {
-    fn of(drop: &SingleDrop) -> Vec<Self> {
+    fn of(drop: &Drop) -> Vec<Self> {
         let row = |(at, restitution, contact_time_s)| Self { at, restitution, contact_time_s };
         drop.own_contacts.told(drop.restitution, drop.contact_time_s).map(row).collect()
     }
@@ -481,13 +481,8 @@ impl Sides {
     pub(crate) fn new([along, across]: [f64; 2], is_plate: bool) -> Self {
         if is_plate { Self::Both([along, across]) } else { Self::Along(along) }
     }
-    fn of(part: &Part, drop: &SingleDrop) -> Self {
-        match drop.across {
-            Some(across) if across.posture.is_some() => {
-                Self::All([part.position_m, part.across_m, part.inside.height_m])
-            }
-            across => Self::new(part.at_m(), across.is_some()),
-        }
+    fn of(part: &Part, drop: &Drop) -> Self {
+        if drop.is_solid() { Self::All(part.place.at_m) } else { Self::new(part.at_m(), drop.body.is_wide()) }
     }
     /// Along and across; 0 across a bar.
     #[must_use]

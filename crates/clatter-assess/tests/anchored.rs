@@ -1,6 +1,6 @@
 //! Signs, axes and places, each held to a case that is worked out here from the file's numbers alone.
 
-use clatter_assess::{ContactLaw, Limit, LimitKind, Model, Part, ProductFile, SingleDrop, Verdict, answer};
+use clatter_assess::{ContactLaw, Drop, Limit, LimitKind, Model, Part, Place, ProductFile, Verdict, answer};
 use clatter_flight::{Contact, Plate, PlateScene};
 
 type Vector = [f64; 3];
@@ -97,7 +97,7 @@ fn a_box_with_masses_askew_lands_as_its_file_says() {
             for (got, want) in block.turned_by(lever).into_iter().zip(turned(inertia, lever)) {
                 near(got, want, 1e-9, "what the push turns");
             }
-            let part = Part { across_m: -0.03, inside: file.components[0].inside, ..Part::new(-0.055, None) };
+            let part = Part::at(file.components[0].inside.place([-0.055, -0.03]), None);
             let limit = Limit::new(LimitKind::VelocityChange, 9.0);
             let asked = answer(&drop, &part, &limit, Model::Compliant, 0.001).unwrap();
             // The contact lasts long enough to turn the box by some thousandths.
@@ -126,7 +126,7 @@ fn a_plate_that_turns_on_lands_harder() {
         );
         let drop = read(&text).assess().unwrap().components[0].limits[0].worst_case.expect("a drop").drop;
         let limit = Limit::new(LimitKind::VelocityChange, 99.0);
-        let part = Part { across_m: -0.04, ..Part::new(-0.08, None) };
+        let part = Part::at(Place::flat([-0.08, -0.04]), None);
         let asked = answer(&drop, &part, &limit, Model::Compliant, 0.001).unwrap();
         if direction > 0.0 && spin > 0.0 {
             near(asked.value, want, 2e-3, "from a file");
@@ -138,7 +138,7 @@ fn a_plate_that_turns_on_lands_harder() {
         let scene = PlateScene::new(plate, 2.0, gaps, G).unwrap();
         let scene = scene.with_spin([spin * direction.cos(), spin * direction.sin()]).unwrap();
         let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 5e-5).unwrap();
-        let given = SingleDrop::of_plate(&scene, &contact).unwrap();
+        let given = Drop::of_plate(&scene, &contact).unwrap();
         let same = answer(&given, &part, &limit, Model::Compliant, 0.001).unwrap();
         near(same.value, asked.value, 1e-9, "as it is given");
         near(given.spin_rad_s, spin, 1e-12, "its spin");

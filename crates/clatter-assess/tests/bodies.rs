@@ -1,7 +1,6 @@
 //! Bodies: all mass and every part lies within the faces, in a file and in code.
 
-use clatter_assess::{DataFault, Depth, Error, Law, ProductFile, Spread, Width};
-use clatter_flight::{Body, ContactLaw};
+use clatter_assess::{ContactLaw, DataFault, Error, Law, ProductFile, Side, Spread};
 
 use crate::random::Random;
 
@@ -109,44 +108,44 @@ fn impossible_bodies_are_refused_where_they_stand() {
 #[test]
 fn impossible_bodies_are_refused_in_code() {
     type Change = fn(&mut ProductFile);
-    fn width(file: &mut ProductFile) -> &mut Width {
-        file.product.width.as_mut().expect("a width")
+    fn width(file: &mut ProductFile) -> &mut Side {
+        file.product.body.width.as_mut().expect("a width")
     }
-    fn depth(center_m: f64, gyration_m: f64, products_of_inertia_m2: [f64; 2]) -> Depth {
-        Depth { center_m, gyration_m, products_of_inertia_m2 }
+    fn set_depth(file: &mut ProductFile, center_m: f64, gyration_m: f64) {
+        file.product.body.thickness = Some(Side { ends_m: [0.0125 + center_m, 0.0125 - center_m], gyration_m });
     }
     let boxes: &[(Change, &str)] = &[
         (|file| width(file).gyration_m = 0.0401, "along the width is 40.1 mm; allowed: from 4 to 40 mm"),
         (|file| width(file).gyration_m = f64::NAN, "along the width is NaN mm"),
-        (
-            |file| width(file).depth = Some(depth(0.0, 0.0126, [0.0; 2])),
-            "along the thickness is 12.6 mm; allowed: from 0 to 12.5 mm",
-        ),
+        (|file| set_depth(file, 0.0, 0.0126), "along the thickness is 12.6 mm; allowed: from 0 to 12.5 mm"),
         // √(22.5 · 2.5) mm = 7.5 mm.
+        (|file| set_depth(file, 0.010, 0.0076), "along the thickness is 7.6 mm; allowed: from 0 to 7.5 mm"),
+        (|file| set_depth(file, 0.0, f64::NAN), "along the thickness is NaN mm"),
         (
-            |file| width(file).depth = Some(depth(0.010, 0.0076, [0.0; 2])),
-            "along the thickness is 7.6 mm; allowed: from 0 to 7.5 mm",
-        ),
-        (|file| width(file).depth = Some(depth(0.0, f64::NAN, [0.0; 2])), "along the thickness is NaN mm"),
-        (
-            |file| width(file).product_of_inertia_m2 = 990e-6,
+            |file| file.product.body.products_m2[0] = 990e-6,
             "inertia xy over the mass is 990 mm2; allowed: from -980.1 to 980.1 mm2",
         ),
-        (|file| width(file).product_of_inertia_m2 = f64::NAN, "inertia xy over the mass is NaN mm2"),
+        (|file| file.product.body.products_m2[0] = f64::NAN, "inertia xy over the mass is NaN mm2"),
         (
-            |file| width(file).depth = Some(depth(0.0, 0.01, [-460e-6, 0.0])),
+            |file| {
+                set_depth(file, 0.0, 0.01);
+                file.product.body.products_m2[1] = -460e-6;
+            },
             "inertia xz over the mass is -460 mm2; allowed: from -450 to 450",
         ),
         (
-            |file| width(file).depth = Some(depth(0.0, 0.01, [0.0, 230e-6])),
+            |file| {
+                set_depth(file, 0.0, 0.01);
+                file.product.body.products_m2[2] = 230e-6;
+            },
             "inertia yz over the mass is 230 mm2; allowed: from -220 to 220",
         ),
         // Both ends lean one way, the third the other: with ratios of 0.9, 0.9 and −0.9 no masses have them.
         (
             |file| {
                 let (x, y, z) = (45e-3, 22e-3, 10e-3);
-                width(file).product_of_inertia_m2 = 0.9 * x * y;
-                width(file).depth = Some(depth(0.0, z, [0.9 * x * z, -0.9 * y * z]));
+                set_depth(file, 0.0, z);
+                file.product.body.products_m2 = [0.9 * x * y, 0.9 * x * z, -0.9 * y * z];
             },
             "the products of inertia over the mass are 891, 405 and -198 mm2: no masses have them together",
         ),
@@ -169,11 +168,11 @@ fn impossible_bodies_are_refused_in_code() {
     }
     // A center of mass and all of one side's mass next to one end: ∫x y dm is at most that of a corner.
     let mut file = read(&a_box()).expect("a box");
-    file.product.body = Body::off_center(0.14, 0.02, 0.045).expect("a body");
-    width(&mut file).edges_m = [0.02, 0.06];
+    file.product.body.length.ends_m = [0.14, 0.02];
+    width(&mut file).ends_m = [0.02, 0.06];
     let told = |file: &ProductFile, product_m2: f64| {
         let mut file = file.clone();
-        width(&mut file).product_of_inertia_m2 = product_m2;
+        file.product.body.products_m2[0] = product_m2;
         file.check().map_err(|error| error.to_string())
     };
     // min(0.14 · 0.06, 0.02 · 0.02) on one side, min(0.14 · 0.02, 0.02 · 0.06) on the other, and 0.99 · 45 · 22 mm².

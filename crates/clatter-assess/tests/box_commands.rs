@@ -6,8 +6,7 @@ use clatter_assess::design::{Bounds, Lever, Outcome};
 use clatter_assess::ladder::Rung;
 use clatter_assess::scatter::{Column, Input, OfLanding, Progress, Sampler, Scatter, Settings};
 use clatter_assess::{
-    Across, Attitude, DropName, Law, Limit, LimitKind, Model, Mount, Part, Posture, ProductFile, SingleDrop, Spread,
-    Verdict, answer,
+    Attitude, Drop, DropName, Law, Limit, LimitKind, Model, Mount, Part, ProductFile, Spread, Verdict, answer,
 };
 use clatter_shock::{DampingRatio, Suspension};
 
@@ -41,32 +40,20 @@ fn varied() -> String {
 }
 
 /// A drop of a box that is turned off a face by hand, from the middle of its axes.
-fn single(
-    file: &ProductFile,
-    upward: [f64; 3],
-    [speed_m_s, tilt_deg, direction_deg, e, contact_s]: [f64; 5],
-) -> SingleDrop {
-    let width = file.product.width.unwrap();
-    let posture = Posture { upward, thickness_m: width.thickness_m.unwrap(), about: None };
-    SingleDrop {
-        body: file.product.body,
-        across: Some(Across { width, direction_rad: direction_deg.to_radians(), posture: Some(posture) }),
-        first: clatter::End::A,
-        tilt_rad: tilt_deg.to_radians(),
-        flat: false,
-        speed_m_s,
-        spin_rad_s: 0.0,
-        restitution: e,
+fn single(file: &ProductFile, base: [f64; 3], [speed_m_s, tilt_deg, direction_deg, e, contact_s]: [f64; 5]) -> Drop {
+    Drop {
+        is_level: false,
+        base,
+        direction_rad: direction_deg.to_radians(),
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: Some(contact_s),
         contact_law: file.product.law(),
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(file.product.body, speed_m_s, tilt_deg.to_radians(), e)
     }
 }
 
 /// What a drop asks of the display and of the battery, each by its limit.
-fn asked(file: &ProductFile, drop: &SingleDrop, hz: f64) -> [f64; 2] {
+fn asked(file: &ProductFile, drop: &Drop, hz: f64) -> [f64; 2] {
     [0, 1].map(|i| {
         let component = &file.components[i];
         let suspension = match component.mount {
@@ -75,8 +62,8 @@ fn asked(file: &ProductFile, drop: &SingleDrop, hz: f64) -> [f64; 2] {
             }
             Mount::Hard => None,
         };
-        let used = |[position_m, across_m]: [f64; 2]| {
-            let part = Part { across_m, inside: component.inside, ..Part::new(position_m, suspension) };
+        let used = |at_m: [f64; 2]| {
+            let part = Part::at(component.inside.place(at_m), suspension);
             answer(drop, &part, &Limit::of(component)[0], Model::Compliant, 0.01).unwrap().utilization()
         };
         component.ends_m().into_iter().map(used).fold(0.0, f64::max)

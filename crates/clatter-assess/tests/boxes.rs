@@ -7,10 +7,9 @@ use std::f64::consts::TAU;
 use crate::plates::file;
 use crate::random::Random;
 use clatter_assess::{
-    Across, Attitude, Axis, DropName, Fall, Inside, Limit, LimitAssessment, LimitKind, Model, Mount, Note, Part,
-    Posture, ProductFile, SingleDrop, Verdict, Width, WorstCase, answer,
+    Attitude, Axis, Body, Drop, DropName, Fall, Limit, LimitAssessment, LimitKind, Model, Mount, Note, Part, Place,
+    ProductFile, Side, Verdict, WorstCase, answer,
 };
-use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
@@ -218,10 +217,11 @@ fn masses_have_heights_in_a_box() {
     let text = on("face", "bottom").replace(given, masses);
     let (t, x, z) = (14e-3_f64, (0.06 * 0.04 - 0.04 * 0.045) / 0.3, (0.04 * 0.003 - 0.06 * 0.005) / 0.3);
     let y = 0.06 * 0.02 / 0.3;
-    let depth = file(&text).product.width.and_then(|width| width.depth).expect("heights");
+    let body = file(&text).product.body;
+    let thickness = body.thickness.expect("a thickness");
     let zz = (0.2 * t * t / 12.0 + 0.06 * 25e-6 + 0.04 * 9e-6) / 0.3 - z * z;
     let [xz, yz] = [-0.06 * 0.04 * 0.005 - 0.04 * 0.045 * 0.003, -0.06 * 0.02 * 0.005];
-    let found = [depth.center_m, depth.gyration_m, depth.products_of_inertia_m2[0], depth.products_of_inertia_m2[1]];
+    let found = [thickness.center_m(), thickness.gyration_m, body.products_m2[1], body.products_m2[2]];
     for (found, want) in found.into_iter().zip([z, zz.sqrt(), xz / 0.3 - x * z, yz / 0.3 - y * z]) {
         assert!((found / want - 1.0).abs() < 1e-9, "{found}, not {want}");
     }
@@ -268,30 +268,29 @@ fn a_box_that_lands_flat_on_its_end_is_one_mass() {
     assert!((battery / swings - 1.0).abs() < 0.01, "{battery}, not {swings}");
 }
 
-/// Single drops of the ranges of a file, this posture turned off by no more than its tolerance: how many limits there are, and how many of
+/// Single drops of the ranges of a file, this vertical turned off by no more than its tolerance: how many limits there are, and how many of
 /// them are exceeded by 2 %.
-fn hunted(file: &ProductFile, posture: Posture, name: &str, singles: u32, r: &mut Random) -> [u32; 2] {
+fn hunted(file: &ProductFile, base: [f64; 3], name: &str, singles: u32, r: &mut Random) -> [u32; 2] {
     let assessment = file.assess().expect("an assessment");
-    let (width, landing) = (file.product.width.expect("a width"), file.landings[0]);
+    let landing = file.landings[0];
     let (mut limits, mut passed) = (0, 0);
     for (component, assessed) in file.components.iter().zip(&assessment.components) {
         let (limit, told) = (Limit::of(component)[0], &assessed.limits[0]);
         let shares: Vec<[f64; 5]> = (0..singles).map(|_| std::array::from_fn(|_| r.unit())).collect();
         let single = |x: &[f64; 5]| {
-            let drop = SingleDrop {
-                body: file.product.body,
-                across: Some(Across { width, direction_rad: TAU * x[0], posture: Some(posture) }),
-                first: clatter::End::A,
-                tilt_rad: landing.tolerance_rad() * x[1].sqrt(),
-                flat: false,
-                speed_m_s: file.drop.speeds_m_s()[1],
-                spin_rad_s: 0.0,
-                restitution: file.product.restitution.at(if x[2] < 0.5 { 1.0 } else { x[4] }),
+            let drop = Drop {
+                is_level: false,
+                base,
+                direction_rad: TAU * x[0],
                 gravity_m_s2: file.drop.gravity_m_s2,
                 contact_time_s: file.product.contact_time_s.map(|time| time.at(x[3])),
                 contact_law: file.product.law(),
-                feet: None,
-                own_contacts: clatter_assess::OwnContacts::NONE,
+                ..Drop::new(
+                    file.product.body,
+                    file.drop.speeds_m_s()[1],
+                    landing.tolerance_rad() * x[1].sqrt(),
+                    file.product.restitution.at(if x[2] < 0.5 { 1.0 } else { x[4] }),
+                )
             };
             let places = component.ends_m();
             #[expect(
@@ -300,7 +299,7 @@ fn hunted(file: &ProductFile, posture: Posture, name: &str, singles: u32, r: &mu
                 clippy::cast_precision_loss,
                 reason = "few"
             )]
-            let [position_m, across_m] = places[(x[4] * places.len() as f64) as usize % places.len()];
+            let at_m = places[(x[4] * places.len() as f64) as usize % places.len()];
             let suspension = match component.mount {
                 Mount::Suspended { frequency_hz, damping } => {
                     let ratio = DampingRatio::new(damping.ratios()[0]).expect("a ratio");
@@ -308,7 +307,7 @@ fn hunted(file: &ProductFile, posture: Posture, name: &str, singles: u32, r: &mu
                 }
                 Mount::Hard => None,
             };
-            let part = Part { across_m, inside: component.inside, ..Part::new(position_m, suspension) };
+            let part = Part::at(component.inside.place(at_m), suspension);
             answer(&drop, &part, &limit, Model::Compliant, 0.02).map_or(0.0, |answer| answer.utilization())
         };
         let most = shares.par_iter().map(single).reduce(|| 0.0, f64::max);
@@ -340,13 +339,9 @@ fn no_single_drop_of_a_box_is_worse() {
             .replace("\"0.4 ms\"", "[\"0.3 ms\", \"0.5 ms\"]")
             .replace("\"14 mm\"", &format!("\"{:.6} mm\"", r.even(10.0, 50.0)));
         let file = file(&text);
-        let (width, thickness_m) =
-            (file.product.width.expect("a width"), file.product.width.and_then(|w| w.thickness_m));
-        let thickness_m = thickness_m.expect("a thickness");
-        let [a, b] = file.product.body.arms_m();
         let down: Vec<f64> = ["end-a end-b", "front back", "bottom top"]
             .iter()
-            .zip([[a, b], width.edges_m, [0.5 * thickness_m; 2]])
+            .zip(file.product.body.faces_m().expect("a box"))
             .map(|(names, sides)| {
                 let (low, high) = names.split_once(' ').expect("two names");
                 if faces.contains(low) {
@@ -359,8 +354,8 @@ fn no_single_drop_of_a_box_is_worse() {
             })
             .collect();
         let size = down.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let posture = Posture { upward: [-down[0] / size, -down[1] / size, -down[2] / size], thickness_m, about: None };
-        let [of_one, passed_of_one] = hunted(&file, posture, &name, singles, &mut r);
+        let base = [-down[0] / size, -down[1] / size, -down[2] / size];
+        let [of_one, passed_of_one] = hunted(&file, base, &name, singles, &mut r);
         (limits, passed) = (limits + of_one, passed + passed_of_one);
     }
     assert!(passed * 4 <= limits, "{passed} of {limits} passed by more than 2 %");
@@ -379,14 +374,11 @@ fn a_box_that_stands_topples() {
     // Falling takes it some √(L/g), 0.1 s.
     assert!(worst.time_s > 0.1, "{worst:?}");
     let mut r = Random(7);
-    let width = file.product.width.expect("a width");
-    let posture =
-        Posture { upward: [-1.0, 0.0, 0.0], thickness_m: width.thickness_m.expect("a thickness"), about: None };
-    let part = Part { inside: file.components[0].inside, ..worst.part };
+    let part = Part::at(file.components[0].inside.place(worst.part.place.plan_m()), worst.part.suspension);
     let turned: Vec<[f64; 2]> = (0..64).map(|_| [r.unit(), r.unit()]).collect();
     let asked = |[turn, tilt]: &[f64; 2]| {
-        let across = Some(Across { width, direction_rad: TAU * turn, posture: Some(posture) });
-        let drop = SingleDrop { across, tilt_rad: file.landings[0].tolerance_rad() * tilt.sqrt(), ..worst.drop };
+        let tilt_rad = file.landings[0].tolerance_rad() * tilt.sqrt();
+        let drop = Drop { base: [-1.0, 0.0, 0.0], direction_rad: TAU * turn, tilt_rad, ..worst.drop };
         answer(&drop, &part, &Limit::of(&file.components[0])[0], Model::Compliant, 0.02).expect("an answer").value
     };
     let most = turned.par_iter().map(asked).reduce(|| 0.0, f64::max);
@@ -415,11 +407,9 @@ fn no_single_drop_of_a_tilted_box_is_worse() {
             .replace("restitution = 0.4", &format!("restitution = [{e:.6}, {:.6}]", e + 0.1))
             .replace("\"14 mm\"", &format!("\"{:.6} mm\"", r.even(10.0, 50.0)));
         let file = file(&text);
-        let thickness_m = file.product.width.and_then(|width| width.thickness_m).expect("a thickness");
         let ((sin, cos), (across, along)) = (tilt.to_radians().sin_cos(), direction.to_radians().sin_cos());
-        let posture = Posture { upward: [sin * along, sin * across, cos], thickness_m, about: None };
         let name = format!("tilt {tilt:.2} to {direction:.2} within {tolerance:.2}");
-        let [of_one, _] = hunted(&file, posture, &name, singles, &mut r);
+        let [of_one, _] = hunted(&file, [sin * along, sin * across, cos], &name, singles, &mut r);
         limits += of_one;
     }
     assert_eq!(limits, 2 * boxes);
@@ -505,30 +495,17 @@ fn a_standard_goes_by_the_largest_side() {
 }
 
 /// A single drop of a box, turned off lying on its bottom.
-fn one([length, width, thickness_m]: [f64; 3], [kx, ky]: [f64; 2], center: [f64; 2], upward: [f64; 3]) -> SingleDrop {
-    let edges_m = [0.5 * width + center[1], 0.5 * width - center[1]];
-    let width =
-        Width { edges_m, gyration_m: ky, product_of_inertia_m2: 0.0, thickness_m: Some(thickness_m), depth: None };
-    SingleDrop {
-        body: Body::off_center(0.5 * length + center[0], 0.5 * length - center[0], kx).expect("a body"),
-        across: Some(Across { width, direction_rad: 0.0, posture: Some(Posture { upward, thickness_m, about: None }) }),
-        first: clatter::End::A,
-        tilt_rad: 0.0,
-        flat: false,
-        speed_m_s: 3.0,
-        spin_rad_s: 0.0,
-        restitution: 0.3,
-        gravity_m_s2: 9.806_65,
-        contact_time_s: Some(1e-4),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
-    }
+fn one([length, width, thickness]: [f64; 3], [kx, ky]: [f64; 2], center: [f64; 2], base: [f64; 3]) -> Drop {
+    let bar = Body::off_center(0.5 * length + center[0], 0.5 * length - center[0], kx).expect("a body");
+    let width = Side { ends_m: [0.5 * width + center[1], 0.5 * width - center[1]], gyration_m: ky };
+    let body = bar.with_width(width).with_thickness(Side::even(thickness));
+    Drop { is_level: false, base, contact_time_s: Some(1e-4), ..Drop::new(body, 3.0, 0.0, 0.3) }
 }
 
-fn asked(drop: &SingleDrop, [x, y, height_m]: [f64; 3], axis: Axis, kind: LimitKind) -> f64 {
-    let part = Part { across_m: y, inside: Inside { height_m, axis }, ..Part::new(x, None) };
-    answer(drop, &part, &Limit::new(kind, 1.0), Model::Compliant, 0.01).expect("an answer").value
+fn asked(drop: &Drop, at_m: [f64; 3], axis: Axis, kind: LimitKind) -> f64 {
+    answer(drop, &Part::at(Place { at_m, axis }, None), &Limit::new(kind, 1.0), Model::Compliant, 0.01)
+        .expect("an answer")
+        .value
 }
 
 /// Off center and hardly tilted, a thin box does what a plate does, in every direction.
@@ -536,11 +513,8 @@ fn asked(drop: &SingleDrop, [x, y, height_m]: [f64; 3], axis: Axis, kind: LimitK
 fn a_drop_of_a_thin_box_is_that_of_a_plate() {
     for turn in [0.06, 0.31, 0.56, 0.81] {
         let mut lying = one([0.15, 0.07, 0.004], [0.043, 0.02], [0.008, -0.006], [0.0, 0.0, 1.0]);
-        lying.tilt_rad = 0.02;
-        lying.across = lying.across.map(|across| Across { direction_rad: TAU * turn, ..across });
-        let first = if turn > 0.25 && turn < 0.75 { clatter::End::B } else { clatter::End::A };
-        let across = lying.across.map(|across| Across { posture: None, ..across });
-        let plate = SingleDrop { across, first, ..lying };
+        (lying.tilt_rad, lying.direction_rad) = (0.02, TAU * turn);
+        let plate = Drop { is_level: true, ..lying };
         for kind in [LimitKind::Acceleration, LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
             let [one, other] = [&lying, &plate].map(|drop| asked(drop, [0.03, -0.02, 0.0], Axis::Z, kind));
             // One of the axes about which turns are looked at is within 3 % of any; thickness and tilt do some thousandths.
@@ -554,15 +528,10 @@ fn a_drop_of_a_thin_box_is_that_of_a_plate() {
 #[test]
 fn a_mirrored_plate_does_the_same() {
     let drop = |side: f64, turn: f64| {
-        let lying = one([0.15, 0.07, 0.004], [0.043, 0.02], [side * 0.008, -0.006], [0.0, 0.0, 1.0]);
+        let mut lying = one([0.15, 0.07, 0.004], [0.043, 0.02], [side * 0.008, -0.006], [0.0, 0.0, 1.0]);
+        lying.body.products_m2[0] = side * 4e-4;
         let direction_rad = if side > 0.0 { TAU * turn } else { TAU * (0.5 - turn) };
-        let across = lying.across.map(|across| Across {
-            width: Width { product_of_inertia_m2: side * 4e-4, ..across.width },
-            direction_rad,
-            posture: None,
-        });
-        let first = if direction_rad.cos() < 0.0 { clatter::End::B } else { clatter::End::A };
-        SingleDrop { across, first, tilt_rad: 0.02, ..lying }
+        Drop { is_level: true, direction_rad, tilt_rad: 0.02, ..lying }
     };
     for turn in [0.06, 0.31, 0.56, 0.81] {
         for kind in [LimitKind::Acceleration, LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
@@ -665,7 +634,7 @@ fn rebounds_of_a_box_leave_limits_undecided() {
 fn a_part_lies_within_the_width() {
     let drop = one([0.15, 0.07, 0.014], [0.043, 0.02], [0.0, 0.0], [0.0, 0.0, 1.0]);
     for (across_m, is_there) in [(0.035, true), (-0.035, true), (0.036, false), (-0.05, false)] {
-        let part = Part { across_m, ..Part::new(0.0, None) };
+        let part = Part::at(Place::flat([0.0, across_m]), None);
         let found = answer(&drop, &part, &Limit::new(LimitKind::VelocityChange, 1.0), Model::Compliant, 0.01);
         assert_eq!(found.is_ok(), is_there, "{across_m}: {found:?}");
     }
@@ -676,9 +645,8 @@ fn a_part_lies_within_the_width() {
 fn directions_are_told_as_compasses_have_them() {
     let drop = one([0.15, 0.07, 0.014], [0.043, 0.02], [0.0, 0.0], [0.0, 0.0, 1.0]);
     for (turn, told) in [(-0.25, 270.0), (0.25, 90.0), (1.125, 45.0), (0.0, 0.0)] {
-        let across = drop.across.map(|across| Across { direction_rad: TAU * turn, ..across });
         let worst = WorstCase {
-            drop: SingleDrop { across, ..drop },
+            drop: Drop { direction_rad: TAU * turn, ..drop },
             part: Part::new(0.0, None),
             landing: None,
             listed: 0,

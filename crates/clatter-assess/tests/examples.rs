@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clatter_assess::{
-    Accuracy, Assessment, Component, Limit, LimitAssessment, LimitKind, Model, Mount, Part, ProductFile, SingleDrop,
-    Verdict, answer,
+    Accuracy, Assessment, Component, Drop, Limit, LimitAssessment, LimitKind, Model, Mount, Part, ProductFile, Verdict,
+    answer,
 };
 use rayon::prelude::*;
 
@@ -58,29 +58,27 @@ const TILTS: u32 = 80;
 const FREQUENCIES: u32 = 2;
 
 /// Drops of the whole range of tilts, at the ends and in the middle of those of speed and restitution.
-fn drops(file: &ProductFile) -> Vec<SingleDrop> {
+fn drops(file: &ProductFile) -> Vec<Drop> {
     let [slow, fast] = file.drop.speeds_m_s();
     let mut drops = Vec::new();
     for &first in file.drop.first_ends() {
         for tilt in (0..=TILTS).chain([0]) {
             // Without a contact time the drop with the least tilt lands flat as well.
             let again = tilt == 0 && drops.len() > 1;
-            let flat = again && file.product.contact_time_s.is_none() && file.drop.tilt_rad.lo() == 0.0;
+            let is_flat = again && file.product.contact_time_s.is_none() && file.drop.tilt_rad.lo() == 0.0;
             for (speed, e) in [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (1.0, 0.5), (0.5, 1.0)] {
-                drops.push(SingleDrop {
-                    body: file.product.body,
-                    across: None,
-                    first,
-                    tilt_rad: file.drop.tilt_rad.at(f64::from(tilt) / f64::from(TILTS)),
-                    flat,
-                    speed_m_s: slow + speed * (fast - slow),
-                    spin_rad_s: 0.0,
-                    restitution: file.product.restitution.at(e),
+                drops.push(Drop {
+                    direction_rad: Drop::towards(first),
+                    is_flat,
                     gravity_m_s2: file.drop.gravity_m_s2,
                     contact_time_s: file.product.contact_time_s.map(|time| time.lo()),
                     contact_law: file.product.law(),
-                    feet: None,
-                    own_contacts: clatter_assess::OwnContacts::NONE,
+                    ..Drop::new(
+                        file.product.body,
+                        slow + speed * (fast - slow),
+                        file.drop.tilt_rad.at(f64::from(tilt) / f64::from(TILTS)),
+                        file.product.restitution.at(e),
+                    )
                 });
             }
         }
@@ -89,7 +87,7 @@ fn drops(file: &ProductFile) -> Vec<SingleDrop> {
 }
 
 /// What one drop asks of a limit, at the worse end of the component and its worst natural frequency.
-fn utilization(drop: &SingleDrop, component: &Component, limit: &Limit) -> f64 {
+fn utilization(drop: &Drop, component: &Component, limit: &Limit) -> f64 {
     let suspensions = match component.mount {
         Mount::Suspended { frequency_hz, damping } => {
             assert!(damping.spread().is_value(), "the products have one damping each");
@@ -104,7 +102,8 @@ fn utilization(drop: &SingleDrop, component: &Component, limit: &Limit) -> f64 {
         .ends_m()
         .into_iter()
         .flat_map(|[position_m, _]| suspensions.iter().map(move |&suspension| Part::new(position_m, suspension)));
-    let asked = parts.map(|part| answer(drop, &part, limit, drop.fullest(), 0.01).expect("an answer").utilization());
+    let asked =
+        parts.map(|part| answer(drop, &part, limit, Model::fullest(drop), 0.01).expect("an answer").utilization());
     asked.fold(0.0, f64::max)
 }
 
@@ -169,7 +168,7 @@ fn a_search_that_is_stopped_calls_nothing_safe_but_by_energy() {
 /// What the file of `clatter init` says of restitution and contact times follows from what its sources say.
 #[test]
 fn the_numbers_of_the_example_are_those_of_their_sources() {
-    use clatter_flight::{Body, Contact, ContactLaw, Scene};
+    use clatter_flight::{Contact, ContactLaw, Profile, Scene};
     let text = clatter_assess::EXAMPLE;
     let says = |what: &str| assert!(text.contains(what), "{what}");
     assert!((clatter_assess::STANDARD_GRAVITY_M_S2 - 9.806_65).abs() < 1e-15);
@@ -189,7 +188,7 @@ fn the_numbers_of_the_example_are_those_of_their_sources() {
     let time_s = std::f64::consts::FRAC_PI_2 * (1.0 + e) * gives_m / v;
     assert_eq!(format!("{:.2}", 1e3 * time_s), "0.84");
     says("0.84 ms for 2 mm at 4.85 m/s and e = 0.3");
-    let scene = Scene::new(Body::new(1.0, 0.3).unwrap(), e, v, 10.0, 0.0).unwrap();
+    let scene = Scene::new(Profile::new(1.0, 0.3).unwrap(), e, v, 10.0, 0.0).unwrap();
     let flight =
         scene.fly(clatter_flight::Model::Contacts(Contact::new(ContactLaw::Hysteretic, e, time_s).unwrap())).unwrap();
     let lowest = (0..=1000).map(|k| flight.at(time_s * f64::from(k) / 1000.0).height_m[0]).fold(0.0, f64::min);

@@ -87,8 +87,8 @@ fn a_part_may_lie_beyond_the_feet() {
     let limit = &assessment.components[1].limits[0];
     let (worst, demand) = (limit.worst_case.as_ref().unwrap(), limit.demand.unwrap());
     let [a, b] = worst.drop.body.arms_m();
-    let (a, b, side) = if worst.drop.first == clatter::End::A { (a, b, 1.0) } else { (b, a, -1.0) };
-    let body = clatter_flight::Body::off_center(a, b, worst.drop.body.gyration_m()).unwrap();
+    let (a, b, side) = if worst.drop.first() == clatter::End::A { (a, b, 1.0) } else { (b, a, -1.0) };
+    let body = clatter_flight::Profile::off_center(a, b, worst.drop.body.gyration_m()).unwrap();
     let drop = &worst.drop;
     let scene = clatter_flight::Scene::new(
         body,
@@ -191,7 +191,7 @@ fn feet_that_cannot_be_are_refused() {
     );
     // Built in code.
     let mut file = read(LAPTOP);
-    file.product.feet.as_mut().unwrap().height_m = 2e-3;
+    file.product.body.feet.as_mut().unwrap().height_m = 2e-3;
     assert!(file.check().unwrap_err().to_string().contains("at a tilt of 8 deg an edge touches before the foot"));
 }
 

@@ -13,7 +13,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::random::Random;
 use clatter::End;
-use clatter_assess::{Answer, ContactLaw, Limit, LimitKind, Model, Part, SingleDrop, answer};
+use clatter_assess::{Answer, ContactLaw, Drop, Limit, LimitKind, Model, Part, answer};
 use clatter_flight::Body;
 use clatter_shock::{DampingRatio, Suspension};
 use plain::Plain;
@@ -24,7 +24,7 @@ const G: f64 = 9.80665;
 /// A bar of 60 to 400 mm, its center of mass in the middle or up to 0.15 of the half-length off it; tilts up to `tilt_deg`;
 /// contacts of 0.1 to 1.5 ms, where that is no longer than the flight takes. Of e between 0 and 0.03 (a dashpot: from 0 on) the
 /// plain integration would take steps too many.
-fn any_drop(r: &mut Random, tilt_deg: f64) -> SingleDrop {
+fn any_drop(r: &mut Random, tilt_deg: f64) -> Drop {
     let (half, q) = (0.5 * r.decades(0.06, 0.4), r.even(-0.2, 0.85));
     let off = if r.unit() < 0.5 { 0.0 } else { r.even(-0.15, 0.15) };
     let body = Body::off_center(half * (1.0 + off), half * (1.0 - off), half * ((1.0 - q) / (1.0 + q)).sqrt());
@@ -34,24 +34,18 @@ fn any_drop(r: &mut Random, tilt_deg: f64) -> SingleDrop {
         _ => (ContactLaw::Dashpot, r.even(0.05, 0.95)),
     };
     let speed_m_s = r.decades(0.7, 6.0);
-    SingleDrop {
-        body: body.expect("a body"),
-        across: None,
-        first: if r.unit() < 0.5 { End::A } else { End::B },
-        tilt_rad: r.even(0.0, tilt_deg).to_radians(),
-        flat: false,
-        speed_m_s,
-        spin_rad_s: 0.0,
-        restitution,
+    let first = if r.unit() < 0.5 { End::A } else { End::B };
+    let tilt_rad = r.even(0.0, tilt_deg).to_radians();
+    Drop {
+        direction_rad: Drop::towards(first),
         gravity_m_s2: G,
         contact_time_s: Some(r.decades(1e-4, 1.5e-3).min(0.09 * 2.0 * half / speed_m_s)),
         contact_law,
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(body.expect("a body"), speed_m_s, tilt_rad, restitution)
     }
 }
 
-fn any_part(r: &mut Random, drop: &SingleDrop) -> (Part, LimitKind) {
+fn any_part(r: &mut Random, drop: &Drop) -> (Part, LimitKind) {
     let position_m = r.even(-0.5, 0.5) * drop.body.length_m();
     let damping = DampingRatio::new(r.decades(3e-3, 10.0)).expect("a ratio");
     let suspension = Some(Suspension::from_hz(r.decades(20.0, 2000.0), damping).expect("a suspension"));
@@ -81,10 +75,10 @@ struct Run {
 
 impl Run {
     /// Seen from the other side where end b is first; a little faster or already turning.
-    fn new(drop: &SingleDrop, part: &Part, [faster, spin]: [f64; 2]) -> Self {
+    fn new(drop: &Drop, part: &Part, [faster, spin]: [f64; 2]) -> Self {
         let (arms, rho) = (drop.body.arms_m(), drop.body.gyration_m());
-        let from_center = part.position_m + 0.5 * (arms[1] - arms[0]);
-        let ([a, b], x) = if drop.first == End::A { (arms, from_center) } else { ([arms[1], arms[0]], -from_center) };
+        let from_center = part.place.at_m[0] + 0.5 * (arms[1] - arms[0]);
+        let ([a, b], x) = if drop.first() == End::A { (arms, from_center) } else { ([arms[1], arms[0]], -from_center) };
         let time_s = drop.contact_time_s.expect("a contact time");
         let law = (drop.contact_law, drop.restitution, time_s);
         let plain = Plain::new(&[[-a, 0.0], [b, 0.0]], rho, drop.gravity_m_s2, law);
@@ -201,7 +195,7 @@ struct Compared {
 /// A change of the drop by which its sensitivity is measured.
 const SHAKEN: f64 = 1e-5;
 
-fn off(drop: &SingleDrop, part: &Part, kind: LimitKind, tolerance: f64) -> Option<(Compared, Answer)> {
+fn off(drop: &Drop, part: &Part, kind: LimitKind, tolerance: f64) -> Option<(Compared, Answer)> {
     let limit = Limit::new(kind, 1.0);
     let asked = answer(drop, part, &limit, Model::Compliant, tolerance).unwrap_or_else(|e| panic!("{e}: {drop:?}"));
     // To the peak, and all through the clatter: a period of the part longer.

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use clatter::End;
-use clatter_assess::{Answer, ContactLaw, Limit, LimitKind, Model, Part, SingleDrop, answer};
+use clatter_assess::{Answer, ContactLaw, Drop, Limit, LimitKind, Model, Part, answer};
 use clatter_flight::{Body, Contact, Scene};
 use clatter_shock::{DampingRatio, Suspension};
 
@@ -14,27 +13,16 @@ fn soft(frequency_hz: f64, ratio: f64) -> Suspension {
 }
 
 /// What one drop asks of the rattle space of a part in the middle.
-fn displaced(drop: &SingleDrop, suspension: Suspension, model: Model) -> Answer {
+fn displaced(drop: &Drop, suspension: Suspension, model: Model) -> Answer {
     let part = Part::new(0.0, Some(suspension));
     answer(drop, &part, &Limit::new(LimitKind::RattleSpace, 1.0), model, 0.01).expect("an answer")
 }
 
 /// A drop of a centered bar of 200 mm with a radius of gyration of 98 mm, |q| = 0.02.
-fn drop(restitution: f64, tilt_deg: f64, speed_m_s: f64) -> SingleDrop {
-    SingleDrop {
-        body: Body::new(0.2, 0.098).expect("a body"),
-        across: None,
-        first: End::A,
-        tilt_rad: tilt_deg.to_radians(),
-        flat: false,
-        speed_m_s,
-        spin_rad_s: 0.0,
-        restitution,
+fn drop(restitution: f64, tilt_deg: f64, speed_m_s: f64) -> Drop {
+    Drop {
         gravity_m_s2: G,
-        contact_time_s: None,
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(Body::new(0.2, 0.098).expect("a body"), speed_m_s, tilt_deg.to_radians(), restitution)
     }
 }
 
@@ -68,7 +56,7 @@ fn what_is_left_of_a_long_motion_is_bounded() {
             let (after, peak) = ring(state, &part, 2.0 * approach / G);
             (state, most) = (after, most.max(peak));
         }
-        let asked = displaced(&SingleDrop { flat: true, ..drop(e, 0.0, v0) }, part, Model::FiniteTilt);
+        let asked = displaced(&Drop { is_flat: true, ..drop(e, 0.0, v0) }, part, Model::FiniteTilt);
         assert!(asked.value <= most * 1.01 && most <= asked.value + asked.off_by.max(1e-3 * most), "{asked:?}, {most}");
     }
 }
@@ -80,7 +68,7 @@ fn elastic_products_are_answered() {
         let part = soft(60.0, 0.05);
         let instant = displaced(&drop(e, 1.0, 2.0), part, Model::FiniteTilt);
         for contact_law in ContactLaw::ALL {
-            let drop = SingleDrop { contact_law, contact_time_s: Some(4e-4), ..drop(e, 1.0, 2.0) };
+            let drop = Drop { contact_law, contact_time_s: Some(4e-4), ..drop(e, 1.0, 2.0) };
             let asked = displaced(&drop, part, Model::Compliant);
             close(asked.value, instant.value, 2e-3);
             // What is cut short may do more, and not without end.
@@ -120,7 +108,7 @@ fn the_weight_is_on_at_rest() {
     let v0 = speed(0.01);
     for (frequency, ratio) in [(2.0, 0.05), (1.0, 0.3), (5.0, 0.01)] {
         let part = soft(frequency, ratio);
-        let asked = displaced(&SingleDrop { flat: true, ..drop(0.0, 0.0, v0) }, part, Model::FiniteTilt);
+        let asked = displaced(&Drop { is_flat: true, ..drop(0.0, 0.0, v0) }, part, Model::FiniteTilt);
         close(asked.value, carried(v0, &part), 1e-5);
         assert!(asked.value > v0 / part.omega());
     }
@@ -156,9 +144,11 @@ rattle_space = "500 mm"
 
 /// The largest |z| of a part that every strike kicks and that carries its weight from when the product lies still, by steps
 /// (Runge-Kutta) of a thousandth of a radian, or as long as the contacts of small rebounds where these come more often.
-fn followed(drop: &SingleDrop, part: &Suspension) -> f64 {
+fn followed(drop: &Drop, part: &Suspension) -> f64 {
     let (omega, zeta) = (part.omega(), part.damping().get());
-    let scene = Scene::new(drop.body, drop.restitution, drop.speed_m_s, drop.tilt_rad.to_degrees(), G).unwrap();
+    let scene =
+        Scene::new(drop.body.profile().unwrap(), drop.restitution, drop.speed_m_s, drop.tilt_rad.to_degrees(), G)
+            .unwrap();
     let contact = Contact::new(drop.contact_law, drop.restitution, drop.contact_time_s.unwrap()).unwrap();
     let flight = scene.fly(clatter_flight::Model::Contacts(contact)).unwrap();
     let rest = flight.stop.time_s();
@@ -183,12 +173,8 @@ fn followed(drop: &SingleDrop, part: &Suspension) -> f64 {
 #[test]
 fn the_weight_of_a_soft_part_counts_after_small_rebounds() {
     for e in [0.2, 0.5, 0.8] {
-        let drop = SingleDrop {
-            body: Body::new(0.12, 0.035).expect("a body"),
-            across: None,
-            contact_time_s: Some(4e-4),
-            ..drop(e, 10.0, 1.5)
-        };
+        let drop =
+            Drop { body: Body::new(0.12, 0.035).expect("a body"), contact_time_s: Some(4e-4), ..drop(e, 10.0, 1.5) };
         for omega in [1.0, 3.0, 8.0, 15.0] {
             let part = soft(omega / TAU, 0.05);
             let (asked, most) = (displaced(&drop, part, Model::Compliant), followed(&drop, &part));

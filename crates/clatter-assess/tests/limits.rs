@@ -4,10 +4,9 @@ use clatter::End;
 use clatter_assess::ladder::{Groups, Ladder};
 use clatter_assess::scatter::{Sampler, Settings};
 use clatter_assess::{
-    Accuracy, Across, Damping, Law, Limit, LimitKind, Model, OwnContacts, Part, ProductFile, SingleDrop, Spread, Unit,
-    Verdict, answer, repeat,
+    Accuracy, Body, Damping, Drop, Law, Limit, LimitKind, Model, Part, Place, ProductFile, Spread, Unit, Verdict,
+    answer, repeat,
 };
-use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
 
 /// A product of which one part has a limit of each kind, weak or strong.
@@ -100,20 +99,10 @@ fn every_kind_has_names_of_its_own() {
 #[test]
 fn the_largest_shock_is_the_largest_of_the_train() {
     for (first, e) in [(End::A, 0.1), (End::B, 0.1), (End::A, 0.4), (End::B, 0.4)] {
-        let drop = SingleDrop {
-            body: Body::off_center(0.09, 0.06, 0.045).expect("a body"),
-            across: None,
-            first,
-            tilt_rad: 0.02,
-            flat: false,
-            speed_m_s: 3.0,
-            spin_rad_s: 0.0,
-            restitution: e,
+        let drop = Drop {
+            direction_rad: Drop::towards(first),
             gravity_m_s2: 0.0,
-            contact_time_s: None,
-            contact_law: ContactLaw::Hysteretic,
-            feet: None,
-            own_contacts: OwnContacts::NONE,
+            ..Drop::new(Body::off_center(0.09, 0.06, 0.045).expect("a body"), 3.0, 0.02, e)
         };
         for kind in [LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
             let of =
@@ -127,20 +116,10 @@ fn the_largest_shock_is_the_largest_of_the_train() {
 /// Damage needs both: a shock uses up as much of a damage boundary as of the limit that it uses less of, and is told in its unit.
 #[test]
 fn a_damage_boundary_is_used_up_by_the_lesser_share() {
-    let drop = SingleDrop {
-        body: Body::new(0.15, 0.045).expect("a body"),
-        across: None,
-        first: End::A,
-        tilt_rad: 0.0,
-        flat: false,
-        speed_m_s: 3.0,
-        spin_rad_s: 0.0,
-        restitution: 0.3,
+    let drop = Drop {
         gravity_m_s2: 0.0,
         contact_time_s: Some(2e-4),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: OwnContacts::NONE,
+        ..Drop::new(Body::new(0.15, 0.045).expect("a body"), 3.0, 0.0, 0.3)
     };
     let of = |limit: &Limit| answer(&drop, &Part::new(0.0, None), limit, Model::Compliant, 0.01).expect("an answer");
     for (change, acceleration, unit) in [(1.0, 1e5, Unit::MeterPerSecondSquared), (10.0, 1e3, Unit::MeterPerSecond)] {
@@ -164,23 +143,13 @@ fn a_damage_boundary_is_used_up_by_the_lesser_share() {
 #[test]
 fn a_damage_boundary_is_as_exact_as_its_shares() {
     let laptop = read(include_str!("../../../reports/examples/laptop.toml")).product;
-    let width = laptop.width.expect("a plate");
-    let drop = SingleDrop {
-        body: laptop.body,
-        across: Some(Across { width, direction_rad: 84.98_f64.to_radians(), posture: None }),
-        first: End::A,
-        tilt_rad: 7.01_f64.to_radians(),
-        flat: false,
-        speed_m_s: 3.861,
-        spin_rad_s: 0.0,
-        restitution: 0.35,
-        gravity_m_s2: 9.806_65,
+    assert!(laptop.body.is_wide(), "a plate");
+    let drop = Drop {
+        direction_rad: 84.98_f64.to_radians(),
         contact_time_s: Some(1e-3),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: OwnContacts::NONE,
+        ..Drop::new(laptop.body, 3.861, 7.01_f64.to_radians(), 0.35)
     };
-    let part = Part { across_m: 0.104, ..Part::new(0.0165, None) };
+    let part = Part::at(Place::flat([0.0165, 0.104]), None);
     let ask = |limit: &Limit| answer(&drop, &part, limit, Model::Compliant, 0.01).expect("an answer");
     let [change, acceleration] =
         [LimitKind::VelocityChange, LimitKind::Acceleration].map(|kind| ask(&Limit::new(kind, 1.0)));
@@ -206,20 +175,10 @@ fn quality_factors_are_damping_ratios_from_the_least() {
 /// What a part forgets between two strikes, ζ ω Δt, is its damping ratio times ω τ over τ/Δt.
 #[test]
 fn the_groups_of_a_drop_belong_together() {
-    let drop = SingleDrop {
-        body: Body::new(0.15, 0.045).expect("a body"),
-        across: None,
-        first: End::A,
-        tilt_rad: 0.05,
-        flat: false,
-        speed_m_s: 3.0,
-        spin_rad_s: 0.0,
-        restitution: 0.3,
+    let drop = Drop {
         gravity_m_s2: 9.81,
         contact_time_s: Some(2e-4),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: OwnContacts::NONE,
+        ..Drop::new(Body::new(0.15, 0.045).expect("a body"), 3.0, 0.05, 0.3)
     };
     let ratio = DampingRatio::new(0.07).expect("a ratio");
     let part = Part::new(0.0, Some(Suspension::from_hz(120.0, ratio).expect("a part")));

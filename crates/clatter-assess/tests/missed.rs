@@ -2,7 +2,7 @@
 
 use clatter::End;
 use clatter_assess::{
-    Assessment, Component, Limit, LimitAssessment, LimitKind, Model, Part, ProductFile, SingleDrop, Verdict, answer,
+    Assessment, Component, Drop, Limit, LimitAssessment, LimitKind, Model, Part, Place, ProductFile, Verdict, answer,
 };
 use clatter_shock::{DampingRatio, Suspension};
 
@@ -41,20 +41,17 @@ fn a_bar_that_fails_after_thirteen_impacts_is_not_safe() {
     let assessment = file.assess().expect("an assessment");
     let limit = limit(&assessment, 2, LimitKind::Acceleration);
     assert_eq!(limit.verdict, Verdict::Unsafe, "{limit:?}");
-    let drop = SingleDrop {
-        body: file.product.body,
-        across: None,
-        first: End::B,
-        tilt_rad: 1.639_325_910_883_513_2_f64.to_radians(),
-        flat: false,
-        speed_m_s: 5.947_769_632_141_426,
-        spin_rad_s: 0.0,
-        restitution: 0.872_231_693_210_669_1,
+    let drop = Drop {
+        direction_rad: Drop::towards(End::B),
         gravity_m_s2: file.drop.gravity_m_s2,
-        contact_time_s: None,
         contact_law: file.product.law(),
-        feet: None,
         own_contacts: file.product.own_contacts,
+        ..Drop::new(
+            file.product.body,
+            5.947_769_632_141_426,
+            1.639_325_910_883_513_2_f64.to_radians(),
+            0.872_231_693_210_669_1,
+        )
     };
     let [end_m, _] = file.components[2].ends_m()[0];
     let part = Part::new(end_m, Some(suspension(43.788_572_573_449_336, 0.05)));
@@ -77,9 +74,8 @@ fn a_plate_is_searched_next_to_its_edges() {
         let told = told(limit(&assessment, n, LimitKind::RattleSpace));
         for direction in about.into_iter().flat_map(|at| [-0.4, -0.2, -0.1, 0.0, 0.1, 0.2, 0.4].map(|off| at + off)) {
             for tilt in [4.0_f64, 5.0, 6.2, 7.469_865_22] {
-                let mut across = worst.drop.across.expect("a plate");
-                across.direction_rad = direction.to_radians();
-                let tilted = SingleDrop { tilt_rad: tilt.to_radians(), across: Some(across), ..worst.drop };
+                let [direction_rad, tilt_rad] = [direction, tilt].map(f64::to_radians);
+                let tilted = Drop { direction_rad, tilt_rad, ..worst.drop };
                 let asked = most(&tilted, component);
                 assert!(asked <= told, "{} at {tilt}° towards {direction}°: {asked}, not {told}", component.name);
             }
@@ -88,19 +84,13 @@ fn a_plate_is_searched_next_to_its_edges() {
 }
 
 /// The most that a part at either end of its frequencies and its place displaces.
-fn most(drop: &SingleDrop, component: &Component) -> f64 {
+fn most(drop: &Drop, component: &Component) -> f64 {
     let clatter_assess::Mount::Suspended { frequency_hz, damping } = component.mount else { panic!("a suspension") };
     let (limit, [least, _]) = (Limit::new(LimitKind::RattleSpace, 1.0), damping.ratios());
-    // That which touches first by the direction.
-    let drop = SingleDrop { first: first(drop), ..*drop };
-    let of = |[position_m, across_m]: [f64; 2], hz: f64| {
-        let part = Part { across_m, ..Part::new(position_m, Some(suspension(hz, least))) };
-        answer(&drop, &part, &limit, Model::Compliant, 0.01).expect("an answer").value
+    let of = |at_m: [f64; 2], hz: f64| {
+        let part = Part::at(Place::flat(at_m), Some(suspension(hz, least)));
+        answer(drop, &part, &limit, Model::Compliant, 0.01).expect("an answer").value
     };
     let ends = component.ends_m().into_iter();
     ends.flat_map(|at_m| [frequency_hz.lo(), frequency_hz.hi()].map(|hz| of(at_m, hz))).fold(0.0, f64::max)
-}
-
-fn first(drop: &SingleDrop) -> End {
-    if drop.across.is_some_and(|across| across.direction_rad.cos() < 0.0) { End::B } else { End::A }
 }

@@ -3,10 +3,10 @@
 use clatter::End;
 use clatter_assess::design::{Bounds, Plane};
 use clatter_assess::{
-    Accuracy, Assessment, DataFault, Error, Limit, LimitKind, Model, OwnContact, OwnContacts, Part, Plan, ProductFile,
-    SingleDrop, Verdict, answer,
+    Accuracy, Assessment, DataFault, Drop, Error, Limit, LimitKind, Model, OwnContact, OwnContacts, Part, Plan,
+    ProductFile, Verdict, answer,
 };
-use clatter_flight::{Body, ContactLaw};
+use clatter_flight::Body;
 
 /// A drill of 300 mm on its side, a soft bumper at end b; the part is on that side of it.
 const BAR: &str = r#"
@@ -90,22 +90,14 @@ fn either_end_first_is_the_worse_of_both() {
     assert!(!alike(&a, &b, 0.01), "{a:?} {b:?}");
 }
 
-fn drop(first: End) -> SingleDrop {
+fn drop(first: End) -> Drop {
     let own = OwnContact { restitution: Some(0.1), contact_time_s: Some(1.5e-3) };
-    SingleDrop {
-        body: Body::new(0.3, 0.15).unwrap(),
-        across: None,
-        first,
-        tilt_rad: 0.05,
-        flat: false,
-        speed_m_s: 2.0,
-        spin_rad_s: 0.0,
-        restitution: 0.4,
+    Drop {
+        direction_rad: Drop::towards(first),
         gravity_m_s2: 0.0,
         contact_time_s: Some(4e-4),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
         own_contacts: OwnContacts([OwnContact::NONE, own, OwnContact::NONE, OwnContact::NONE]),
+        ..Drop::new(Body::new(0.3, 0.15).unwrap(), 2.0, 0.05, 0.4)
     }
 }
 

@@ -5,8 +5,7 @@ use clatter_assess::design::{Bounds, Lever, Outcome};
 use clatter_assess::ladder::{Ladder, Rung};
 use clatter_assess::scatter::{Column, Input, PlateAs, Progress, Sampler, Scatter, Settings};
 use clatter_assess::{
-    Across, Depth, Inside, Law, Limit, LimitKind, Model, Part, Posture, ProductFile, SingleDrop, Spread, Verdict,
-    answer,
+    Body, Drop, Law, Limit, LimitKind, Model, Part, Place, ProductFile, Side, Spread, Verdict, answer,
 };
 
 /// A board in a terminal whose place across it is not known well.
@@ -54,9 +53,8 @@ fn draw(file: &ProductFile, samples: u64) -> Scatter {
 }
 
 /// The same drop of the box that a plate is.
-fn boxed(drop: &SingleDrop, thickness_m: f64) -> SingleDrop {
-    let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m, about: None });
-    SingleDrop { across: drop.across.map(|across| Across { posture, ..across }), ..*drop }
+fn boxed(drop: &Drop, thickness_m: f64) -> Drop {
+    Drop { is_level: false, body: drop.body.with_thickness(Side::even(thickness_m)), ..*drop }
 }
 
 /// A drop of the terminal, of which no thickness is known, and what it asks of its board, by the engine of one drop alone.
@@ -66,12 +64,12 @@ fn asked(file: &ProductFile, direction_deg: f64, tilt_deg: f64, across_m: f64) -
     let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
     let part = |[x, y]: [f64; 2]| {
         let (position_m, across_m) = (-0.02 + x * board.extent_m, across_m + y * board.extent_across_m);
-        Part { across_m, ..Part::new(position_m, None) }
+        Part::at(Place::flat([position_m, across_m]), None)
     };
     let parts: Vec<_> = if board.extent_m > 0.0 { corners.map(part).into() } else { vec![part([0.0; 2])] };
     let limits = Limit::of(board);
     let each = parts.iter().flat_map(|part| limits.iter().map(move |limit| (part, limit)));
-    let used = each.map(|(part, limit)| answer(&drop, part, limit, drop.fullest(), 0.01).unwrap().utilization());
+    let used = each.map(|(part, limit)| answer(&drop, part, limit, Model::fullest(&drop), 0.01).unwrap().utilization());
     used.fold(0.0, f64::max)
 }
 
@@ -135,8 +133,8 @@ fn a_plate_survives_where_its_box_does() {
         let (mut differ, mut decided) = (0, 0);
         for (drawn, asked) in sampler.rows(0..150, &columns, &|_| ()) {
             let (level, _) = one(&file, drawn[0].to_degrees(), drawn[1].to_degrees());
-            let part = Part { across_m: drawn[2], ..Part::new(-0.02, None) };
-            let survives = |drop: &SingleDrop| {
+            let part = Part::at(Place::flat([-0.02, drawn[2]]), None);
+            let survives = |drop: &Drop| {
                 let of = |limit| answer(drop, &part, limit, Model::Compliant, 0.005).unwrap().utilization() <= 1.0;
                 Limit::of(&file.components[0]).iter().all(of)
             };
@@ -162,15 +160,15 @@ fn a_plate_too_soft_for_its_thickness_lands_on_its_bottom() {
     let columns = [Column::TiltDeg, Column::DirectionDeg, Column::AcrossM(0)];
     let limits = Limit::of(&file.components[0]);
     for (drawn, asked) in Sampler::new(&file, settings(1)).unwrap().rows(0..12, &columns, &|_| ()) {
-        let drop = SingleDrop { restitution: 0.2, ..one(&file, drawn[0].to_degrees(), drawn[1].to_degrees()).0 };
-        let part = Part { across_m: drawn[2], ..Part::new(-0.02, None) };
+        let drop = Drop { restitution: 0.2, ..one(&file, drawn[0].to_degrees(), drawn[1].to_degrees()).0 };
+        let part = Part::at(Place::flat([-0.02, drawn[2]]), None);
         let refused = answer(&boxed(&drop, thin_m), &part, &limits[0], Model::Compliant, 0.01).unwrap_err();
         assert!(refused.to_string().contains("sink in by a quarter"), "{refused}");
-        let mut high = boxed(&drop, high_m);
         let below_m = 0.5 * (thin_m - high_m);
-        let depth = Depth { center_m: below_m, gyration_m: thin_m / 12_f64.sqrt(), products_of_inertia_m2: [0.0; 2] };
-        high.across.as_mut().unwrap().width.depth = Some(depth);
-        let part = Part { inside: Inside { height_m: below_m, ..part.inside }, ..part };
+        let ends_m = [0.5 * high_m + below_m, 0.5 * high_m - below_m];
+        let thickness = Side { ends_m, gyration_m: thin_m / 12_f64.sqrt() };
+        let high = Drop { is_level: false, body: drop.body.with_thickness(thickness), ..drop };
+        let part = Part::at(Place::new([-0.02, drawn[2], below_m]), None);
         let of = |limit| answer(&high, &part, limit, Model::Compliant, 0.01).unwrap().utilization();
         let (found, known) = (asked[0].unwrap().utilization, limits.iter().map(of).fold(0.0, f64::max));
         assert!((found / known - 1.0).abs() < 1e-4, "{found}, not {known}");
@@ -199,25 +197,15 @@ fn a_direction_of_the_file_is_drawn() {
 }
 
 /// A drop of the terminal and the middle of its board.
-fn one(file: &ProductFile, tilt_deg: f64, direction_deg: f64) -> (SingleDrop, Part) {
-    let across =
-        Across { width: file.product.width.unwrap(), direction_rad: direction_deg.to_radians(), posture: None };
-    let drop = SingleDrop {
-        body: file.product.body,
-        across: Some(across),
-        first: clatter::End::A,
-        tilt_rad: tilt_deg.to_radians(),
-        flat: false,
-        speed_m_s: 3.0,
-        spin_rad_s: 0.0,
-        restitution: 0.4,
+fn one(file: &ProductFile, tilt_deg: f64, direction_deg: f64) -> (Drop, Part) {
+    let drop = Drop {
+        direction_rad: direction_deg.to_radians(),
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: Some(4e-4),
         contact_law: file.product.law(),
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(file.product.body, 3.0, tilt_deg.to_radians(), 0.4)
     };
-    (drop, Part { across_m: 0.02, ..Part::new(0.05, None) })
+    (drop, Part::at(Place::flat([0.05, 0.02]), None))
 }
 
 /// Where β = 1 + α the plate that lands on its edge is the bar along its length, and the bar is told to be enough; on a corner it is not.
@@ -252,7 +240,9 @@ fn the_bar_is_the_cheapest_where_the_width_does_nothing() {
         corner.reason
     );
     // The bar has the tilt that the length has.
-    let along = SingleDrop { across: None, tilt_rad: (drop.tilt_rad.sin() * 40_f64.to_radians().cos()).asin(), ..drop };
+    let (body, tilt_rad) =
+        (Body { width: None, ..drop.body }, (drop.tilt_rad.sin() * 40_f64.to_radians().cos()).asin());
+    let along = Drop { body, direction_rad: 0.0, tilt_rad, ..drop };
     let own = answer(&along, &Part::new(0.05, None), &limit, Model::Compliant, 0.05).unwrap();
     assert!((bar.value / own.value - 1.0).abs() < 0.01, "{} beside {}", bar.value, own.value);
     // A plate of steep tilt is not what its box is.

@@ -1,6 +1,8 @@
 //! Products with a width: plates that land on any corner.
 
-use clatter_assess::{Limit, LimitAssessment, LimitKind, Note, Part, PlatePortrait, ProductFile, Verdict, answer};
+use clatter_assess::{
+    Limit, LimitAssessment, LimitKind, Note, Part, Place, PlatePortrait, ProductFile, Verdict, answer,
+};
 
 /// A handheld terminal with a display, a board and a battery.
 const HANDHELD: &str = r#"
@@ -135,9 +137,10 @@ fn masses_that_lie_askew_have_a_product_of_inertia() {
 ]"#;
     let text =
         HANDHELD.replace("radius_of_gyration = [\"43 mm\", \"20 mm\"]\ncenter_of_mass = [\"0 mm\", \"0 mm\"]", masses);
-    let width = file(&text).product.width.expect("a width");
+    let body = file(&text).product.body;
+    let width = body.width.expect("a width");
     // 2 · 60 g · 40 mm · 20 mm over 220 g; the slab has none of its own.
-    assert!((width.product_of_inertia_m2 - 0.12 * 0.04 * 0.02 / 0.22).abs() < 1e-12);
+    assert!((body.products_m2[0] - 0.12 * 0.04 * 0.02 / 0.22).abs() < 1e-12);
     let [x, y] = [0.1 * 0.15 * 0.15 / 12.0 + 0.12 * 0.04 * 0.04, 0.1 * 0.07 * 0.07 / 12.0 + 0.12 * 0.02 * 0.02];
     assert!((file(&text).product.gyration_m.lo() - (x / 0.22_f64).sqrt()).abs() < 1e-12);
     assert!((width.gyration_m - (y / 0.22_f64).sqrt()).abs() < 1e-12);
@@ -313,17 +316,17 @@ fn a_map_over_the_plate_is_what_drops_ask() {
                 continue;
             };
             let others = drawn.over_direction.iter().map(|point| point.drop).filter(|drop| {
-                let degrees = drop.across.expect("a plate").direction_rad.to_degrees();
+                let degrees = drop.direction_rad.to_degrees();
                 let third = (degrees / 15.0 - (degrees / 15.0).round()).abs() < 1e-9 && degrees < 359.0;
                 third && drawn.is_given(degrees.to_radians())
             });
             let mut drops = vec![worst.drop];
-            drops.extend(others.filter(|drop| drop.across != worst.drop.across));
+            drops.extend(others.filter(|drop| drop.direction_rad.to_bits() != worst.drop.direction_rad.to_bits()));
             assert!(map.drops == 25 || map.drops == 1 && text == alone, "{} drops", map.drops);
             let allowed_for = if map.drops == 1 { 1e-12 } else { 0.03 };
             for (row, &across_m) in map.across_m.iter().enumerate() {
                 for (column, &position_m) in map.along_m.iter().enumerate() {
-                    let part = Part { across_m, ..Part::new(position_m, worst.part.suspension) };
+                    let part = Part::at(Place::flat([position_m, across_m]), worst.part.suspension);
                     let is_own = part == worst.part;
                     own_places += usize::from(is_own);
                     if !is_own && !(row + 7 * column).is_multiple_of(20) {
@@ -384,7 +387,7 @@ fn what_real_tilt_adds_does_not_jump_where_masses_lie_askew() {
         let limits = limits(&text.replace("tilt = [", "direction = [\"20 deg\", \"30 deg\"]\ntilt = ["));
         let off =
             limits[0].notes.iter().find_map(|note| if let Note::Tilt { off, .. } = note { Some(*off) } else { None });
-        (product.width.unwrap().product_of_inertia_m2, off.expect("a box beside it"))
+        (product.body.products_m2[0], off.expect("a box beside it"))
     };
     let ((none, straight), (hair, askew)) = (told("0 mm"), told("0.00001 mm"));
     assert!(none == 0.0 && hair != 0.0, "{none}, {hair}");

@@ -73,8 +73,8 @@ fn every_point_of_a_curve_is_a_drop_that_was_followed() {
                 assert!(points.len() > 40, "{}: {} points", found.name, points.len());
                 assert!(points.windows(2).all(|pair| pair[0].tilt_rad < pair[1].tilt_rad), "{}", found.name);
                 for point in points {
-                    assert_eq!(point.drop.first, *first);
-                    assert!(point.drop.flat || point.drop.tilt_rad.to_bits() == point.tilt_rad.to_bits());
+                    assert_eq!(point.drop.first(), *first);
+                    assert!(point.drop.is_flat || point.drop.tilt_rad.to_bits() == point.tilt_rad.to_bits());
                     most = most.max(point.share);
                 }
                 for point in points.iter().step_by(7) {

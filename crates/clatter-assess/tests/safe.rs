@@ -122,7 +122,7 @@ fn a_flat_drop_is_one_of_the_drops() {
     assert!(hinge(&tilted, 1e-3).demand.expect("a demand") >= flat * (1.0 - 1e-9));
     let apart = hinge(&tilted, 1e-12);
     assert!(apart.demand.expect("a demand") < 0.6 * flat, "{apart:?}");
-    assert!(!apart.worst_case.expect("a drop").drop.flat);
+    assert!(!apart.worst_case.expect("a drop").drop.is_flat);
 }
 
 /// The same of a soft part: V = 1.5 v₀ at once gives V ω exp(−tan β (π/2 − 3β)), sin β the damping ratio. So do contacts of 0.3 ms.
@@ -321,7 +321,7 @@ fn an_off_center_product_falls_on_either_end() {
         with(OFF_CENTER, " }\ncomponent", ", first = \"b\" }\ncomponent"),
     ]
     .map(|text| only(&text));
-    let first = |limit: &LimitAssessment| limit.worst_case.as_ref().expect("a drop").drop.first;
+    let first = |limit: &LimitAssessment| limit.worst_case.as_ref().expect("a drop").drop.first();
     assert_eq!((first(&either), first(&mirrored)), (End::B, End::A));
     assert_eq!(either.verdict, Verdict::Unsafe);
     let demand = |limit: &LimitAssessment| limit.demand.expect("a demand");
@@ -366,7 +366,7 @@ fn the_worst_place_may_lie_between_the_ends() {
     let limit = only(EXTENDED);
     assert_eq!(limit.verdict, Verdict::Unsafe);
     assert!(limit.demand.expect("a demand") >= 4.967, "{limit:?}");
-    let at = limit.worst_case.expect("a drop").part.position_m;
+    let at = limit.worst_case.expect("a drop").part.place.at_m[0];
     assert!((at - 0.000_482).abs() < 0.5 * 0.0524, "{at}");
 }
 
@@ -383,7 +383,7 @@ fn overdamped_parts_feel_every_strike() {
     let limit = only(OVERDAMPED);
     close(limit.demand.expect("a demand"), 2827.0, 2e-3);
     assert_eq!(limit.verdict, Verdict::Unsafe);
-    assert_eq!(limit.worst_case.expect("a drop").drop.first, End::B);
+    assert_eq!(limit.worst_case.expect("a drop").drop.first(), End::B);
 }
 
 /// A part that three strikes come in step with at the end of its natural frequencies.

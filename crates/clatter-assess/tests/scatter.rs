@@ -4,9 +4,7 @@ use crate::random::Random;
 use clatter_assess::scatter::{
     Column, Input, Probability, Progress, Sampler, Scatter, Settings, clopper_pearson, extremes,
 };
-use clatter_assess::{
-    Answer, ContactLaw, Limit, LimitKind, Model, Mount, Part, ProductFile, STANDARD_GRAVITY_M_S2, SingleDrop, answer,
-};
+use clatter_assess::{Answer, Drop, Limit, LimitKind, Model, Mount, Part, ProductFile, STANDARD_GRAVITY_M_S2, answer};
 
 fn product(product: &str, drop: &str, parts: &str) -> ProductFile {
     let text = format!(
@@ -217,20 +215,16 @@ fn a_sample_is_the_same_whatever_the_number_of_samples() {
 /// The drop and the part of a row, and what it asks of each limit.
 fn answers(file: &ProductFile, columns: &[Column], row: &[f64]) -> Vec<(LimitKind, f64)> {
     let value = |column: Column| columns.iter().position(|other| *other == column).map(|i| row[i]);
-    let drop = SingleDrop {
-        body: file.product.body,
-        across: None,
-        first: if row[0] < 0.5 { clatter::End::A } else { clatter::End::B },
-        speed_m_s: value(Column::SpeedMS).unwrap(),
-        tilt_rad: value(Column::TiltDeg).unwrap().to_radians(),
-        flat: false,
-        spin_rad_s: 0.0,
-        restitution: value(Column::Restitution).unwrap(),
+    let drop = Drop {
+        direction_rad: Drop::towards(if row[0] < 0.5 { clatter::End::A } else { clatter::End::B }),
         gravity_m_s2: STANDARD_GRAVITY_M_S2,
         contact_time_s: value(Column::ContactTimeS),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(
+            file.product.body,
+            value(Column::SpeedMS).unwrap(),
+            value(Column::TiltDeg).unwrap().to_radians(),
+            value(Column::Restitution).unwrap(),
+        )
     };
     let component = &file.components[0];
     let ratio = match &component.mount {
@@ -246,7 +240,7 @@ fn answers(file: &ProductFile, columns: &[Column], row: &[f64]) -> Vec<(LimitKin
         *critical = value(Column::CriticalAccelerationMS2(0)).unwrap_or(*critical);
         let half = 0.5 * component.extent_m;
         let places = [middle - half, middle + half].map(|position_m| Part::new(position_m, suspension));
-        let most = places.map(|part| answer(&drop, &part, &limit, drop.fullest(), 0.01).unwrap().utilization());
+        let most = places.map(|part| answer(&drop, &part, &limit, Model::fullest(&drop), 0.01).unwrap().utilization());
         (limit.kind, most[0].max(most[1]))
     };
     Limit::of(component).iter().map(one).collect()
@@ -319,7 +313,7 @@ impl Other {
 fn a_part_whose_contacts_overlap_fails_as_often_as_single_drops_do() {
     let file = overlapping();
     let mut other = Other(1);
-    let fails = |drop: &SingleDrop| {
+    let fails = |drop: &Drop| {
         let suspension = file.components[0].mount.suspension(200.0, 0.05).unwrap();
         let limit = Limit::of(&file.components[0])[0];
         let asked: Answer = answer(drop, &Part::new(0.06, suspension), &limit, Model::Compliant, 0.01).unwrap();
@@ -327,20 +321,11 @@ fn a_part_whose_contacts_overlap_fails_as_often_as_single_drops_do() {
     };
     let drops = 2000;
     let survivors = (0..drops).filter(|_| {
-        let drop = SingleDrop {
-            body: file.product.body,
-            across: None,
-            first: if other.even(0.0, 1.0) < 0.5 { clatter::End::A } else { clatter::End::B },
-            tilt_rad: other.even(0.0, 0.5).to_radians(),
-            flat: false,
-            speed_m_s: (2.0 * STANDARD_GRAVITY_M_S2).sqrt(),
-            spin_rad_s: 0.0,
-            restitution: 0.3,
+        let drop = Drop {
+            direction_rad: Drop::towards(if other.even(0.0, 1.0) < 0.5 { clatter::End::A } else { clatter::End::B }),
             gravity_m_s2: STANDARD_GRAVITY_M_S2,
             contact_time_s: Some(4e-4),
-            contact_law: ContactLaw::Hysteretic,
-            feet: None,
-            own_contacts: clatter_assess::OwnContacts::NONE,
+            ..Drop::new(file.product.body, (2.0 * STANDARD_GRAVITY_M_S2).sqrt(), other.even(0.0, 0.5).to_radians(), 0.3)
         };
         !fails(&drop)
     });

@@ -1,9 +1,6 @@
 //! What one shock is, beside integrations that share nothing with this one.
 
-use clatter::End;
-use clatter_assess::{
-    Answer, Axis, ContactLaw, Inside, Limit, LimitKind, Model, OwnContacts, Part, SingleDrop, answer,
-};
+use clatter_assess::{Answer, Axis, ContactLaw, Drop, Limit, LimitKind, Model, Part, Place, answer};
 use clatter_flight::{Block, BlockDrop, Body, Contact};
 use serde_json::Value;
 
@@ -22,27 +19,19 @@ fn numbers<const N: usize>(case: &Value, key: &str) -> [f64; N] {
     std::array::from_fn(|i| case[key][i].as_f64().unwrap_or_else(|| panic!("{key} of {case}")))
 }
 
-fn asked(drop: &SingleDrop, part: &Part, kind: LimitKind) -> Answer {
+fn asked(drop: &Drop, part: &Part, kind: LimitKind) -> Answer {
     answer(drop, part, &Limit::new(kind, 1.0), Model::Compliant, 0.01).unwrap()
 }
 
 /// A bar: length, radius of gyration, center of mass in half-lengths, restitution, contact time, speed, tilt in degrees, spin, gravity.
-fn bar([length, gyration, center, e, time_s, speed, tilt, spin, gravity]: [f64; 9], law: ContactLaw) -> SingleDrop {
+fn bar([length, gyration, center, e, time_s, speed, tilt, spin, gravity]: [f64; 9], law: ContactLaw) -> Drop {
     let arms = [1.0 + center, 1.0 - center].map(|arm| 0.5 * length * arm);
-    SingleDrop {
-        body: Body::off_center(arms[0], arms[1], gyration).unwrap(),
-        across: None,
-        first: End::A,
-        tilt_rad: tilt.to_radians(),
-        flat: false,
-        speed_m_s: speed,
+    Drop {
         spin_rad_s: spin,
-        restitution: e,
         gravity_m_s2: gravity,
         contact_time_s: Some(time_s),
         contact_law: law,
-        feet: None,
-        own_contacts: OwnContacts::NONE,
+        ..Drop::new(Body::off_center(arms[0], arms[1], gyration).unwrap(), speed, tilt.to_radians(), e)
     }
 }
 
@@ -98,16 +87,15 @@ fn a_pivot_under_the_weight_is_no_shock() {
     }
 }
 
-fn block(case: &Value) -> (SingleDrop, Part) {
+fn block(case: &Value) -> (Drop, Part) {
     let block = Block::new(numbers(case, "size_m"), numbers(case, "center_of_mass_m"), numbers(case, "gyration_m"));
     let drop = BlockDrop::new(block.unwrap(), numbers(case, "quaternion"), number(case, "speed_m_s"), G).unwrap();
     let drop = drop.with_spin(numbers(case, "spin_rad_s")).unwrap();
     let contact = Contact::new(ContactLaw::Hysteretic, number(case, "e"), number(case, "contact_time_s")).unwrap();
-    let [position_m, across_m, height_m] = numbers(case, "at_m");
     let axes = [Axis::X, Axis::Y, Axis::Z, Axis::Any];
     let axis = axes.into_iter().find(|axis| case["axis"] == axis.name()).unwrap();
-    let part = Part { across_m, inside: Inside { height_m, axis }, ..Part::new(position_m, None) };
-    (SingleDrop::of_block(&drop, &contact).unwrap(), part)
+    let part = Part::at(Place { at_m: numbers(case, "at_m"), axis }, None);
+    (Drop::of_block(&drop, &contact), part)
 }
 
 /// Boxes in any attitude, half of them turning by up to 40 rad/s, of which a place feels up to 15 g in flight: shocks along all axes and in
@@ -140,8 +128,8 @@ fn gravity_is_taken_off_by_its_share_along_the_axis() {
     let block = Block::new([0.2, 0.14, 0.04], [0.0; 3], gyration).unwrap();
     let drop = BlockDrop::new(block, turned, 3.961_141_249_690_548, G).unwrap();
     let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 8e-4).unwrap();
-    let drop = SingleDrop::of_block(&drop, &contact).unwrap();
-    let part = Part { across_m: 0.02, inside: Inside { height_m: 0.0, axis: Axis::X }, ..Part::new(0.06, None) };
+    let drop = Drop::of_block(&drop, &contact);
+    let part = Part::at(Place { at_m: [0.06, 0.02, 0.0], axis: Axis::X }, None);
     let got = asked(&drop, &part, LimitKind::VelocityChange);
     // Five presses later, what the first left out has grown.
     assert!(off(got.value, 0.308_558) < 1e-2 && got.time_s > 0.3, "{got:?}");

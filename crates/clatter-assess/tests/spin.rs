@@ -2,35 +2,26 @@
 
 use clatter::{Bar, End, Start};
 use clatter_assess::scatter::{Column, Progress, Sampler, Settings};
-use clatter_assess::{
-    Across, ContactLaw, Error, Limit, LimitKind, Model, Part, Posture, ProductFile, SingleDrop, Verdict, Width, answer,
-};
-use clatter_flight::Body;
+use clatter_assess::{Body, Drop, Error, Limit, LimitKind, Model, Part, Place, ProductFile, Side, Verdict, answer};
 
 use crate::random::Random;
 
 const ARMS: [f64; 2] = [0.08, 0.06];
 const GYRATION: f64 = 0.04;
+/// That of plates.
+const WIDTH: Side = Side { ends_m: [0.03, 0.04], gyration_m: 0.02 };
 
-fn bar(first: End, spin_rad_s: f64) -> SingleDrop {
-    SingleDrop {
-        body: Body::off_center(ARMS[0], ARMS[1], GYRATION).unwrap(),
-        across: None,
-        first,
-        tilt_rad: 0.03,
-        flat: false,
-        speed_m_s: 3.0,
+fn bar(first: End, spin_rad_s: f64) -> Drop {
+    Drop {
+        direction_rad: Drop::towards(first),
         spin_rad_s,
-        restitution: 0.4,
         gravity_m_s2: 0.0,
         contact_time_s: Some(3e-4),
-        contact_law: ContactLaw::Hysteretic,
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(Body::off_center(ARMS[0], ARMS[1], GYRATION).unwrap(), 3.0, 0.03, 0.4)
     }
 }
 
-fn asked(drop: &SingleDrop, at_m: f64, kind: LimitKind, model: Model) -> f64 {
+fn asked(drop: &Drop, at_m: f64, kind: LimitKind, model: Model) -> f64 {
     answer(drop, &Part::new(at_m, None), &Limit::new(kind, 1.0), model, 1e-4).unwrap().value
 }
 
@@ -62,7 +53,7 @@ fn a_bar_that_turns_is_one_whose_ends_come_down_unequally_fast() {
 #[test]
 fn the_first_strike_is_that_of_an_end_that_comes_down_faster() {
     for spin in [-20.0, 12.0] {
-        let drop = SingleDrop { restitution: 0.0, tilt_rad: 0.1, gravity_m_s2: 9.81, ..bar(End::A, spin) };
+        let drop = Drop { restitution: 0.0, tilt_rad: 0.1, gravity_m_s2: 9.81, ..bar(End::A, spin) };
         // Instant: its end is stopped, at the lever arm of its tilt.
         let arm = ARMS[0] * 0.1_f64.cos();
         for (model, arm) in [(Model::Map, ARMS[0]), (Model::Ballistic, ARMS[0]), (Model::FiniteTilt, arm)] {
@@ -82,24 +73,21 @@ fn the_first_strike_is_that_of_an_end_that_comes_down_faster() {
 #[test]
 fn a_mirrored_drop_asks_the_same() {
     let (one, body) = (bar(End::B, 7.0), Body::off_center(ARMS[1], ARMS[0], GYRATION).unwrap());
-    let other = SingleDrop { body, first: End::A, ..one };
+    let other = Drop { direction_rad: Drop::towards(End::A), body, ..one };
     for model in Model::ALL {
         for kind in [LimitKind::VelocityChange, LimitKind::AngularVelocityChange] {
             let [a, b] = [(&one, 0.05), (&other, -0.05)].map(|(drop, at_m)| asked(drop, at_m, kind, model));
             assert!((a / b - 1.0).abs() < 1e-9, "{model:?} {kind:?}: {a}, {b}");
         }
     }
-    let width =
-        Width { edges_m: [0.03, 0.04], gyration_m: 0.02, product_of_inertia_m2: 2e-4, thickness_m: None, depth: None };
-    let turned = Width { product_of_inertia_m2: -2e-4, ..width };
-    let plate = |body, width, direction_rad: f64, first| {
-        let across = Some(Across { width, direction_rad, posture: None });
-        SingleDrop { body, across, first, ..one }
+    let plate = |bar: Body, xy: f64, direction_rad: f64| {
+        let body = Body { products_m2: [xy, 0.0, 0.0], ..bar.with_width(WIDTH) };
+        Drop { body, direction_rad, ..one }
     };
-    let one = plate(one.body, width, 2.5, End::B);
-    let other = plate(body, turned, std::f64::consts::PI - 2.5, End::A);
+    let (one, other) = (plate(one.body, 2e-4, 2.5), plate(body, -2e-4, std::f64::consts::PI - 2.5));
+    assert_eq!([one.first(), other.first()], [End::B, End::A]);
     let [a, b] = [(&one, 0.05), (&other, -0.05)].map(|(drop, x)| {
-        let part = Part { across_m: 0.02, ..Part::new(x, None) };
+        let part = Part::at(Place::flat([x, 0.02]), None);
         answer(drop, &part, &Limit::new(LimitKind::Acceleration, 1.0), Model::Compliant, 1e-3).unwrap().value
     });
     assert!((a / b - 1.0).abs() < 1e-6, "{a}, {b}");
@@ -108,13 +96,10 @@ fn a_mirrored_drop_asks_the_same() {
 /// Level, it does not matter from which corner one looks: turning up towards one side is turning down towards the other.
 #[test]
 fn a_level_plate_turns_one_way_or_the_other() {
-    let width =
-        Width { edges_m: [0.03, 0.04], gyration_m: 0.02, product_of_inertia_m2: 0.0, thickness_m: None, depth: None };
     let of = |direction_rad: f64, spin_rad_s: f64| {
-        let across = Across { width, direction_rad, posture: None };
-        let first = if direction_rad.cos() < 0.0 { End::B } else { End::A };
-        let drop = SingleDrop { across: Some(across), first, tilt_rad: 0.0, ..bar(first, spin_rad_s) };
-        let part = Part { across_m: 0.02, ..Part::new(0.05, None) };
+        let bar = bar(End::A, spin_rad_s);
+        let drop = Drop { body: bar.body.with_width(WIDTH), direction_rad, tilt_rad: 0.0, ..bar };
+        let part = Part::at(Place::flat([0.05, 0.02]), None);
         answer(&drop, &part, &Limit::new(LimitKind::Acceleration, 1.0), Model::Compliant, 1e-3).unwrap().value
     };
     let still = of(0.7, 0.0);
@@ -127,18 +112,13 @@ fn a_level_plate_turns_one_way_or_the_other() {
 /// A box turns towards the attitude that it would have a little later: off a face, an edge or a corner to any side, and at a tilt.
 #[test]
 fn a_box_turns_as_its_tilt_grows() {
-    let width = Width {
-        edges_m: [0.03; 2],
-        gyration_m: 0.02,
-        product_of_inertia_m2: 1e-4,
-        thickness_m: Some(0.02),
-        depth: None,
-    };
+    let bar = bar(End::A, 4.0);
+    let width = Side { ends_m: [0.03; 2], gyration_m: 0.02 };
+    let mut body = bar.body.with_width(width).with_thickness(Side::even(0.02));
+    body.products_m2[0] = 1e-4;
     let tilted = |tilt: f64, direction: f64| [tilt.sin() * direction.cos(), tilt.sin() * direction.sin(), tilt.cos()];
-    let of = |upward, about, direction_rad, tilt_rad| {
-        let posture = Some(Posture { upward, thickness_m: 0.02, about });
-        let across = Some(Across { width, direction_rad, posture });
-        SingleDrop { across, tilt_rad, ..bar(End::A, 4.0) }.of_box().unwrap().unwrap()
+    let of = |base, spin_axis, direction_rad, tilt_rad| {
+        Drop { body, is_level: false, base, spin_axis, direction_rad, tilt_rad, ..bar }.of_box().unwrap().unwrap()
     };
     let step = 1e-6;
     for direction in [0.0, 0.8, 2.9, 4.4] {
@@ -238,7 +218,7 @@ fn a_spin_that_nothing_answers_is_refused() {
     // Without contact time where no strikes are one, by real tilt.
     let apart = read("speed = \"3 m/s\", tilt = \"9 deg\", spin = [\"-9 rad/s\", \"9 rad/s\"]", "").unwrap();
     assert_eq!(apart.assess().unwrap().components[0].limits[0].model.bar, Model::FiniteTilt);
-    let flat = SingleDrop { flat: true, contact_time_s: None, ..bar(End::A, 1.0) };
+    let flat = Drop { is_flat: true, contact_time_s: None, ..bar(End::A, 1.0) };
     let said =
         answer(&flat, &Part::new(0.0, None), &Limit::new(LimitKind::VelocityChange, 1.0), Model::FiniteTilt, 0.01);
     assert!(matches!(said, Err(Error::Setting { name: "spin in rad/s", .. })), "{said:?}");

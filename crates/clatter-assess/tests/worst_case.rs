@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use crate::random::Random;
 use clatter::End;
 use clatter_assess::{
-    Across, Component, Limit, LimitAssessment, Model, Mount, Part, Posture, ProductFile, SingleDrop, Verdict, answer,
+    Component, Drop, Limit, LimitAssessment, Model, Mount, Part, Place, ProductFile, Side, Verdict, answer,
 };
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
@@ -147,22 +147,20 @@ fn single(
     let ends = file.drop.first_ends();
     let [slow, fast] = file.drop.speeds_m_s();
     let [from, to] = file.drop.direction_rad.map_or([0.0, TAU], |direction| [direction.lo(), direction.hi()]);
-    let direction_rad = from + shares[6] * (to - from);
-    let level = Posture { upward: [0.0, 0.0, 1.0], thickness_m: THICKNESS * file.product.body.length_m(), about: None };
-    let drop = SingleDrop {
-        body: file.product.body,
-        across: file.product.width.map(|width| Across { width, direction_rad, posture: at_real_tilt.then_some(level) }),
-        first: if ends.len() > 1 && *first < 0.5 { End::B } else { ends[0] },
-        tilt_rad: file.drop.tilt_rad.at(shares[0]),
-        flat: false,
-        speed_m_s: slow + shares[1] * (fast - slow),
-        spin_rad_s: 0.0,
-        restitution: file.product.restitution.at(shares[2]),
+    let first = if ends.len() > 1 && *first < 0.5 { End::B } else { ends[0] };
+    let body = file.product.body;
+    let drop = Drop {
+        is_level: !at_real_tilt,
+        direction_rad: if body.is_wide() { from + shares[6] * (to - from) } else { Drop::towards(first) },
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: file.product.contact_time_s.map(|time| time.at(shares[3])),
         contact_law: file.product.law(),
-        feet: None,
-        own_contacts: clatter_assess::OwnContacts::NONE,
+        ..Drop::new(
+            body.with_thickness(Side::even(THICKNESS * body.length_m())),
+            slow + shares[1] * (fast - slow),
+            file.drop.tilt_rad.at(shares[0]),
+            file.product.restitution.at(shares[2]),
+        )
     };
     let suspension = match component.mount {
         Mount::Suspended { frequency_hz, damping } => {
@@ -173,12 +171,10 @@ fn single(
     };
     let places = component.ends_m();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "few")]
-    let [position_m, across_m] = places[((shares[5] * places.len() as f64) as usize).min(places.len() - 1)];
-    let asked = answer(&drop, &Part { across_m, ..Part::new(position_m, suspension) }, limit, Model::Compliant, 0.01);
+    let at_m = places[((shares[5] * places.len() as f64) as usize).min(places.len() - 1)];
+    let asked = answer(&drop, &Part::at(Place::flat(at_m), suspension), limit, Model::Compliant, 0.01);
     match asked {
-        Ok(asked) => {
-            (asked.utilization(), format!("{drop:?}, at {position_m} m, {across_m} m, {suspension:?}: {asked:?}"))
-        }
+        Ok(asked) => (asked.utilization(), format!("{drop:?}, at {at_m:?} m, {suspension:?}: {asked:?}")),
         Err(_) => (0.0, String::new()),
     }
 }

@@ -9,7 +9,7 @@ use clap::ValueHint;
 use clatter::End;
 use clatter_assess::units::Quantity;
 use clatter_assess::{Accuracy, Model, STANDARD_GRAVITY_M_S2, slip};
-use clatter_flight::{Body, ContactLaw, Scene};
+use clatter_flight::{ContactLaw, Profile, Scene};
 
 use crate::inputs::{self, Law};
 use crate::numbers::given;
@@ -349,7 +349,7 @@ impl DropArgs {
         e: f64,
         file: Option<&mut OneDrop>,
         side: f64,
-    ) -> Result<(f64, Body), Failure> {
+    ) -> Result<(f64, Profile), Failure> {
         let flag = "--center-of-mass";
         let center = self.center_of_mass.map(|place| place.of_bar(flag)?.relative(flag, Some(half))).transpose()?;
         let center = center.map(|center| side * center + 0.0);
@@ -370,8 +370,8 @@ impl DropArgs {
             }
         };
         let (a, b) = (half * (1.0 + center), half * (1.0 - center));
-        Body::off_center(a, b, 0.0).map_err(Failure::flag(center_flag))?;
-        let body = Body::off_center(a, b, gyration).map_err(Failure::flag(gyration_flag))?;
+        Profile::off_center(a, b, 0.0).map_err(Failure::flag(center_flag))?;
+        let body = Profile::off_center(a, b, gyration).map_err(Failure::flag(gyration_flag))?;
         let most = MOST_GYRATION * 2.0 * half;
         if gyration > most {
             let [given, most] = [gyration, most].map(|m| given(neat(1e3 * m)));
@@ -387,7 +387,7 @@ impl DropArgs {
     /// The drop without spin yet, not limited in time.
     fn scene(
         &self,
-        body: Body,
+        body: Profile,
         e: f64,
         [speed, height]: [Option<f64>; 2],
         tilt: f64,

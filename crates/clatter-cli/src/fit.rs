@@ -139,7 +139,7 @@ impl Args {
     fn question<'a>(&self, file: &'a ProductFile) -> Result<Question<'a>, Failure> {
         let mut places = self.position.iter();
         let half_m = 0.5 * file.product.body.length_m();
-        let beyond_m = file.product.feet.map_or(0.0, |feet| feet.inset_m[0]);
+        let beyond_m = file.product.body.feet.map_or(0.0, |feet| feet.inset_m[0]);
         let timing_s = self.timing.map(|timing| timing.si);
         let read = |path: &PathBuf| {
             let position = || {

@@ -8,7 +8,7 @@ use clatter::{Axis, Bar, End, Error, Mass, Plate, PlateStart, Start};
 pub(crate) use clatter_answer::letter;
 use clatter_assess::units::{Quantity, SHARE};
 use clatter_assess::{Accuracy, Model, OwnContact, Slip};
-use clatter_flight::{Body, Contact, ContactLaw, Scene};
+use clatter_flight::{Contact, ContactLaw, Profile, Scene};
 use clatter_shock::DampingRatio;
 
 use crate::Failure;
@@ -486,11 +486,11 @@ pub(crate) fn part_of<T>(value: f64, whole: impl Fn(f64) -> Result<T, Error>) ->
 }
 
 fn drop_of(speed: f64, tilt: f64, gravity: f64) -> Result<Scene, Error> {
-    Scene::new(Body::new(1.0, 0.0)?, 0.0, speed, tilt, gravity)
+    Scene::new(Profile::new(1.0, 0.0)?, 0.0, speed, tilt, gravity)
 }
 
-pub(crate) fn length_of(length: f64) -> Result<Body, Error> {
-    Body::new(length, 0.0)
+pub(crate) fn length_of(length: f64) -> Result<Profile, Error> {
+    Profile::new(length, 0.0)
 }
 
 pub(crate) fn speed_of(speed: f64) -> Result<Scene, Error> {
@@ -498,7 +498,7 @@ pub(crate) fn speed_of(speed: f64) -> Result<Scene, Error> {
 }
 
 pub(crate) fn height_of(height: f64) -> Result<Scene, Error> {
-    Scene::from_height(Body::new(1.0, 0.0)?, 0.0, height, 0.0, 1.0)
+    Scene::from_height(Profile::new(1.0, 0.0)?, 0.0, height, 0.0, 1.0)
 }
 
 /// In degrees.

@@ -5,8 +5,8 @@ use std::path::Path;
 use clatter::End;
 use clatter_assess::units::{Quantity, Unit};
 use clatter_assess::{
-    Accuracy, Component, Damping, Fall, Feet, First, Limit, LimitKind, Limits, Mount, OwnContacts, ProductFile, Spread,
-    Width, WorstCase,
+    Accuracy, Component, Damping, Fall, Feet, First, Limit, LimitKind, Limits, Mount, OwnContacts, ProductFile, Side,
+    Spread, WorstCase,
 };
 use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
@@ -117,7 +117,7 @@ impl OneDrop {
         let first = first.unwrap_or_else(|| match file.drop.first {
             First::End(end) => end,
             // Of a plate its direction tells the corner.
-            First::Either if file.product.width.is_some() => End::A,
+            First::Either if file.product.body.is_wide() => End::A,
             First::Either => {
                 notes.push("either end may touch first: taken is end a".to_owned());
                 End::A
@@ -145,7 +145,7 @@ impl OneDrop {
             return Err(Failure::Wrong(format!("no worst drop is known: {why}")));
         };
         let limit = found.limit.name();
-        self.mirrored = worst.drop.first == End::B && !self.is_plate();
+        self.mirrored = worst.drop.first() == End::B && !self.is_plate();
         self.notes = vec![format!("the worst drop of its ranges, for the {limit} limit: {}", drop(worst))];
         self.worst = Some(*worst);
         Ok(self)
@@ -153,11 +153,11 @@ impl OneDrop {
 
     /// Whether both ends land as one.
     pub(crate) fn is_flat(&self) -> bool {
-        self.worst.as_ref().is_some_and(|worst| worst.drop.flat)
+        self.worst.as_ref().is_some_and(|worst| worst.drop.is_flat)
     }
 
     pub(crate) fn is_plate(&self) -> bool {
-        self.file.product.width.is_some()
+        self.file.product.body.is_wide()
     }
 
     /// The worst drop of a box, where that is the one.
@@ -199,7 +199,7 @@ impl OneDrop {
     }
     /// Between its ends or feet, of a product of the file that is so long from edge to edge.
     pub(crate) fn length_of(&self, edges_m: f64) -> Result<f64, Failure> {
-        let beyond_m = self.file.product.feet.map_or(0.0, |feet| 2.0 * feet.inset_m[0]);
+        let beyond_m = self.file.product.body.feet.map_or(0.0, |feet| 2.0 * feet.inset_m[0]);
         if edges_m > beyond_m {
             return Ok(edges_m - beyond_m);
         }
@@ -229,7 +229,7 @@ impl OneDrop {
     }
     /// The same with a word, where edges beyond its feet are not looked at.
     pub(crate) fn on_feet_alone(mut self) -> Self {
-        if self.file.product.feet.is_some() {
+        if self.file.product.body.feet.is_some() {
             self.note("its ends here are its feet; edges beyond them are not looked at, as 'clatter respond' does");
         }
         self
@@ -250,7 +250,7 @@ impl OneDrop {
     }
     /// Feet that it lands on.
     pub(crate) fn feet(&self) -> Option<Feet> {
-        self.file.product.feet
+        self.file.product.body.feet
     }
     pub(crate) fn contact_law(&self) -> ContactLaw {
         self.file.product.law()
@@ -285,8 +285,11 @@ impl OneDrop {
         };
         neat(Self::take(&mut self.notes, "direction", spread, Taken::Middle, "rad").to_degrees())
     }
-    pub(crate) fn width(&self) -> Option<Width> {
-        self.file.product.width
+    pub(crate) fn width(&self) -> Option<Side> {
+        self.file.product.body.width
+    }
+    pub(crate) fn product_of_inertia_m2(&self) -> f64 {
+        self.file.product.body.products_m2[0]
     }
     pub(crate) fn gravity_m_s2(&self) -> f64 {
         self.file.drop.gravity_m_s2
@@ -311,7 +314,7 @@ impl OneDrop {
         let Some(component) = self.component().cloned() else { return Ok(None) };
         let notes = &mut self.notes;
         let (at_m, places_m) = if let Some(WorstCase { part, .. }) = &self.worst {
-            let at_m = [part.position_m, part.across_m];
+            let at_m = part.place.plan_m();
             (at_m, component.places_m().into_iter().chain([at_m]).collect())
         } else {
             let along = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
@@ -334,7 +337,7 @@ impl OneDrop {
                 })
             }
         };
-        let beyond_m = self.file.product.feet.map_or([0.0; 2], |feet| feet.inset_m);
+        let beyond_m = self.file.product.body.feet.map_or([0.0; 2], |feet| feet.inset_m);
         for (side, half_m) in halves_m.into_iter().enumerate() {
             let half_m = half_m + beyond_m[side];
             let farthest = places_m.iter().fold(0.0_f64, |most, at| most.max(at[side].abs()));

@@ -49,7 +49,7 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     let gyration = worst.gyration_m().map_or(String::new(), |m| format!(", radius of gyration {} mm", four(1e3 * m)));
     let part = worst.frequency_hz().zip(worst.damping_ratio());
     let part = part.map_or(String::new(), |(hz, ratio)| format!(", {} Hz, damping ratio {}", four(hz), four(ratio)));
-    let lands = if worst.drop.flat {
+    let lands = if worst.drop.is_flat {
         "flat".to_owned()
     } else {
         let attitude = worst.landing.and_then(DropName::attitude);
@@ -57,13 +57,13 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
         match worst.direction_deg() {
             _ if landing.is_some() => landing.unwrap_or_default(),
             Some(direction) => format!("{} deg, rising to {} deg", four(worst.tilt_deg()), four(direction)),
-            None => format!("{} first, {} deg", inputs::letter(worst.drop.first), four(worst.tilt_deg())),
+            None => format!("{} first, {} deg", inputs::letter(worst.drop.first()), four(worst.tilt_deg())),
         }
     };
-    let place = if worst.drop.across.is_some() {
-        format!("{}, {}", four(1e3 * worst.part.position_m), four(1e3 * worst.part.across_m))
+    let place = if worst.drop.body.is_wide() {
+        format!("{}, {}", four(1e3 * worst.part.place.at_m[0]), four(1e3 * worst.part.place.at_m[1]))
     } else {
-        four(1e3 * worst.part.position_m)
+        four(1e3 * worst.part.place.at_m[0])
     };
     let axis = worst.axis().map_or(String::new(), |axis| match axis {
         Axis::Any => ", along the blow".to_owned(),

@@ -218,7 +218,7 @@ fn every_door_gives_the_same_answer() {
         }
         let file = ProductFile::read(&std::fs::read_to_string(path).unwrap(), path).unwrap();
         // Of a plate or a box they take long.
-        if file.product.width.is_none() {
+        if !file.product.body.is_wide() {
             design_says(&answer, path, file.product.contact_law.is_none(), page.as_deref());
             explain_says(&answer, path);
         }

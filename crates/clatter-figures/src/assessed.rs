@@ -42,7 +42,7 @@ pub fn assessed(file: &ProductFile, assessment: &Assessment, portraits: &[Portra
         zone_m: portraits.get(i).and_then(|portrait| portrait.zone_m),
     });
     let body = &file.product.body;
-    let beyond_m = file.product.feet.map_or(0.0, |feet| feet.inset_m[0]);
+    let beyond_m = file.product.body.feet.map_or(0.0, |feet| feet.inset_m[0]);
     product(body.arms_m(), body.gyration_m(), beyond_m, &place.collect::<Vec<_>>())
 }
 

@@ -140,8 +140,8 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// the first stand beside the whole, magnified.
 ///
 /// ```
-/// use clatter_flight::{Body, Model, Scene};
-/// let scene = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
+/// use clatter_flight::{Profile, Model, Scene};
+/// let scene = Scene::new(Profile::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
 /// let motion = scene.fly(Model::FiniteTilt)?;
 /// let rows: Vec<_> = motion.rows().collect();
 /// let (strikes, stop) = (&motion.strikes, motion.stop);
@@ -341,7 +341,7 @@ fn pulses(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2], 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_flight::{Body, Model, Scene};
+    use clatter_flight::{Model, Profile, Scene};
 
     /// Of points that lie closer than can be seen, the first, the last and both extremes are drawn, in order.
     #[test]
@@ -356,7 +356,7 @@ mod tests {
 
     #[test]
     fn the_hardest_strike_is_magnified_with_those_before_it() {
-        let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.3, 4.43, 5.0, 9.81).unwrap();
+        let scene = Scene::new(Profile::new(0.14, 0.04).unwrap(), 0.3, 4.43, 5.0, 9.81).unwrap();
         let flight = scene.fly(Model::FiniteTilt).unwrap();
         let rows: Vec<_> = flight.rows().collect();
         let until = |strikes: &[Strike]| {

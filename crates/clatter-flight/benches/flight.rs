@@ -2,7 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
-use clatter_flight::{Body, Contact, ContactLaw, Model, Scene};
+use clatter_flight::{Contact, ContactLaw, Model, Profile, Scene};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 
@@ -12,7 +12,7 @@ fn main() {
 
 fn scene(q: f64, e: f64, impacts: usize) -> Scene {
     let half = 0.07;
-    let body = Body::new(2.0 * half, half * ((1.0 - q) / (1.0_f64 + q)).sqrt()).expect("a phone");
+    let body = Profile::new(2.0 * half, half * ((1.0 - q) / (1.0_f64 + q)).sqrt()).expect("a phone");
     let scene = Scene::new(body, e, 4.43, 5.0, 9.81).expect("a drop from a meter");
     scene.with_impact_limit(impacts).expect("some strikes")
 }

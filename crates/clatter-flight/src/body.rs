@@ -1,232 +1,208 @@
-//! A rigid body and the points with which it touches the ground.
+//! A rigid body: its sides, its mass and what it lands on.
 
 use clatter::Error;
 
-use crate::scene::within;
+use crate::block::Block;
+use crate::profile::Profile;
 
-/// A rigid body, seen from the side, that touches the ground with N points; a bar has two.
-///
-/// Points are given about the center of mass in the body's own axes: x along the body, z away from the ground where it
-/// lies. At the tilt φ a point has the lever arm and the height over the center of mass
-///
-/// ```text
-/// x cos φ − z sin φ,      x sin φ + z cos φ
-/// ```
+/// One side of a body, with the mass along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Body<const N: usize = 2> {
-    points: [[f64; 2]; N],
-    gyration: f64,
+pub struct Side {
+    /// Distances of both ends from the center of mass, the one in the negative direction first.
+    pub ends_m: [f64; 2],
+    /// Radius of gyration of the mass along the side, √(∫x² dm/m) about the center of mass.
+    pub gyration_m: f64,
 }
 
-impl<const N: usize> Body<N> {
-    /// A body with these contact points, \[x, z\] in m from the center of mass, and this radius of gyration about it.
-    ///
-    /// # Errors
-    /// [`Error::Quantity`] unless every coordinate is within 10³⁰ m, no two points are closer than 10⁻⁶ of their
-    /// largest distance from the center of mass, and the radius of gyration is 0 or between 10⁻¹² and 10⁶ times that.
-    ///
-    /// # Examples
-    /// A block of 2 m × 1 m that can land on each of its four corners:
-    /// ```
-    /// use clatter_flight::Body;
-    /// let block = Body::of_points([[-1.0, -0.5], [1.0, -0.5], [1.0, 0.5], [-1.0, 0.5]], 0.6)?;
-    /// assert_eq!(block.points_m().len(), 4);
-    /// # Ok::<(), clatter::Error>(())
-    /// ```
-    pub fn of_points(points_m: [[f64; 2]; N], gyration_m: f64) -> Result<Self, Error> {
-        for x in points_m.into_iter().flatten() {
-            within("coordinate of a contact point in m", x, -1e30, 1e30, "in [-1e30, 1e30]")?;
-        }
-        let reach = points_m.iter().fold(0.0_f64, |most, [x, z]| most.max(libm::hypot(*x, *z)));
-        for (i, [x, z]) in points_m.iter().enumerate() {
-            for [x2, z2] in &points_m[..i] {
-                let apart = libm::hypot(x - x2, z - z2);
-                within(
-                    "distance of two contact points in m",
-                    apart,
-                    1e-6 * reach,
-                    f64::MAX,
-                    "at least 1e-6 of the size",
-                )?;
-            }
-        }
-        if gyration_m != 0.0 {
-            let allowed = "0 or between 1e-12 and 1e6 times the size";
-            within("radius of gyration in m", gyration_m, 1e-12 * reach, 1e6 * reach, allowed)?;
-        }
-        Ok(Self { points: points_m, gyration: gyration_m + 0.0 })
-    }
-    /// The contact points, \[x, z\] from the center of mass.
+impl Side {
+    /// A side of this length over which the mass is spread evenly.
     #[must_use]
-    pub fn points_m(&self) -> [[f64; 2]; N] {
-        self.points
+    pub fn even(length_m: f64) -> Self {
+        Self { ends_m: [0.5 * length_m; 2], gyration_m: length_m / 12_f64.sqrt() }
     }
-    /// Radius of gyration about the center of mass.
+    /// From end to end.
     #[must_use]
-    pub fn gyration_m(&self) -> f64 {
-        self.gyration
+    pub fn m(&self) -> f64 {
+        self.ends_m[0] + self.ends_m[1]
     }
-    /// The largest distance of two contact points along the body.
+    /// The center of mass from the middle.
     #[must_use]
-    pub fn length_m(&self) -> f64 {
-        let (lo, hi) = self.points.iter().fold((0.0_f64, 0.0_f64), |(lo, hi), [x, _]| (lo.min(*x), hi.max(*x)));
-        hi - lo
-    }
-    /// Lever arms of the points with sign, and their heights over the center of mass, at the angle with this sine and
-    /// cosine.
-    pub(crate) fn levers(&self, sin: f64, cos: f64) -> ([f64; N], [f64; N]) {
-        (self.points.map(|[x, z]| x * cos - z * sin), self.points.map(|[x, z]| x * sin + z * cos))
-    }
-    /// Distance of a point from the center of mass.
-    pub(crate) fn radius(&self, point: usize) -> f64 {
-        let [x, z] = self.points[point];
-        libm::hypot(x, z)
-    }
-    /// The largest of those distances.
-    pub(crate) fn reach(&self) -> f64 {
-        (0..N).fold(0.0, |most, i| self.radius(i).max(most))
-    }
-    /// Height of the center of mass over two points that lie, positive where it is on the left of the way from one to the other.
-    pub(crate) fn height_over(&self, [i, j]: [usize; 2]) -> f64 {
-        let ([x1, z1], [x2, z2]) = (self.points[i], self.points[j]);
-        (x1 * (z2 - z1) - z1 * (x2 - x1)) / libm::hypot(x2 - x1, z2 - z1)
-    }
-    /// The same as the body lies, the lowest where it may lie on several sides.
-    pub(crate) fn lowest_m(&self) -> f64 {
-        let mut lowest = f64::INFINITY;
-        for (i, [x1, z1]) in self.points.iter().enumerate() {
-            for (j, [x2, z2]) in self.points.iter().enumerate().skip(i + 1) {
-                let center = self.height_over([i, j]);
-                let length = libm::hypot(x2 - x1, z2 - z1);
-                let off = |x: f64, z: f64| ((x2 - x1) * (z - z1) - (z2 - z1) * (x - x1)) / length;
-                let beyond = |[x, z]: &[f64; 2]| off(*x, *z) * center.signum() < -1e-12 * length;
-                if !self.points.iter().any(beyond) {
-                    lowest = lowest.min(center.abs());
-                }
-            }
-        }
-        if lowest.is_finite() { lowest } else { 0.0 }
-    }
-    /// x² + ρ²: the inertia about a point at lever arm x.
-    pub(crate) fn inertia(&self, x: f64) -> f64 {
-        x * x + self.gyration * self.gyration
+    pub fn center_m(&self) -> f64 {
+        0.5 * (self.ends_m[0] - self.ends_m[1])
     }
 }
 
-/// The bar: point 0 is end a, point 1 is end b.
-impl Body<2> {
-    /// A body with its center of mass in the middle: length from end to end and radius of gyration.
+/// Feet or bumpers inside the edges: they touch the ground first, and the product goes on beyond them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Feet {
+    /// How far inside the edges, along the length and along the width; 0 across a bar.
+    pub inset_m: [f64; 2],
+    /// By how much they stand out.
+    pub height_m: f64,
+}
+
+/// A rigid body that falls: a bar has a length, a plate a width too, a box a thickness.
+///
+/// On feet the sides are those between the feet, and the body goes on beyond them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// From end a to end b.
+    pub length: Side,
+    /// From front to back; none of a bar.
+    pub width: Option<Side>,
+    /// From bottom to top, where it is known.
+    pub thickness: Option<Side>,
+    /// ∫x y dm/m, ∫x z dm/m and ∫y z dm/m about the center of mass: 0 where the mass is even about the axes.
+    pub products_m2: [f64; 3],
+    /// Feet inside its edges.
+    pub feet: Option<Feet>,
+}
+
+/// Thickness over length of a plate whose thickness is not known, where real tilt counts.
+pub const THIN: f64 = 0.05;
+
+impl Body {
+    /// A bar with its center of mass in the middle: length from end to end and radius of gyration.
     ///
     /// # Errors
     /// As [`Body::off_center`].
     pub fn new(length_m: f64, gyration_m: f64) -> Result<Self, Error> {
-        within("length in m", length_m, 1e-30, 1e30, "in [1e-30, 1e30]")?;
-        Self::off_center(0.5 * length_m, 0.5 * length_m, gyration_m)
+        let [a, b] = Profile::new(length_m, gyration_m)?.arms_m();
+        Self::off_center(a, b, gyration_m)
     }
-    /// A body with its center of mass at distances `a_m` and `b_m` from ends a and b.
-    ///
-    /// A radius of gyration of 0 is legal (q = 1, the ends are massless), so is one beyond the arms (q < 0).
+    /// A bar with its center of mass at distances `a_m` and `b_m` from ends a and b.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless both arms are in [1e−31, 1e30], the longer at most 10⁶ times the shorter, and the
     /// radius of gyration is 0 or between 10⁻¹² and 10⁶ times the length.
     pub fn off_center(a_m: f64, b_m: f64, gyration_m: f64) -> Result<Self, Error> {
-        for (name, arm) in [("arm of end a in m", a_m), ("arm of end b in m", b_m)] {
-            within(name, arm, 1e-31, 1e30, "in [1e-31, 1e30]")?;
-        }
-        within("ratio of the arms", a_m / b_m, 1e-6, 1e6, "in [1e-6, 1e6]")?;
-        if gyration_m != 0.0 {
-            let length = a_m + b_m;
-            let allowed = "0 or between 1e-12 and 1e6 times the length";
-            within("radius of gyration in m", gyration_m, 1e-12 * length, 1e6 * length, allowed)?;
-        }
-        Ok(Self { points: [[-a_m, 0.0], [b_m, 0.0]], gyration: gyration_m + 0.0 })
+        Ok(Self::from(Profile::off_center(a_m, b_m, gyration_m)?))
     }
-    /// The same body with corners: seen from the side a rectangle, its center of mass on the line midway between the
-    /// two long sides. At a tilt it stands on a corner of the lower side, which is half a thickness below that line:
-    ///
-    /// ```text
-    ///            b        height of a corner below the center   σ L sin φ − (t/2) cos φ
-    ///      ·  ·  /        its lever arm                         σ L cos φ + (t/2) sin φ
-    ///   ·   · · /         (σ = −1 at a, +1 at b)
-    ///  a · · ·
-    ///  ‾‾‾‾‾‾‾‾‾‾
-    /// ```
-    ///
-    /// So the lever arm of the end that is down is shorter by `(t/2) sin φ`, that of the other end longer. Everywhere
-    /// in this crate "end a" and "end b" are then these two corners. [`Model::FiniteTilt`](crate::Model::FiniteTilt)
-    /// knows corners, until the body has turned past its end and comes down on others
-    /// ([`Stop::TurnedOver`](crate::Stop::TurnedOver)); at small tilt they make no difference.
+    /// The same body with a width: a plate.
+    #[must_use]
+    pub fn with_width(self, width: Side) -> Self {
+        Self { width: Some(width), ..self }
+    }
+    /// The same body with a thickness.
+    #[must_use]
+    pub fn with_thickness(self, thickness: Side) -> Self {
+        Self { thickness: Some(thickness), ..self }
+    }
+    /// The same with another radius of gyration along the length.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless the thickness is 0 or between 10⁻¹² and 1 times the length.
-    ///
-    /// ```
-    /// use clatter_flight::{Body, Model, Scene};
-    /// // Length 2, thickness 1 and radius of gyration 1 at 45°: lever arms −½/√2 and 1½/√2. The free end gets
-    /// // (1 + x_a x_b/ρ²)/(1 + x_a²/ρ²) = (1 − 3/8)/(1 + 1/8) = 5/9 of the jump of the struck one.
-    /// let body = Body::new(2.0, 1.0)?.with_thickness(1.0)?;
-    /// let strike = Scene::new(body, 0.5, 1.0, 45.0, 0.0)?.fly(Model::FiniteTilt)?.strikes[0];
-    /// assert!((strike.delta_v_m_s[0] - 1.5).abs() < 1e-15);
-    /// assert!((strike.delta_v_m_s[1] / strike.delta_v_m_s[0] - 5.0 / 9.0).abs() < 1e-15);
-    /// # Ok::<(), clatter_flight::Error>(())
-    /// ```
-    pub fn with_thickness(mut self, thickness_m: f64) -> Result<Self, Error> {
-        if thickness_m != 0.0 {
-            let length = self.length_m();
-            let allowed = "0 or between 1e-12 and 1 times the length";
-            within("thickness in m", thickness_m, 1e-12 * length, length, allowed)?;
-        }
-        self.points = self.points.map(|[x, _]| [x, -0.5 * thickness_m + 0.0]);
-        Ok(self)
+    /// As [`Body::off_center`].
+    pub fn with_gyration_m(self, gyration_m: f64) -> Result<Self, Error> {
+        let [a, b] = self.arms_m();
+        Ok(Self { length: Self::off_center(a, b, gyration_m)?.length, ..self })
     }
-    /// Distances of ends a and b from the center of mass, along the body.
+    /// From end to end, or from foot to foot.
+    #[must_use]
+    pub fn length_m(&self) -> f64 {
+        self.length.m()
+    }
+    /// Distances of ends a and b from the center of mass.
     #[must_use]
     pub fn arms_m(&self) -> [f64; 2] {
-        let [[a, _], [b, _]] = self.points;
-        [-a, b]
+        self.length.ends_m
     }
-    /// Thickness, from corner to corner of an end.
+    /// Radius of gyration of the mass along the length.
     #[must_use]
-    pub fn thickness_m(&self) -> f64 {
-        -2.0 * self.points[0][1]
+    pub fn gyration_m(&self) -> f64 {
+        self.length.gyration_m
     }
-    /// Where position `s` in [−1, 1] along the bar is (−1 is end a): x and z from the center of mass.
+    /// From front to back; 0 of a bar.
     #[must_use]
-    pub fn place(&self, s: f64) -> [f64; 2] {
-        let [[a, z], [b, _]] = self.points;
-        [0.5 * ((1.0 - s) * a + (1.0 + s) * b), z]
+    pub fn width_m(&self) -> f64 {
+        self.width.map_or(0.0, |width| width.m())
     }
-    /// Inertia ratios of a level body, `q_a = (L_a L_b − ρ²)/(L_a² + ρ²)` and `q_b` likewise: minus the jump of the
-    /// other end over the jump of the striking end.
+    /// Whether it is as wide as it may turn about its length: no bar.
+    #[must_use]
+    pub fn is_wide(&self) -> bool {
+        self.width.is_some()
+    }
+    /// How many ends or corners it has, seen from above: two or four.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        if self.is_wide() { 4 } else { 2 }
+    }
+    /// From edge to edge, along the length and along the width; 0 across a bar.
+    #[must_use]
+    pub fn sides_m(&self) -> [f64; 2] {
+        let [x, y] = self.feet.map_or([0.0; 2], |feet| feet.inset_m);
+        [self.length_m() + 2.0 * x, self.width.map_or(0.0, |width| width.m() + 2.0 * y)]
+    }
+    /// The thickness, or the one that is assumed where none is known.
+    #[must_use]
+    pub fn thickness(&self) -> Side {
+        self.thickness.unwrap_or_else(|| Side::even(THIN * self.length_m()))
+    }
+    /// Distances of the faces of a box from its center of mass, −x, +x, −y and so on; none of a body whose thickness is not known.
+    #[must_use]
+    pub fn faces_m(&self) -> Option<[[f64; 2]; 3]> {
+        Some([self.length.ends_m, self.width?.ends_m, self.thickness?.ends_m])
+    }
+    /// Inertia ratios of both ends, as of a bar: minus the jump of the other end over the jump of the striking end.
     #[must_use]
     pub fn inertia_ratios(&self) -> [f64; 2] {
-        let product = self.product(1.0);
-        self.arms_m().map(|arm| product / self.inertia(arm))
+        self.profile().map_or([f64::NAN; 2], |profile| profile.inertia_ratios())
     }
-    /// `x_a x_b − ρ²` for lever arms `x = L cos φ`, `cos2` = cos² φ.
-    pub(crate) fn product(&self, cos2: f64) -> f64 {
+    /// A place from the center of mass, that is given from the middle.
+    #[must_use]
+    pub fn from_center(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let center = |side: Option<Side>| side.map_or(0.0, |side| side.center_m());
         let [a, b] = self.arms_m();
-        if a - b == 0.0 && cos2 - 1.0 == 0.0 {
-            (a - self.gyration) * (a + self.gyration)
-        } else {
-            a * b * cos2 - self.gyration * self.gyration
-        }
+        [x - 0.5 * (a - b), y - center(self.width), z - center(self.thickness)]
+    }
+    /// The smallest and the largest radius of gyration about axes in the plane of a plate; those of the length of a bar.
+    #[must_use]
+    pub fn gyrations_in_plane_m(&self) -> [f64; 2] {
+        let along_m = self.gyration_m();
+        let Some(width) = &self.width else { return [along_m; 2] };
+        let ([xx, yy], xy) = ([along_m, width.gyration_m].map(|k| k * k), self.products_m2[0]);
+        let (middle, half) = (0.5 * (xx + yy), libm::hypot(0.5 * (xx - yy), xy));
+        [(middle - half).max(0.0).sqrt(), (middle + half).sqrt()]
+    }
+    /// Its ends seen from the side, which touch the ground as those of a bar.
+    ///
+    /// # Errors
+    /// As [`Body::off_center`].
+    pub fn profile(&self) -> Result<Profile, Error> {
+        let [a, b] = self.arms_m();
+        Profile::off_center(a, b, self.gyration_m())
+    }
+    /// The box that it is, so thick; `on_bottom` goes on upward, so that the corners of its bottom alone land, however far they sink in.
+    pub(crate) fn block(&self, width: &Side, thickness: &Side, on_bottom: bool) -> Result<Block, Error> {
+        let [kx, ky, kz] = [self.length.gyration_m, width.gyration_m, thickness.gyration_m];
+        let radii = [libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)];
+        let [length_m, width_m, thickness_m] = [self.length.m(), width.m(), thickness.m()];
+        let height_m = if on_bottom { thickness_m.max(length_m).max(width_m) } else { thickness_m };
+        let center_m =
+            [self.length.center_m(), width.center_m(), thickness.center_m() + 0.5 * (thickness_m - height_m)];
+        Block::new([length_m, width_m, height_m], center_m, radii)?.with_products_of_inertia(self.products_m2)
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+impl From<Profile> for Body {
+    /// The bar whose ends these are.
+    fn from(profile: Profile) -> Self {
+        let length = Side { ends_m: profile.arms_m(), gyration_m: profile.gyration_m() };
+        Self { length, width: None, thickness: None, products_m2: [0.0; 3], feet: None }
+    }
+}
 
-    /// A body lies lowest on the side nearest to its center of mass; lines through it are no sides.
-    #[test]
-    fn a_body_lies_lowest_on_its_nearest_side() {
-        let of = |points: [[f64; 2]; 4]| Body::of_points(points, 0.05).unwrap().lowest_m();
-        let corners = [[-0.15, -0.03], [0.15, -0.03], [0.15, 0.05], [-0.15, 0.05]];
-        assert!((of(corners) - 0.03).abs() < 1e-15, "{}", of(corners));
-        // Its corners in another order, and stood on its end.
-        let [a, b, c, d] = corners.map(|[x, z]| [z, x]);
-        assert!((of([c, a, d, b]) - 0.03).abs() < 1e-15, "{}", of([c, a, d, b]));
+impl From<Block> for Body {
+    /// The box, with the mass along its sides.
+    fn from(block: Block) -> Self {
+        let [a, b, c] = block.gyration_m().map(|about| about * about);
+        let along = [(a, b + c), (b, c + a), (c, a + b)].map(|(own, others)| (0.5 * (others - own)).max(0.0).sqrt());
+        let (sizes, centers) = (block.size_m(), block.center_of_mass_m());
+        let side = |axis: usize| {
+            let (half_m, center_m) = (0.5 * sizes[axis], centers[axis]);
+            Side { ends_m: [half_m + center_m, half_m - center_m], gyration_m: along[axis] }
+        };
+        let [length, width, thickness] = [side(0), side(1), side(2)];
+        let products_m2 = block.products_of_inertia_m2();
+        Self { length, width: Some(width), thickness: Some(thickness), products_m2, feet: None }
     }
 }

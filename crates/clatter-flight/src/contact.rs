@@ -193,8 +193,8 @@ impl<const N: usize> Scene<N> {
     /// # Examples
     /// Without gravity end a, which touches first, leaves with its own restitution while end b is up.
     /// ```
-    /// use clatter_flight::{Body, Contact, ContactLaw, Scene};
-    /// let scene = Scene::new(Body::new(0.14, 0.05)?, 0.5, 2.0, 20.0, 0.0)?;
+    /// use clatter_flight::{Profile, Contact, ContactLaw, Scene};
+    /// let scene = Scene::new(Profile::new(0.14, 0.05)?, 0.5, 2.0, 20.0, 0.0)?;
     /// let [soft, hard] = [(0.1, 1e-3), (0.5, 2e-4)].map(|(e, time_s)| Contact::new(ContactLaw::Hysteretic, e, time_s));
     /// let motion = scene.own_contacts_until(&[soft?, hard?], 1e-6, |_| false)?;
     /// let first = motion.strikes[0];

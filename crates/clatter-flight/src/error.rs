@@ -36,6 +36,28 @@ pub enum Error {
         "contacts that differ are hysteretic: dashpots that differ couple the vibrations of a body, which is no sum of modes then"
     )]
     Laws,
+    /// Contacts that take time, of a drop whose contact time is not known.
+    #[error("this model needs the contact time, and none is known")]
+    ContactTime,
+    /// A plate or a box by instant impacts.
+    #[error("a body with a width is followed with contacts that take time")]
+    Instant,
+    /// A box of a body without a width.
+    #[error("a body without a width is no box")]
+    NoBox,
+    /// An edge beyond the feet that comes down to the ground in the clatter of instant impacts.
+    #[error(
+        "an edge beyond the feet comes down to {} mm below the ground, {} ms after the first touch, and instant impacts do not \
+         follow it: a contact time, higher feet, or feet nearer to the edges",
+        rounded(1e3 * depth_m),
+        rounded(1e3 * time_s)
+    )]
+    Edge {
+        /// When it is found there, since the first touch.
+        time_s: f64,
+        /// How far below it would be then.
+        depth_m: f64,
+    },
     /// A motion that does not keep its energy.
     #[error(
         "the motion changes its energy by {:.2} % without reason: it is no answer (contacts so long that they turn the body far, or so short that roundings of heights count)",
@@ -62,4 +84,9 @@ fn towards(bound: f64, most: bool) -> f64 {
     let digit = libm::pow(10.0, libm::log10(bound.abs()).floor() - 2.0);
     let digits = bound / digit;
     digit * if most { (digits + 1e-9).floor() } else { (digits - 1e-9).ceil() }
+}
+
+/// To two decimals.
+fn rounded(value: f64) -> f64 {
+    (100.0 * value).round() / 100.0
 }

@@ -37,7 +37,7 @@ impl Model {
 pub struct Strike<const N: usize = 2> {
     /// From 1.
     pub number: u64,
-    /// The contact point that strikes, by its index in [`Body::points_m`](crate::Body::points_m).
+    /// The contact point that strikes, by its index in [`Profile::points_m`](crate::Profile::points_m).
     pub point: usize,
     /// Since the first touch.
     pub time_s: f64,

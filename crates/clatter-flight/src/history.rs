@@ -6,8 +6,8 @@
 //! motion is straight, as without gravity, nothing is added.
 //!
 //! ```
-//! use clatter_flight::{Body, Model, Scene};
-//! let scene = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
+//! use clatter_flight::{Profile, Model, Scene};
+//! let scene = Scene::new(Profile::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
 //! let motion = scene.fly(Model::Map)?;
 //! let rows: Vec<_> = motion.rows().collect();
 //! assert_eq!(rows.len(), 2 * motion.strikes.len() + 1); // straight lines, until it has bounced clear

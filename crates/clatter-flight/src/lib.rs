@@ -27,9 +27,9 @@
 //! and says so.
 //!
 //! ```
-//! use clatter_flight::{Body, Model, Scene, Stop};
+//! use clatter_flight::{Profile, Model, Scene, Stop};
 //! // A uniform bar with e = 0 and no tilt: both ends strike in turn at one instant, T = q = ½ each, until all is still.
-//! let body = Body::new(0.14, 0.07 / 3.0_f64.sqrt())?;
+//! let body = Profile::new(0.14, 0.07 / 3.0_f64.sqrt())?;
 //! let motion = Scene::new(body, 0.0, 1.0, 0.0, 9.81)?.fly(Model::Ballistic)?;
 //! assert_eq!(motion.strikes[0].approach_m_s, -1.0);
 //! assert!((motion.strikes[1].approach_m_s + 1.5).abs() < 1e-15); // v_b − q v0
@@ -46,21 +46,31 @@
 mod block;
 mod body;
 mod contact;
+mod drop;
 mod error;
 mod excitation;
 mod flight;
+mod fly;
 pub mod history;
 mod motion;
+mod own_contacts;
+mod place;
 mod plate;
+mod profile;
 mod rigid;
 mod roots;
 mod scene;
 
 pub use block::{Block, BlockDrop, BlockFlight, BlockStep, BlockStrike, LEAST_OF_BLOCKS};
-pub use body::Body;
+pub use body::{Body, Feet, Side, THIN};
 pub use contact::{Contact, ContactLaw, Press, Sample};
+pub use drop::{Drop, Levers, turned_off};
 pub use error::Error;
 pub use flight::{LiftOff, Model, Pivot, SHARE, Stop, Strike};
+pub use fly::{Followed, PRECISION, Push, Until};
 pub use motion::{Ahead, FeetMotion, Motion, PlateMotion};
+pub use own_contacts::{OwnContact, OwnContacts, PLACES};
+pub use place::{Axis, Place};
 pub use plate::{Plate, PlateScene};
+pub use profile::Profile;
 pub use scene::Scene;

@@ -97,8 +97,8 @@ impl Scene {
     ///
     /// # Examples
     /// ```
-    /// use clatter_flight::{Body, Model, Scene};
-    /// let scene = Scene::new(Body::new(0.14, 0.05)?, 0.5, 2.0, 5.0, 9.81)?;
+    /// use clatter_flight::{Profile, Model, Scene};
+    /// let scene = Scene::new(Profile::new(0.14, 0.05)?, 0.5, 2.0, 5.0, 9.81)?;
     /// let three = scene.fly_until(Model::FiniteTilt, 1e-4, |ahead| ahead.struck == [2, 1])?;
     /// assert_eq!(three.strikes, scene.with_impact_limit(3)?.fly(Model::FiniteTilt)?.strikes);
     /// # Ok::<(), clatter_flight::Error>(())
@@ -240,8 +240,8 @@ impl Motion {
     ///
     /// # Examples
     /// ```
-    /// use clatter_flight::{Body, Model, Scene};
-    /// let motion = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?.fly(Model::FiniteTilt)?;
+    /// use clatter_flight::{Profile, Model, Scene};
+    /// let motion = Scene::new(Profile::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?.fly(Model::FiniteTilt)?;
     /// assert_eq!(motion.felt(0.5).section(0).delta_v, motion.strikes[0].delta_v_at(0.5));
     /// # Ok::<(), clatter_flight::Error>(())
     /// ```

@@ -2,12 +2,12 @@
 
 use clatter::{Error, Restitution};
 
-use crate::Body;
+use crate::Profile;
 
 /// A drop at the moment when end a touches, with the limits of its simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scene<const N: usize = 2> {
-    body: Body<N>,
+    body: Profile<N>,
     e: Restitution,
     speed: f64,
     tilt: f64,
@@ -28,7 +28,7 @@ impl<const N: usize> Scene<N> {
     /// # Errors
     /// [`Error::Restitution`] unless 0 ≤ e ≤ 1; [`Error::Quantity`] unless the speed is in [1e−30, 1e30] m/s, the
     /// tilt 0 or in [1e−60°, 90°), and gravity 0 or in [1e−60, 1e30] m/s².
-    pub fn new(body: Body<N>, e: f64, speed_m_s: f64, tilt_deg: f64, gravity_m_s2: f64) -> Result<Self, Error> {
+    pub fn new(body: Profile<N>, e: f64, speed_m_s: f64, tilt_deg: f64, gravity_m_s2: f64) -> Result<Self, Error> {
         let e = Restitution::new(e)?;
         within("speed in m/s", speed_m_s, 1e-30, 1e30, "in [1e-30, 1e30]")?;
         if tilt_deg != 0.0 && !(1e-60..90.0).contains(&tilt_deg) {
@@ -54,7 +54,13 @@ impl<const N: usize> Scene<N> {
     ///
     /// # Errors
     /// [`Error::Quantity`] unless the height is in [1e−30, 1e30] m and gravity is positive; else as [`Scene::new`].
-    pub fn from_height(body: Body<N>, e: f64, height_m: f64, tilt_deg: f64, gravity_m_s2: f64) -> Result<Self, Error> {
+    pub fn from_height(
+        body: Profile<N>,
+        e: f64,
+        height_m: f64,
+        tilt_deg: f64,
+        gravity_m_s2: f64,
+    ) -> Result<Self, Error> {
         within("height in m", height_m, 1e-30, 1e30, "in [1e-30, 1e30]")?;
         within("gravity in m/s²", gravity_m_s2, 1e-60, 1e30, "in [1e-60, 1e30] for a drop from a height")?;
         Self::new(body, e, (2.0 * gravity_m_s2 * height_m).sqrt(), tilt_deg, gravity_m_s2)
@@ -106,7 +112,7 @@ impl<const N: usize> Scene<N> {
     }
     /// The body.
     #[must_use]
-    pub fn body(&self) -> Body<N> {
+    pub fn body(&self) -> Profile<N> {
         self.body
     }
     /// Coefficient of restitution.

@@ -1,6 +1,6 @@
 //! What a flight says ahead of what still comes, and that spin and shocks add up.
 
-use clatter_flight::{Ahead, Body, Contact, ContactLaw, Model, Motion, Press, Scene};
+use clatter_flight::{Ahead, Contact, ContactLaw, Model, Motion, Press, Profile, Scene};
 use proptest::prelude::*;
 
 const TIME: f64 = 1e-3;
@@ -13,7 +13,7 @@ fn any_drop() -> impl Strategy<Value = (Scene, Contact)> {
     (law, -0.3..0.9_f64, off, e, tilt, 0.001..0.05_f64, 0.002..0.05_f64).prop_map(
         |(law, q, off, e, tilt, by_gravity, by_speed)| {
             let (a, b) = (0.5 * (1.0 + off), 0.5 * (1.0 - off));
-            let body = Body::off_center(a, b, 0.5 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar");
+            let body = Profile::off_center(a, b, 0.5 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar");
             let (g, speed) = ((by_gravity / TIME).powi(2), by_speed / TIME);
             let scene = Scene::new(body, e, speed, tilt, g).and_then(|scene| scene.with_impact_limit(200));
             (scene.expect("a drop"), Contact::new(law, e, TIME).expect("a contact"))

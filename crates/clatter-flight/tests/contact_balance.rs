@@ -1,6 +1,6 @@
 //! What no contact may break: energy never grows, momentum adds up, and what a place feels is its motion.
 
-use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene, Stop, Strike};
+use clatter_flight::{Contact, ContactLaw, Model, Motion, Profile, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 const TIME: f64 = 1e-3;
@@ -8,7 +8,7 @@ const TIME: f64 = 1e-3;
 /// A body of length 1 with contacts of 1 ms, so long in units of √(length/g) and of length/v0.
 fn drop(q: f64, off: f64, e: f64, tilt: f64, by_gravity: f64, by_speed: f64) -> Scene {
     let (a, b) = (0.5 * (1.0 + off), 0.5 * (1.0 - off));
-    let body = Body::off_center(a, b, 0.5 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar");
+    let body = Profile::off_center(a, b, 0.5 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar");
     let (g, speed) = ((by_gravity / TIME).powi(2), by_speed / TIME);
     Scene::new(body, e, speed, tilt, g).and_then(|scene| scene.with_impact_limit(100)).expect("a drop")
 }

@@ -1,10 +1,10 @@
 //! Contacts at the edges of what is taken: always a flight that ends and says how, or an error with the value.
 
-use clatter_flight::{Body, Contact, ContactLaw, Error, Model, Motion, Scene, Stop, Strike};
+use clatter_flight::{Contact, ContactLaw, Error, Model, Motion, Profile, Scene, Stop, Strike};
 use proptest::prelude::*;
 
-fn body(q: f64) -> Body {
-    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar")
+fn body(q: f64) -> Profile {
+    Profile::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar")
 }
 
 fn contact(law: ContactLaw, e: f64, time_s: f64) -> Contact {
@@ -70,7 +70,8 @@ fn extreme() -> impl Strategy<Value = (Scene, Contact)> {
     )
         .prop_map(|(law, e, tilt, time, gravity, speed, spin, q, off)| {
             let half = 0.07;
-            let body = Body::off_center(half * (1.0 + off), half * (1.0 - off), half * ((1.0 - q) / (1.0 + q)).sqrt());
+            let body =
+                Profile::off_center(half * (1.0 + off), half * (1.0 - off), half * ((1.0 - q) / (1.0 + q)).sqrt());
             let scene = Scene::new(body.expect("a bar"), e, speed, tilt, gravity).expect("a drop");
             let scene = scene.with_spin(spin * speed / half).unwrap_or(scene);
             let time = (time * 2.0 * half / speed).clamp(1e-12, 1e3);
@@ -157,7 +158,7 @@ fn a_drop_comes_to_rest_on_its_contacts() {
 /// time, and struck 294 times in one second.
 #[test]
 fn an_end_that_lies_is_not_struck_again() {
-    let body = Body::new(0.3656, 0.2452).expect("a bar");
+    let body = Profile::new(0.3656, 0.2452).expect("a bar");
     let scene = Scene::new(body, 0.1176, 7.473, 0.2666, 9.81).expect("a drop");
     for law in ContactLaw::ALL {
         let flight = scene.fly(Model::Contacts(contact(law, 0.1176, 1.311e-4))).expect("a flight");
@@ -170,7 +171,7 @@ fn an_end_that_lies_is_not_struck_again() {
 /// phases had gone by.
 #[test]
 fn ends_that_part_together_do_not_take_turns() {
-    let body = Body::new(2.0 * 0.049_063_156_973_264_66, 0.008_898_156_337_023_289).expect("a bar");
+    let body = Profile::new(2.0 * 0.049_063_156_973_264_66, 0.008_898_156_337_023_289).expect("a bar");
     let e = 0.211_645_007_649_507_44;
     let scene = Scene::new(body, e, 1.056_038_848_610_071_6, 8.618_710_303_569_253, 9.81).expect("a drop");
     for law in ContactLaw::ALL {
@@ -268,7 +269,7 @@ fn nothing_later_is_larger_than_told() {
 /// strikes.
 #[test]
 fn an_elastic_drop_goes_on_to_its_limit() {
-    let body = Body::new(0.14, 0.07).expect("a bar");
+    let body = Profile::new(0.14, 0.07).expect("a bar");
     for tilt_deg in [70.232, 70.248, 72.372, 72.492, 72.876, 72.9] {
         let scene =
             Scene::new(body, 1.0, 4.43, tilt_deg, 100.0).and_then(|s| s.with_impact_limit(1024)).expect("a drop");
@@ -285,7 +286,7 @@ fn an_elastic_drop_goes_on_to_its_limit() {
 #[test]
 fn a_bound_is_told_as_the_number_that_is_allowed_here() {
     let drop = |length_m: f64, gyration_m: f64, speed_m_s: f64, gravity_m_s2: f64| {
-        let body = Body::new(length_m, gyration_m).expect("a body");
+        let body = Profile::new(length_m, gyration_m).expect("a body");
         Scene::new(body, 0.5, speed_m_s, 5.0, gravity_m_s2).expect("a drop")
     };
     let refused = |scene: &Scene, time_s: f64| {

@@ -1,10 +1,10 @@
 //! What each contact law says of a lone contact, of symmetry, and of its limits.
 
-use clatter_flight::{Body, Contact, ContactLaw, Model, Scene, Stop, Strike};
+use clatter_flight::{Contact, ContactLaw, Model, Profile, Scene, Stop, Strike};
 use proptest::prelude::*;
 
-fn body(q: f64) -> Body {
-    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar")
+fn body(q: f64) -> Profile {
+    Profile::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar")
 }
 
 fn contact(law: ContactLaw, e: f64, time_s: f64) -> Contact {
@@ -17,7 +17,7 @@ fn the_restitution_fitted_is_the_restitution_had() {
         for e in [0.01, 0.05, 0.13, (-2.0_f64).exp(), 0.14, 0.3, 0.7, 0.99, 1.0 - 1e-9, 1.0] {
             for time in [1e-3, 1e-6, 1e-9] {
                 // Straight down on one point under the center of mass, as a body without tilt does not turn.
-                let body = Body::of_points([[0.0, -0.07]], 0.05).expect("a body");
+                let body = Profile::of_points([[0.0, -0.07]], 0.05).expect("a body");
                 let scene = Scene::new(body, e, 2.0, 0.0, 0.0).expect("a drop");
                 let flight = scene.contacts_until(&contact(law, e, time), 1e-4, |_| false).expect("a flight");
                 let strike = flight.strikes[0];
@@ -41,7 +41,7 @@ fn the_restitution_fitted_is_the_restitution_had() {
 fn the_largest_acceleration_of_a_lone_contact_is_that_of_its_law() {
     for law in ContactLaw::ALL {
         for e in [1e-3, 0.01, 0.1, 0.29, 0.3, 0.5, 0.8, 1.0] {
-            let body = Body::of_points([[0.0, -0.07]], 0.05).expect("a body");
+            let body = Profile::of_points([[0.0, -0.07]], 0.05).expect("a body");
             let scene = Scene::new(body, e, 2.0, 0.0, 0.0).expect("a drop");
             let lone = contact(law, e, 1e-3);
             let flight = scene.contacts_until(&lone, 1e-4, |_| false).expect("a flight");
@@ -106,7 +106,7 @@ fn the_pulse_of_a_hysteretic_contact_is_a_quarter_sine_and_a_quarter_cosine() {
     }
     // A lone one, through the force itself.
     for (tilt, e) in [(0.0, 0.3), (0.0, 0.9)] {
-        let lone = Body::of_points([[-0.07, -0.02]], 0.05).expect("a body");
+        let lone = Profile::of_points([[-0.07, -0.02]], 0.05).expect("a body");
         let scene = Scene::new(lone, e, 2.0, tilt, 0.0).expect("a drop");
         let time = 1e-7;
         let flight =
@@ -154,7 +154,7 @@ fn a_flat_even_drop_stays_even_bit_by_bit() {
 #[test]
 fn without_restitution_nothing_rebounds() {
     // A point under the center of mass, and a flat bar: still from the moment of the lowest point on.
-    let lone = Body::of_points([[0.0, -0.07]], 0.05).expect("a body");
+    let lone = Profile::of_points([[0.0, -0.07]], 0.05).expect("a body");
     let lone = Scene::new(lone, 0.0, 2.0, 0.0, 9.81).expect("a drop");
     let flight = lone.contacts_until(&contact(ContactLaw::Hysteretic, 0.0, 1e-3), 1e-4, |_| false).expect("a flight");
     assert!(flight.strikes.len() == 1 && flight.strikes[0].velocity_m_s == [0.0], "{flight:?}");
@@ -212,7 +212,7 @@ proptest! {
         let gyration = 0.07 * ((1.0 - q) / (1.0 + q)).sqrt();
         let points = [[-0.07 * (1.0 + off), 0.0], [0.07 * (1.0 - off), 0.0]];
         let fly = |points: [[f64; 2]; 2]| {
-            let body = Body::of_points(points, gyration).expect("a body");
+            let body = Profile::of_points(points, gyration).expect("a body");
             let scene = Scene::new(body, e, 2.0, tilt, 9.81).and_then(|s| s.with_impact_limit(20)).expect("a drop");
             let flight = scene.fly(Model::Contacts(contact(law, e, 3e-4))).expect("a flight");
             flight.strikes.into_iter().zip(flight.presses).collect::<Vec<_>>()

@@ -3,7 +3,7 @@
 
 use crate::plain::{Part, Plain};
 use clatter::Section;
-use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene, Stop};
+use clatter_flight::{Contact, ContactLaw, Model, Motion, Profile, Scene, Stop};
 use serde_json::Value;
 
 fn cases() -> Vec<Value> {
@@ -15,9 +15,9 @@ fn number(of: &Value, name: &str) -> f64 {
     of[name].as_f64().unwrap_or_else(|| panic!("no number {name}"))
 }
 
-fn body(case: &Value) -> Body {
+fn body(case: &Value) -> Profile {
     let (half, center) = (0.5 * number(case, "length_m"), number(case, "center_of_mass"));
-    Body::off_center(half * (1.0 + center), half * (1.0 - center), number(case, "gyration_m")).expect("a body")
+    Profile::off_center(half * (1.0 + center), half * (1.0 - center), number(case, "gyration_m")).expect("a body")
 }
 
 /// As the library follows it by default.

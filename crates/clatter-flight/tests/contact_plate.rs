@@ -5,7 +5,7 @@
 use crate::plain::Part;
 use crate::plain::plate::{Drop, PlainPlate};
 use clatter::{Excitation, Section};
-use clatter_flight::{Body, Contact, ContactLaw, Model, Plate, PlateMotion, PlateScene, Scene, Stop, Strike};
+use clatter_flight::{Contact, ContactLaw, Model, Plate, PlateMotion, PlateScene, Profile, Scene, Stop, Strike};
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -392,7 +392,7 @@ fn a_plate_that_lands_on_edges_is_a_bar() {
             let drop = Drop { edges, gyration, gaps, spin: [0.0; 2], speed, gravity: G, law, e, time: 2e-4 };
             let until_s = 3.0 * drop.time;
             let plate = until(&drop, until_s);
-            let body = Body::new(2.0 * half, gyration[0]).unwrap();
+            let body = Profile::new(2.0 * half, gyration[0]).unwrap();
             let bar = Scene::new(body, e, speed, tilt.asin().to_degrees(), G).unwrap();
             let bar = bar.with_time_limit_s(until_s).unwrap().fly(Model::Contacts(contact(&drop))).unwrap();
             for k in 0..60 {

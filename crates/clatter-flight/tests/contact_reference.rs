@@ -1,7 +1,7 @@
 //! Random bodies, contacts and tilts against a plain integration of the laws in exact geometry (`plain`).
 
 use crate::plain::Plain;
-use clatter_flight::{Body, Contact, ContactLaw, Scene};
+use clatter_flight::{Contact, ContactLaw, Profile, Scene};
 use proptest::prelude::*;
 
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +18,8 @@ struct Drop {
 const G: f64 = 9.81;
 
 impl Drop {
-    fn body(&self) -> Body {
-        Body::off_center(self.arms[0], self.arms[1], self.gyration).expect("a body")
+    fn body(&self) -> Profile {
+        Profile::off_center(self.arms[0], self.arms[1], self.gyration).expect("a body")
     }
     fn contact(&self) -> Contact {
         Contact::new(self.law, self.e, self.time).expect("a contact")

@@ -1,24 +1,24 @@
 //! Bodies of more than two contact points.
 
 use crate::plain::Plain;
-use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene, Stop};
+use clatter_flight::{Contact, ContactLaw, Model, Motion, Profile, Scene, Stop};
 use proptest::prelude::*;
 
 const G: f64 = 9.81;
 
 /// Points that go round the body, of which a turn by a right angle puts another side down.
-fn block(length: f64, height: f64, gyration: f64) -> Body<4> {
+fn block(length: f64, height: f64, gyration: f64) -> Profile<4> {
     let (x, z) = (0.5 * length, 0.5 * height);
-    Body::of_points([[-x, -z], [x, -z], [x, z], [-x, z]], gyration).expect("a block")
+    Profile::of_points([[-x, -z], [x, -z], [x, z], [-x, z]], gyration).expect("a block")
 }
 
-fn fly<const N: usize>(body: Body<N>, law: ContactLaw, e: f64, speed: f64, tilt: f64) -> Motion<N> {
+fn fly<const N: usize>(body: Profile<N>, law: ContactLaw, e: f64, speed: f64, tilt: f64) -> Motion<N> {
     let scene = Scene::new(body, e, speed, tilt, G).and_then(|s| s.with_impact_limit(200)).expect("a drop");
     scene.contacts_until(&Contact::new(law, e, 3e-4).expect("a contact"), 1e-4, |_| false).expect("a flight")
 }
 
 /// Velocity of the center of mass, by two points that are apart.
-fn energy<const N: usize>(flight: &Motion<N>, body: &Body<N>, t: f64) -> f64 {
+fn energy<const N: usize>(flight: &Motion<N>, body: &Profile<N>, t: f64) -> f64 {
     let now = flight.sample(t).expect("contacts");
     let [x, z] = body.points_m()[0];
     let (sin, cos) = now.tilt_rad.sin_cos();
@@ -27,7 +27,7 @@ fn energy<const N: usize>(flight: &Motion<N>, body: &Body<N>, t: f64) -> f64 {
     0.5 * (v * v + (body.gyration_m() * now.spin_rad_s).powi(2)) + G * y
 }
 
-fn never_grows<const N: usize>(flight: &Motion<N>, body: &Body<N>, law: ContactLaw) -> Result<(), TestCaseError> {
+fn never_grows<const N: usize>(flight: &Motion<N>, body: &Profile<N>, law: ContactLaw) -> Result<(), TestCaseError> {
     let first = energy(flight, body, 0.0);
     let mut held = first;
     let mut free: Vec<f64> = flight.presses.iter().map(|p| p.until_s).filter(|t| *t < flight.stop.time_s()).collect();
@@ -100,7 +100,7 @@ fn a_row_of_points_presses_as_the_laws_say() {
     for (law, e) in [(ContactLaw::Hysteretic, 0.5), (ContactLaw::Hysteretic, 0.9), (ContactLaw::Dashpot, 0.4)] {
         for tilt in [0.0, 0.05, 0.3] {
             let time = 1e-3;
-            let scene = Scene::new(Body::of_points(points, 0.06).expect("a row"), e, 2.0, tilt, G).expect("a drop");
+            let scene = Scene::new(Profile::of_points(points, 0.06).expect("a row"), e, 2.0, tilt, G).expect("a drop");
             let contact = Contact::new(law, e, time).expect("a contact");
             let flight = scene.contacts_until(&contact, 1e-6, |_| false).expect("a flight");
             let mut plain = Plain::new(&points, 0.06, G, (law, e, time));
@@ -123,7 +123,7 @@ fn a_row_of_points_presses_as_the_laws_say() {
 /// A bar with corners on one side alone ends as it turns over; nothing is known of what it comes down on.
 #[test]
 fn a_bar_with_corners_turns_over() {
-    let body = Body::new(0.14, 0.04).and_then(|b| b.with_thickness(0.02)).expect("a bar");
+    let body = Profile::new(0.14, 0.04).and_then(|b| b.with_thickness(0.02)).expect("a bar");
     let scene = Scene::new(body, 1.0, 1.0, 60.0, 0.0).and_then(|s| s.with_spin(80.0)).expect("a drop");
     for law in ContactLaw::ALL {
         let flight =
@@ -143,7 +143,7 @@ fn a_bar_with_corners_turns_over() {
 #[test]
 fn what_topples_is_told_ahead() {
     let points = [[-0.15, -0.03], [0.15, -0.03], [0.15, 0.03], [-0.15, 0.03]];
-    let body = Body::of_points(points, 0.09).expect("a box");
+    let body = Profile::of_points(points, 0.09).expect("a box");
     let scene = Scene::new(body, 0.1, 0.1, 75.0, G).and_then(|scene| scene.with_impact_limit(60)).expect("a drop");
     let mut told = Vec::new();
     let contact = Contact::new(ContactLaw::Hysteretic, 0.1, 1e-3).expect("a contact");

@@ -1,6 +1,6 @@
 //! Bodies with corners at finite tilt: what a strike must keep, and where corners make no difference.
 
-use clatter_flight::{Body, Model, Scene, Stop, Strike};
+use clatter_flight::{Model, Profile, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 /// Motion of the center of mass and the turning, from the velocities of both corners: `v = v_y + x ω`.
@@ -10,7 +10,7 @@ struct Motion {
 }
 
 /// Lever arms of the corners, and the height of the center over the line through them, from the angle alone.
-fn geometry(body: &Body, s: &Strike) -> ([f64; 2], f64) {
+fn geometry(body: &Profile, s: &Strike) -> ([f64; 2], f64) {
     let ([a, b], half) = (body.arms_m(), 0.5 * body.thickness_m());
     let (sin, cos) = s.tilt_rad.sin_cos();
     ([-a * cos + half * sin, b * cos + half * sin], half * cos)
@@ -41,7 +41,7 @@ fn thick_scene() -> impl Strategy<Value = Scene> {
         -0.5..0.5_f64,
     )
         .prop_map(|(a, ratio, gyration, thickness, e, tilt, g, spin)| {
-            let body = Body::off_center(a, a * ratio, gyration * a).expect("a body");
+            let body = Profile::off_center(a, a * ratio, gyration * a).expect("a body");
             let body = body.with_thickness(thickness * body.length_m()).expect("a thickness");
             let scene = Scene::new(body, e, 2.0, tilt, g).expect("a drop").with_impact_limit(100).expect("a limit");
             scene.with_spin(spin * 2.0 / a).unwrap_or(scene)
@@ -103,8 +103,8 @@ proptest! {
     }
 }
 
-fn brick(thickness: f64) -> Body {
-    Body::new(0.14, 0.04).and_then(|b| b.with_thickness(thickness)).expect("a brick")
+fn brick(thickness: f64) -> Profile {
+    Profile::new(0.14, 0.04).and_then(|b| b.with_thickness(thickness)).expect("a brick")
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn a_body_that_turns_past_its_end_says_when() {
 
 #[test]
 fn bad_corners_are_refused_with_the_value() {
-    let body = Body::new(0.14, 0.04).expect("a body");
+    let body = Profile::new(0.14, 0.04).expect("a body");
     for bad in [f64::NAN, -0.01, 0.15, f64::INFINITY, 1e-16] {
         let text = body.with_thickness(bad).unwrap_err().to_string();
         assert!(text.contains("thickness") && text.contains(&format!("{bad:?}")), "{text}");

@@ -3,11 +3,11 @@
 use std::hint::black_box;
 
 use allocation_counter::measure;
-use clatter_flight::{Body, Contact, ContactLaw, Model, Scene};
+use clatter_flight::{Contact, ContactLaw, Model, Profile, Scene};
 
 /// Elastic, so that it strikes for ever.
 fn scene(strikes: usize) -> Scene {
-    let body = Body::new(0.14, 0.07 / 3.0_f64.sqrt()).expect("a uniform bar");
+    let body = Profile::new(0.14, 0.07 / 3.0_f64.sqrt()).expect("a uniform bar");
     Scene::new(body, 1.0, 4.43, 5.0, 9.81).and_then(|s| s.with_impact_limit(strikes)).expect("a drop")
 }
 

@@ -2,13 +2,13 @@
 
 #![cfg(test)]
 
-use clatter_flight::{Body, Model, Scene, Stop};
+use clatter_flight::{Model, Profile, Scene, Stop};
 
 /// Where both ends rebound alike it is the flight of that restitution, strike by strike and to rest.
 #[test]
 fn ends_alike_are_one_restitution() {
     for (e, tilt, gravity) in [(0.3, 5.0, 9.81), (0.0, 1.0, 9.81), (0.6, 20.0, 0.0), (0.45, 0.0, 9.81)] {
-        let scene = Scene::new(Body::off_center(0.06, 0.08, 0.04).unwrap(), e, 4.0, tilt, gravity).unwrap();
+        let scene = Scene::new(Profile::off_center(0.06, 0.08, 0.04).unwrap(), e, 4.0, tilt, gravity).unwrap();
         let (both, one) = (scene.fly_by_ends([e, e], |_| false).unwrap(), scene.fly(Model::FiniteTilt).unwrap());
         assert_eq!((both.strikes, both.pivots, both.stop), (one.strikes, one.pivots, one.stop), "{e}, {tilt}");
     }
@@ -18,7 +18,7 @@ fn ends_alike_are_one_restitution() {
 #[test]
 fn each_end_rebounds_by_its_own() {
     let e = [0.2, 0.7];
-    let scene = Scene::new(Body::new(0.14, 0.038).unwrap(), 0.5, 4.0, 3.0, 9.81).unwrap();
+    let scene = Scene::new(Profile::new(0.14, 0.038).unwrap(), 0.5, 4.0, 3.0, 9.81).unwrap();
     let flight = scene.fly_by_ends(e, |flight| flight.struck.iter().sum::<usize>() == 40).unwrap();
     let [a, b] = [0, 1].map(|point| flight.strikes.iter().filter(|strike| strike.point == point).count());
     assert!(a > 3 && b > 3, "{a} and {b} strikes");
@@ -36,7 +36,7 @@ fn each_end_rebounds_by_its_own() {
 /// Nothing is looked for beyond the time limit.
 #[test]
 fn a_time_limit_ends_the_search() {
-    let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.3, 4.0, 3.0, 9.81).unwrap();
+    let scene = Scene::new(Profile::new(0.14, 0.04).unwrap(), 0.3, 4.0, 3.0, 9.81).unwrap();
     let whole = scene.fly_by_ends([0.3, 0.3], |_| false).unwrap();
     let limit = 0.5 * (whole.strikes[2].time_s + whole.strikes[3].time_s);
     let cut = scene.with_time_limit_s(limit).unwrap().fly_by_ends([0.3, 0.3], |_| false).unwrap();
@@ -46,7 +46,7 @@ fn a_time_limit_ends_the_search() {
 /// What bounced clear flies on in the rows for an eighth of the time that is shown, straight up where nothing pulls.
 #[test]
 fn a_body_that_bounced_clear_is_followed_for_a_while() {
-    let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.3, 4.0, 3.0, 0.0).unwrap();
+    let scene = Scene::new(Profile::new(0.14, 0.04).unwrap(), 0.3, 4.0, 3.0, 0.0).unwrap();
     let motion = scene.fly(Model::Map).unwrap();
     let Stop::BouncedClear { time_s } = motion.stop else { panic!("{:?}", motion.stop) };
     let (last, strike) = (motion.rows().last().unwrap(), motion.strikes.last().unwrap());

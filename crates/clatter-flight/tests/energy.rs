@@ -1,10 +1,10 @@
 //! Energy: lost at strikes alone, exactly (1 − e²) of what the strike's normal speed carries.
 
-use clatter_flight::{Body, Model, Motion, Scene, Strike};
+use clatter_flight::{Model, Motion, Profile, Scene, Strike};
 use proptest::prelude::*;
 
 /// Energy per unit mass, `½ v_y² + ½ ρ² ω² + g y`, with the given velocities of the ends and angular velocity.
-fn energy(body: &Body, g: f64, s: &Strike, v: [f64; 2], spin: f64) -> f64 {
+fn energy(body: &Profile, g: f64, s: &Strike, v: [f64; 2], spin: f64) -> f64 {
     let [a, b] = body.arms_m();
     let center = |of: [f64; 2]| (b * of[0] + a * of[1]) / (a + b);
     0.5 * (center(v).powi(2) + (body.gyration_m() * spin).powi(2)) + g * center(s.height_m)
@@ -17,7 +17,7 @@ fn before(s: &Strike) -> [f64; 2] {
 fn scene(q: f64, e: f64, tilt: f64) -> Scene {
     let half = 0.07;
     let gyration = half * ((1.0 - q) / (1.0 + q)).sqrt();
-    Scene::new(Body::new(2.0 * half, gyration).expect("as the test has it"), e, 4.43, tilt, 9.81)
+    Scene::new(Profile::new(2.0 * half, gyration).expect("as the test has it"), e, 4.43, tilt, 9.81)
         .expect("as the test has it")
 }
 

@@ -1,12 +1,12 @@
 //! The flights at the edges of what a scene may be.
 
 use clatter::Error;
-use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene, Stop, Strike};
+use clatter_flight::{Contact, ContactLaw, Model, Motion, Profile, Scene, Stop, Strike};
 
 const MODELS: [Model; 3] = [Model::Map, Model::Ballistic, Model::FiniteTilt];
 
-fn body(q: f64) -> Body {
-    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("as the test has it")
+fn body(q: f64) -> Profile {
+    Profile::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("as the test has it")
 }
 
 /// What holds for any flight whatever.
@@ -199,7 +199,7 @@ fn limits_are_kept_and_said() {
 /// ever.
 #[test]
 fn a_turn_that_time_cannot_tell_ends_the_flight() {
-    let body = Body::new(1.0, 0.6).expect("as the test has it");
+    let body = Profile::new(1.0, 0.6).expect("as the test has it");
     for speed in [1e9, 1e12, 1e16] {
         let scene = Scene::new(body, 0.9, speed, 0.3, 0.3).expect("as the test has it");
         let flight = scene.with_impact_limit(10).expect("as the test has it").fly(Model::FiniteTilt).expect("a motion");
@@ -223,7 +223,7 @@ fn a_spin_that_lifts_end_b_away_leaves_it_there_without_gravity() {
 #[test]
 fn an_off_center_mass_is_the_symmetric_map_in_disguise() {
     // Without gravity and at vanishing tilt the finite-tilt simulation knows nothing of that reduction.
-    let body = Body::off_center(0.05, 0.09, 0.03).expect("as the test has it");
+    let body = Profile::off_center(0.05, 0.09, 0.03).expect("as the test has it");
     let scene = Scene::new(body, 0.4, 1.0, 1e-9, 0.0).expect("as the test has it");
     let (map, finite) = (scene.fly(Model::Map).expect("a motion"), scene.fly(Model::FiniteTilt).expect("a motion"));
     assert!(map.strikes.len() > 3, "{}", map.strikes.len());
@@ -247,13 +247,13 @@ fn bad_scenes_are_refused_with_the_value() {
     };
     let good = Scene::new(body(0.5), 0.5, 1.0, 5.0, 9.81).expect("as the test has it");
     for bad in [f64::NAN, -0.14, 0.0, f64::INFINITY] {
-        assert!(Body::new(bad, 0.04).is_err() && Body::off_center(0.07, bad, 0.04).is_err());
+        assert!(Profile::new(bad, 0.04).is_err() && Profile::off_center(0.07, bad, 0.04).is_err());
     }
     for bad in [f64::NAN, -0.04, f64::INFINITY] {
-        assert!(Body::new(0.14, bad).is_err());
+        assert!(Profile::new(0.14, bad).is_err());
     }
-    Body::new(0.14, 0.0).expect("as the test has it");
-    Body::new(0.14, 0.2).expect("as the test has it"); // beyond the half-length: q < 0
+    Profile::new(0.14, 0.0).expect("as the test has it");
+    Profile::new(0.14, 0.2).expect("as the test has it"); // beyond the half-length: q < 0
     refused(Scene::new(body(0.5), 1.2, 1.0, 5.0, 9.81), ["restitution", "1.2"]);
     refused(Scene::new(body(0.5), 0.5, -1.0, 5.0, 9.81), ["speed", "-1.0"]);
     refused(Scene::new(body(0.5), 0.5, 1.0, 90.0, 9.81), ["tilt", "90"]);
@@ -297,7 +297,7 @@ fn ends_next_to_massless_off_the_middle_are_bars() {
     for k in 1..2000 {
         let a = 0.15 * (0.02 + 1.96 * f64::from(k) / 2000.0);
         for gyration in [0.0, 1e-11, 1e-9] {
-            let body = Body::off_center(a, 0.3 - a, gyration).expect("as the test has it");
+            let body = Profile::off_center(a, 0.3 - a, gyration).expect("as the test has it");
             let scene = Scene::new(body, 0.3, 1.0, 3.0, 0.0).expect("as the test has it");
             assert!(scene.symmetric_bar().0.q() <= 1.0, "{a} {gyration}");
         }
@@ -310,7 +310,7 @@ fn the_least_spin_that_is_taken_leaves_an_approach() {
     let (mut taken, mut refused) = (0, 0);
     for k in 1..300 {
         let (length, speed) = (0.1 + 0.002 * f64::from(k), 0.5 + 0.02 * f64::from(k));
-        let body = Body::new(length, 0.2 * length).expect("as the test has it");
+        let body = Profile::new(length, 0.2 * length).expect("as the test has it");
         let scene = Scene::new(body, 0.3, speed, 3.0, 0.0).expect("as the test has it");
         let still = -speed / (0.5 * length);
         for spin in [still, still.next_up(), still.next_up().next_up()] {

@@ -2,7 +2,7 @@
 
 use crate::plain::Plain;
 use crate::plain::plate::{Drop, PlainPlate};
-use clatter_flight::{Body, Contact, ContactLaw, Plate, PlateScene, Scene, Stop};
+use clatter_flight::{Contact, ContactLaw, Plate, PlateScene, Profile, Scene, Stop};
 use proptest::prelude::*;
 
 const G: f64 = 9.80665;
@@ -32,7 +32,7 @@ proptest! {
         let precision = 1e-4;
         let (arms, gyration) = ([half * (1.0 + off), half * (1.0 - off)], half * ((1.0 - q) / (1.0 + q)).sqrt());
         let (x, z) = (beyond * half, height * half);
-        let body = Body::of_points([[-arms[0], 0.0], [arms[1], 0.0], [-arms[0] - x, z], [arms[1] + x, z]], gyration);
+        let body = Profile::of_points([[-arms[0], 0.0], [arms[1], 0.0], [-arms[0] - x, z], [arms[1] + x, z]], gyration);
         let (body, own) = (body.expect("a body"), [own[0], own[1], edges, edges]);
         // Up to where the edge would touch first.
         let tilt = tilt * (z / x).atan();

@@ -1,7 +1,7 @@
 //! The flights against a plain, slow simulation written differently: center, angle and their rates as the state, a
 //! dense scan of both heights, bisection, a resting end as a constraint integrated by Runge–Kutta.
 
-use clatter_flight::{Body, Model, Scene, Stop, Strike};
+use clatter_flight::{Model, Profile, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 #[derive(Clone, Copy, Debug)]
@@ -231,7 +231,7 @@ fn any_scene(restitution: std::ops::Range<f64>) -> impl Strategy<Value = Scene> 
     let angle = prop_oneof![0.05..5.0_f64, 5.0..85.0_f64];
     let thickness = prop_oneof![Just(0.0), 0.01..1.0_f64];
     let body = (0.02..0.3_f64, 0.5..2.0_f64, 0.2..1.5_f64, thickness).prop_map(|(a, ratio, gyration, thickness)| {
-        let body = Body::off_center(a, a * ratio, gyration * a).expect("as the test has it");
+        let body = Profile::off_center(a, a * ratio, gyration * a).expect("as the test has it");
         body.with_thickness(thickness * body.length_m()).expect("as the test has it")
     });
     (body, restitution, 0.3..3.0_f64, angle, 1.6..30.0_f64, -0.5..3.0_f64).prop_map(

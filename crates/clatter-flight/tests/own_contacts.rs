@@ -2,7 +2,7 @@
 
 use crate::plain::Plain;
 use crate::plain::plate::{Drop, PlainPlate};
-use clatter_flight::{Body, Contact, ContactLaw, Error, Plate, PlateScene, Scene, Stop};
+use clatter_flight::{Contact, ContactLaw, Error, Plate, PlateScene, Profile, Scene, Stop};
 use proptest::prelude::*;
 
 const G: f64 = 9.80665;
@@ -15,7 +15,7 @@ fn contacts<const N: usize>(own: [(f64, f64); N]) -> [Contact; N] {
 /// contact time with its own restitution.
 #[test]
 fn ends_that_do_not_couple_rebound_each_by_its_own() {
-    let scene = Scene::new(Body::new(0.14, 0.07).unwrap(), 0.9, 2.0, 0.0, 0.0).unwrap();
+    let scene = Scene::new(Profile::new(0.14, 0.07).unwrap(), 0.9, 2.0, 0.0, 0.0).unwrap();
     for own in [[(0.2, 1e-3), (0.7, 3e-4)], [(0.0, 1e-3), (1.0, 2e-3)], [(1.0, 1e-4), (0.05, 2e-3)]] {
         // By roundings and turning alone: the bar turns by 1e-3 while an end presses.
         let motion = scene.own_contacts_until(&contacts(own), 1e-7, |_| false).unwrap();
@@ -55,7 +55,7 @@ fn a_plate_whose_corners_pair_up_is_the_bar() {
         let plate = Plate::new([0.06, 0.08, 0.03, 0.03], [0.045, 0.02]).unwrap();
         let scene = PlateScene::new(plate, 1.0, [gap, 0.0], G).unwrap().with_impact_limit(20);
         let of_plate = scene.own_contacts_until(&contacts([a, b, b, a]), 1e-6, |_| false).unwrap();
-        let body = Body::off_center(0.06, 0.08, 0.045).unwrap();
+        let body = Profile::off_center(0.06, 0.08, 0.045).unwrap();
         let scene = Scene::new(body, 0.5, 1.0, (gap / 0.14_f64).asin().to_degrees(), G).unwrap();
         // Two corners press together: μ of one is 1 + (x/k_x)² + (y/k_y)², so that a contact at both lasts as long as one of the bar times the
         // root of their ratio over two.
@@ -105,7 +105,7 @@ fn a_mirrored_plate_moves_as_its_image() {
 /// What couples in a phase is refused; alike, dashpots are as ever.
 #[test]
 fn dashpots_that_differ_are_refused() {
-    let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.5, 2.0, 2.0, G).unwrap();
+    let scene = Scene::new(Profile::new(0.14, 0.04).unwrap(), 0.5, 2.0, 2.0, G).unwrap();
     let of = |e, time| Contact::new(ContactLaw::Dashpot, e, time).unwrap();
     let mixed = [of(0.5, 1e-3), Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3).unwrap()];
     for own in [[of(0.5, 1e-3), of(0.4, 1e-3)], [of(0.5, 1e-3), of(0.5, 2e-3)], mixed] {
@@ -136,7 +136,7 @@ proptest! {
         own in [any_own(), any_own()], speed in 0.5..5.0_f64, tilt in (-2.0..1.3_f64).prop_map(|x| 10f64.powf(x)),
     ) {
         let (arms, gyration) = ([half * (1.0 + off), half * (1.0 - off)], half * ((1.0 - q) / (1.0 + q)).sqrt());
-        let body = Body::off_center(arms[0], arms[1], gyration).expect("a body");
+        let body = Profile::off_center(arms[0], arms[1], gyration).expect("a body");
         let scene = Scene::new(body, 0.5, speed, tilt, G).expect("a drop").with_impact_limit(60).expect("a limit");
 
         let flight = scene.own_contacts_until(&contacts(own), precision, |_| false).expect("a flight");
@@ -220,7 +220,7 @@ proptest! {
     #[test]
     fn all_shocks_together_stop_the_drop(off in -0.3..0.3_f64, q in -0.3..0.95_f64, own in [any_own(), any_own()], tilt in 0.0..20.0_f64) {
         let own = own.map(|(e, time)| (0.8 * e, time));
-        let body = Body::off_center(0.07 * (1.0 + off), 0.07 * (1.0 - off), 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a body");
+        let body = Profile::off_center(0.07 * (1.0 + off), 0.07 * (1.0 - off), 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a body");
         let scene = Scene::new(body, 0.5, 2.0, tilt, G).expect("a drop");
         let flight = scene.own_contacts_until(&contacts(own), 1e-4, |_| false).expect("a flight");
         let Stop::AtRest { time_s, .. } = flight.stop else { return Err(TestCaseError::fail(format!("{:?} {own:?}", flight.stop))) };

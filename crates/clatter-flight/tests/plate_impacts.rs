@@ -2,7 +2,7 @@
 //! and laws that no impact may break.
 
 use crate::plain::jumps::{Jump, Jumps};
-use clatter_flight::{Body, Contact, ContactLaw, Model, Plate, PlateMotion, PlateScene, Scene, Stop, Strike};
+use clatter_flight::{Contact, ContactLaw, Model, Plate, PlateMotion, PlateScene, Profile, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 const G: f64 = 9.81;
@@ -196,7 +196,7 @@ fn a_plate_that_turns_one_way_is_the_bar() {
     for (left, gyration, e, tilt, gravity) in
         [(0.07, 0.04, 0.5, 3.0, G), (0.05, 0.06, 0.3, 5.0, G), (0.09, 0.03, 0.0, 1.0, 30.0), (0.07, 0.2, 0.8, 2.0, 1.0)]
     {
-        let body = Body::off_center(left, 0.14 - left, gyration).expect("a body");
+        let body = Profile::off_center(left, 0.14 - left, gyration).expect("a body");
         let bar = Scene::new(body, e, 2.0, tilt, gravity).expect("a drop");
         let gap = bar.height_gap_m();
         // A radius of gyration a million times the width: its turns across are a part in 10¹² of those along.
@@ -225,7 +225,7 @@ fn a_square_along_its_diagonal_is_the_bar() {
     let reach = half * 2.0_f64.sqrt();
     let tilt = (2.0 * gap / (2.0 * reach)).asin().to_degrees();
     for e in [0.2, 0.5, 0.9] {
-        let bar = Scene::new(Body::new(2.0 * reach, gyration).expect("a body"), e, 1.5, tilt, G).expect("a drop");
+        let bar = Scene::new(Profile::new(2.0 * reach, gyration).expect("a body"), e, 1.5, tilt, G).expect("a drop");
         let bar = bar.fly(Model::Ballistic).expect("a motion");
         let scene = PlateScene::new(Plate::new([half; 4], [gyration; 2]).expect("a plate"), 1.5, [gap; 2], G);
         let motion = fly(&scene.expect("a drop"), e);

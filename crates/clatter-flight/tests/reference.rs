@@ -1,6 +1,6 @@
 //! The flights against figures computed elsewhere.
 
-use clatter_flight::{Body, Model, Motion, Scene, Stop};
+use clatter_flight::{Model, Motion, Profile, Scene, Stop};
 use serde_json::Value;
 
 /// Times are held to 1e-7 of themselves (of 0.1 ms at least), shocks to 1e-7 of the drop speed: the digits that the
@@ -17,7 +17,7 @@ fn hold(model_name: &str, model: Model) {
     let mut held = 0;
     for (n, case) in cases().iter().enumerate().filter(|(_, c)| c["model"] == model_name) {
         let get = |name: &str| case[name].as_f64().expect("as the test has it");
-        let body = Body::new(get("length_m"), get("gyration_m")).expect("as the test has it");
+        let body = Profile::new(get("length_m"), get("gyration_m")).expect("as the test has it");
         let v0 = get("speed_m_s");
         let scene = Scene::new(body, get("e"), v0, get("tilt_deg"), get("gravity_m_s2")).expect("as the test has it");
         let flight = scene.fly(model).expect("a motion");
@@ -58,7 +58,7 @@ fn finite_tilt_agrees_with_the_reference() {
 fn phone(q: f64, e: f64, model: Model) -> (Motion, f64) {
     let half = 0.07;
     let gyration = half * ((1.0 - q) / (1.0 + q)).sqrt();
-    let scene = Scene::new(Body::new(2.0 * half, gyration).expect("as the test has it"), e, 4.43, 5.0, 9.81)
+    let scene = Scene::new(Profile::new(2.0 * half, gyration).expect("as the test has it"), e, 4.43, 5.0, 9.81)
         .expect("as the test has it");
     (scene.fly(model).expect("a motion"), scene.height_gap_m() / scene.speed_m_s())
 }

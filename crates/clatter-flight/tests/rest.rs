@@ -1,6 +1,6 @@
 //! The way to rest, chatters and pivots included, against the same drops followed in 50 digits (`data/make_rest.py`).
 
-use clatter_flight::{Body, Model, Scene, Stop};
+use clatter_flight::{Model, Profile, Scene, Stop};
 use serde_json::Value;
 
 /// Times over the time of rest, speeds over the drop speed. The scene that all but stands on its end multiplies a
@@ -15,7 +15,7 @@ fn cases() -> Vec<Value> {
 fn scene(case: &Value) -> (Scene, Model) {
     let get = |name: &str| case[name].as_f64().expect("a number");
     let arm = |k: usize| case["arm_m"][k].as_f64().expect("a number");
-    let body = Body::off_center(arm(0), arm(1), get("gyration_m")).expect("a body");
+    let body = Profile::off_center(arm(0), arm(1), get("gyration_m")).expect("a body");
     let scene = Scene::new(body, get("e"), get("speed_m_s"), get("tilt_rad").to_degrees(), get("gravity_m_s2"));
     let scene = scene.and_then(|s| s.with_spin(get("spin_rad_s"))).expect("a drop");
     (scene, if case["model"] == "ballistic" { Model::Ballistic } else { Model::FiniteTilt })
@@ -67,7 +67,7 @@ fn a_body_that_all_but_stands_on_its_end_topples_in_time() {
 #[test]
 fn an_end_that_turning_lifts_does_not_strike_by_rounding() {
     let q = -0.714_473_844_725_967_2_f64;
-    let body = Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a body");
+    let body = Profile::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a body");
     let scene = Scene::new(body, 0.422_075_375_734_257, 4.43, 0.217_530_068_644_558_34, 9.81).expect("a drop");
     let flight = scene.fly(Model::FiniteTilt).expect("a motion");
     let pivot = flight.pivots[0];
@@ -86,7 +86,7 @@ fn without_gravity_the_endless_train_ends_where_the_closed_form_says() {
     for (q, e) in [(0.9, 0.1), (0.95, 0.3), (0.8, 0.05)] {
         let trace = q * (1.0 + e);
         let limit = 1.0 / (1.0 + 0.5 * (trace + f64::sqrt(trace * trace - 4.0 * e)));
-        let body = Body::new(0.14, 0.07 * f64::sqrt((1.0 - q) / (1.0 + q))).expect("a body");
+        let body = Profile::new(0.14, 0.07 * f64::sqrt((1.0 - q) / (1.0 + q))).expect("a body");
         for tilt in [1e-9_f64, 0.1, 0.5] {
             let scene = Scene::new(body, e, 4.43, tilt, 0.0).expect("a drop");
             let flight = scene.fly(Model::FiniteTilt).expect("a motion");
@@ -106,7 +106,7 @@ fn bounces_that_are_not_listed_are_within_the_bound() {
     for (model, e) in [Model::Ballistic, Model::FiniteTilt].into_iter().flat_map(|model| [0.1, 0.3].map(|e| (model, e)))
     {
         for gyration_m in [0.03, 0.05, 0.09] {
-            let body = Body::new(0.14, gyration_m).expect("a body");
+            let body = Profile::new(0.14, gyration_m).expect("a body");
             let flight = Scene::new(body, e, 4.43, 3.0, 9.81).expect("a drop").fly(model).expect("a motion");
             let Stop::AtRest { shock_bound_m_s, .. } = flight.stop else { panic!("{:?}", flight.stop) };
             for pivot in &flight.pivots {

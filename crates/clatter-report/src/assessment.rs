@@ -93,7 +93,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         .collect();
     let body = &file.product.body;
     let of_plate = file.product.plate();
-    let (sides_m, beyond_m) = (file.product.sides_m(), file.product.feet.map_or(0.0, |feet| feet.inset_m[0]));
+    let (sides_m, beyond_m) = (file.product.sides_m(), file.product.body.feet.map_or(0.0, |feet| feet.inset_m[0]));
     let mut files = Vec::new();
     let rows: Vec<_> = places.chunks(ROWS).collect();
     for (i, rows) in rows.iter().enumerate() {

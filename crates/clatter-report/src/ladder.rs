@@ -18,7 +18,7 @@ fn of_limit(limit: &LimitLadder, tolerance: f64) -> Panel<'_> {
             "{} at {} m/s, {}°, e = {}",
             match worst.direction_deg() {
                 Some(direction) => format!("a plate that rises to {}°", three(direction)),
-                None => format!("end {} first", words::end(worst.drop.first)),
+                None => format!("end {} first", words::end(worst.drop.first())),
             },
             three(worst.drop.speed_m_s),
             three(worst.tilt_deg()),
@@ -35,8 +35,8 @@ mod tests {
     use super::*;
     use crate::frame::stay_within_their_frame;
     use clatter_assess::ladder::Ladder;
-    use clatter_assess::{Limit, LimitKind, Part, SingleDrop};
-    use clatter_flight::{Body, ContactLaw};
+    use clatter_assess::{Drop, Limit, LimitKind, Part};
+    use clatter_flight::Body;
     use clatter_shock::{DampingRatio, Suspension};
 
     /// A flat drop, a dead one and a lively one: errors beyond all scales, times that differ little.
@@ -46,20 +46,10 @@ mod tests {
         for (gyration_m, e, tilt_rad, contact_time_s) in
             [(0.01, 0.5, 0.1, None), (0.04, 0.0, 0.0, Some(1e-3)), (0.04, 0.6, 0.0, None)]
         {
-            let drop = SingleDrop {
-                body: Body::new(0.14, gyration_m).unwrap(),
-                across: None,
-                first: clatter::End::A,
-                tilt_rad,
-                flat: false,
-                speed_m_s: 1.0,
-                spin_rad_s: 0.0,
-                restitution: e,
+            let drop = Drop {
                 gravity_m_s2: 9.81,
                 contact_time_s,
-                contact_law: ContactLaw::Hysteretic,
-                feet: None,
-                own_contacts: clatter_assess::OwnContacts::NONE,
+                ..Drop::new(Body::new(0.14, gyration_m).unwrap(), 1.0, tilt_rad, e)
             };
             for kind in [LimitKind::Acceleration, LimitKind::VelocityChange] {
                 let place = Part::new(0.02, Some(part));

@@ -1,7 +1,7 @@
 //! The flight models beside one another, and the contact engine beside itself at a finer precision.
 
 use crate::{Order, Residue, orders, residues};
-use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene};
+use clatter_flight::{Contact, ContactLaw, Model, Motion, Profile, Scene};
 
 use crate::Error;
 
@@ -54,7 +54,7 @@ pub(super) struct Flights {
 }
 
 fn scene(tilt_deg: f64) -> Result<Scene, Error> {
-    let body = Body::new(2.0 * HALF_M, HALF_M / 3f64.sqrt())?;
+    let body = Profile::new(2.0 * HALF_M, HALF_M / 3f64.sqrt())?;
     Ok(Scene::new(body, RESTITUTION, SPEED_M_S, tilt_deg, 9.81)?)
 }
 

@@ -1,6 +1,6 @@
 //! The worked products as bars, as plates in any direction of tilt, and as boxes that land on their bottom.
 
-use clatter_assess::{Attitude, Landing, Law, LimitKind, ProductFile, Spread, Verdict, Width};
+use clatter_assess::{Attitude, Landing, Law, LimitKind, ProductFile, Side, Spread, Verdict};
 use clatter_flight::ContactLaw;
 use serde_json::{Value, json};
 
@@ -100,14 +100,11 @@ impl Product {
         let most = bar.drop.tilt_rad.hi();
         bar.drop.tilt_rad = Spread::new(0.0, most, Law::Range)?;
         let mut plate = bar.clone();
-        plate.product.width = Some(Width {
-            edges_m: [0.5 * self.width_m; 2],
-            // Spread over the width as over the length.
-            gyration_m: self.width_m * bar.product.body.gyration_m() / bar.product.body.length_m(),
-            product_of_inertia_m2: 0.0,
-            thickness_m: Some(self.thickness_m),
-            depth: None,
-        });
+        let (body, half_m) = (bar.product.body, 0.5 * self.width_m);
+        // Spread over the width as over the length.
+        let gyration_m = self.width_m * body.gyration_m() / body.length_m();
+        let width = Side { ends_m: [half_m; 2], gyration_m };
+        plate.product.body = body.with_width(width).with_thickness(Side::even(self.thickness_m));
         let mut lying = plate.clone();
         let attitude = Attitude::on("bottom").unwrap_or_else(|| unreachable!("a face"));
         lying.landings = vec![Landing { drop: bar.drop, attitude: Some(attitude), source: None }];

@@ -1,7 +1,7 @@
 //! Corners that land at one instant, or nearly: what rigid impacts and contacts that take time make of it.
 
 use clatter::{Bar, Corner, End, Plate, PlateStart, Start};
-use clatter_assess::{Limit, LimitKind, Model, Part, SingleDrop, answer};
+use clatter_assess::{Drop, Limit, LimitKind, Model, Part, Place, answer};
 use clatter_flight::{Contact, ContactLaw, PlateScene};
 use rayon::prelude::*;
 
@@ -21,10 +21,10 @@ fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Shocks, Error> {
     let height = gap * CONTACT_S;
     let contact = Contact::new(law, E, CONTACT_S)?;
     let scene = PlateScene::new(plate, 1.0, [height * (1.0 - r), height * r], 0.0)?;
-    let drop = SingleDrop::of_plate(&scene, &contact)?;
+    let drop = Drop::of_plate(&scene, &contact)?;
     let mut felt = Shocks { shocks: [0.0; 4], peak: 0.0 };
-    for (shock, [x, across_m]) in felt.shocks.iter_mut().zip(plate.corners_m()) {
-        let part = Part { across_m, ..Part::new(x, None) };
+    for (shock, at_m) in felt.shocks.iter_mut().zip(plate.corners_m()) {
+        let part = Part::at(Place::flat(at_m), None);
         let asked = |kind| answer(&drop, &part, &Limit::new(kind, 1.0), Model::Compliant, TOLERANCE);
         *shock = asked(LimitKind::VelocityChange)?.value;
         felt.peak = felt.peak.max(asked(LimitKind::Acceleration)?.value / contact.peak_per_change());

@@ -8,12 +8,12 @@
 //! let handheld = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478])?;
 //! let drop = BlockDrop::tilted(handheld, 0.7, 0.0, 4.43, 9.806_65)?;
 //! let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 5e-4)?;
-//! let answer = block::answer(&block::Question::new(drop, contact, [0.0; 3], Axis::Any)?)?;
+//! let answer = block::answer(&block::Question::new(drop, contact, [0.0; 3], Axis::Any))?;
 //! assert!(answer.acceleration.value_m_s2.0 > 1000.0);
 //! # Ok::<(), clatter_answer::Error>(())
 //! ```
 
-use clatter_assess::{Axis, Inside, LimitKind, Model, Part, SingleDrop};
+use clatter_assess::{Axis, Drop, LimitKind, Model, Part, Place};
 use clatter_flight::{BlockDrop, Contact};
 use clatter_shock::Suspension;
 use serde::Serialize;
@@ -32,7 +32,7 @@ pub struct Question {
     /// What the ground does to a corner.
     pub contact: Contact,
     /// The same as an assessment has it, with contacts of their own.
-    pub drop: SingleDrop,
+    pub drop: Drop,
     /// Where the part is, from the middle along the axes of the box.
     pub at_m: [f64; 3],
     /// Along which axis it moves.
@@ -47,12 +47,10 @@ pub struct Question {
 
 impl Question {
     /// Of a place on which a part is mounted rigidly, to 1 %.
-    ///
-    /// # Errors
-    /// Those of [`SingleDrop::of_block`].
-    pub fn new(block: BlockDrop, contact: Contact, at_m: [f64; 3], axis: Axis) -> Result<Self, Error> {
-        let drop = SingleDrop::of_block(&block, &contact)?;
-        Ok(Self { block, contact, drop, at_m, axis, suspension: None, limits: None, tolerance: 0.01 })
+    #[must_use]
+    pub fn new(block: BlockDrop, contact: Contact, at_m: [f64; 3], axis: Axis) -> Self {
+        let drop = Drop::of_block(&block, &contact);
+        Self { block, contact, drop, at_m, axis, suspension: None, limits: None, tolerance: 0.01 }
     }
 }
 
@@ -121,8 +119,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         return Err(Error::Quantity { name, value: part.omega(), allowed });
     }
     let asked = OneDrop { drop: *drop, model: Model::Compliant, tolerance };
-    let inside = Inside { height_m: at_m[2], axis };
-    let place = Part { across_m: at_m[1], inside, ..Part::new(at_m[0], None) };
+    let place = Part::at(Place { at_m, axis }, None);
     // A drop that is not answered here is answered nowhere.
     asked.answer(&unlimited(LimitKind::VelocityChange), &place)?;
     let of_limits = |limits: &Vec<_>| asked.limits(limits, &[(place, Position::All(at_m.map(Json)))], suspension);
@@ -174,7 +171,7 @@ mod tests {
         let drop = BlockDrop::tilted(block, 0.0, 0.0, 0.05, 9.81).unwrap();
         let contact = Contact::new(ContactLaw::Hysteretic, 0.1, 1e-4).unwrap();
         let part = Suspension::from_hz(2.0, DampingRatio::new(0.0).unwrap()).unwrap();
-        let question = Question::new(drop, contact, [0.0; 3], Axis::Z).unwrap();
+        let question = Question::new(drop, contact, [0.0; 3], Axis::Z);
         let question = Question { suspension: Some(part), ..question };
         let swings = answer(&question).unwrap().part.unwrap().omega_peak_relative_displacement.0;
         let weight = 2.0 * 9.81 / part.omega();

@@ -3,9 +3,9 @@
 //! ```
 //! use clatter_answer::respond::drop;
 //! use clatter_assess::Model;
-//! use clatter_flight::{Body, Scene};
+//! use clatter_flight::{Profile, Scene};
 //! // A place at end b of a phone, 140 mm long, that falls at 4.43 m/s and a tilt of 5°.
-//! let scene = Scene::new(Body::new(0.14, 0.0404)?, 0.3, 4.43, 5.0, 9.806_65)?;
+//! let scene = Scene::new(Profile::new(0.14, 0.0404)?, 0.3, 4.43, 5.0, 9.806_65)?;
 //! let answer = drop::answer(&drop::Question::new(scene, Model::FiniteTilt, 1.0))?;
 //! // Without clatter it would be (1 + e) v, everywhere.
 //! assert!(answer.velocity_change_m_s.0 > 1.3 * 4.43);
@@ -13,7 +13,7 @@
 //! ```
 
 use clatter::End;
-use clatter_assess::{Feet, LimitKind, Model, OwnContacts, Part, SingleDrop};
+use clatter_assess::{Body, Drop, Feet, LimitKind, Model, OwnContacts, Part};
 use clatter_flight::{ContactLaw, Scene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
@@ -82,21 +82,20 @@ impl Question {
         }
     }
 
-    fn drop(&self) -> SingleDrop {
-        SingleDrop {
-            body: self.scene.body(),
-            across: None,
-            first: End::A,
-            tilt_rad: self.scene.tilt_rad(),
-            flat: self.flat,
-            speed_m_s: self.scene.speed_m_s(),
+    fn drop(&self) -> Drop {
+        Drop {
+            is_flat: self.flat,
             spin_rad_s: self.scene.spin_rad_s(),
-            restitution: self.scene.e(),
             gravity_m_s2: self.scene.gravity_m_s2(),
             contact_time_s: self.contact_time_s,
             contact_law: self.contact_law,
-            feet: self.feet,
             own_contacts: self.own_contacts,
+            ..Drop::new(
+                Body { feet: self.feet, ..Body::from(self.scene.body()) },
+                self.scene.speed_m_s(),
+                self.scene.tilt_rad(),
+                self.scene.e(),
+            )
         }
     }
 }
@@ -225,7 +224,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         contact_time_s: question.contact_time_s.map(Json),
         contact_law: question.contact_time_s.filter(|_| model == Model::Compliant).map(|_| question.contact_law.name()),
         contacts: contacts(
-            &question.own_contacts.mirrored(false, [first == End::B, false]),
+            &question.own_contacts.mirrored([first == End::B, false]),
             scene.e(),
             question.contact_time_s,
         ),

@@ -1,6 +1,6 @@
 //! What a drop asks of the limits of a part and at its place, of a bar as of a plate.
 
-use clatter_assess::{LimitKind, Model, Part, SingleDrop, Unit};
+use clatter_assess::{Drop, LimitKind, Model, Part, Unit};
 use clatter_shock::Suspension;
 use serde::Serialize;
 
@@ -60,7 +60,7 @@ impl Limit {
 
 /// A drop that is asked about.
 pub(super) struct OneDrop {
-    pub(super) drop: SingleDrop,
+    pub(super) drop: Drop,
     pub(super) model: Model,
     pub(super) tolerance: f64,
 }

@@ -13,7 +13,7 @@
 //! ```
 
 use clatter::Corner;
-use clatter_assess::{Feet, LimitKind, Model, OwnContacts, Part, SingleDrop};
+use clatter_assess::{Body, Drop, Feet, LimitKind, Model, OwnContacts, Part, Place};
 use clatter_flight::{Contact, PlateScene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
@@ -160,7 +160,7 @@ pub struct Answer {
 /// Follows one drop until nothing later counts.
 ///
 /// # Errors
-/// No place or one off the plate; a part too slow or too fast; those of [`SingleDrop::of_plate`] and of [`clatter_assess::answer`].
+/// No place or one off the plate; a part too slow or too fast; those of [`Drop::of_plate`] and of [`clatter_assess::answer`].
 pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { scene, contact, at, suspension, tolerance, .. } = question;
     for (side, length_m) in scene.plate().sides_m().into_iter().enumerate() {
@@ -168,16 +168,14 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         on_body_beyond(at.iter().map(|place| place[side]), length_m, inset_m)?;
     }
     let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
-    let drop = SingleDrop {
-        feet: question.feet,
-        own_contacts: question.own_contacts,
-        ..SingleDrop::of_plate(scene, contact)?
-    };
+    let drop = Drop::of_plate(scene, contact)?;
+    let body = Body { feet: question.feet, ..drop.body };
+    let drop = Drop { body, own_contacts: question.own_contacts, ..drop };
     let asked = OneDrop { drop, model: Model::Compliant, tolerance: *tolerance };
     let (plate, signs) = (scene.plate(), question.mirrored.map(|is| if is { -1.0 } else { 1.0 }));
     let [length, width] = plate.sides_m();
     // The corner that touches first feels every drop: where not even that is answered, none is.
-    let corner = Part { across_m: -0.5 * width, ..Part::new(-0.5 * length, None) };
+    let corner = Part::at(Place::flat([-0.5 * length, -0.5 * width]), None);
     asked.answer(&unlimited(LimitKind::VelocityChange), &corner)?;
     swings(suspension.as_ref())?;
     let on_product = |[x, y]: [f64; 2]| [0.5 * length * x, 0.5 * width * y];
@@ -185,7 +183,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         let [x, y] = on_product(at);
         [signs[0] * x, signs[1] * y]
     };
-    let part = |[x, y]: [f64; 2]| Part { across_m: y, ..Part::new(x, None) };
+    let part = |at: [f64; 2]| Part::at(Place::flat(at), None);
     let place = |at: &[f64; 2]| (part(in_scene(*at)), Position::Both(on_product(*at).map(Json)));
     let places: Vec<_> = at.iter().map(place).collect();
     let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, *suspension)).transpose()?;
@@ -226,7 +224,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         contact_time_s: Json(contact.time_s()),
         contact_law: contact.law().name(),
         contacts: contacts(
-            &question.own_contacts.mirrored(true, question.mirrored),
+            &question.own_contacts.mirrored(question.mirrored),
             contact.restitution(),
             Some(contact.time_s()),
         ),

@@ -6,10 +6,11 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use super::bound;
-use crate::drop::{Followed, Until};
-use crate::engine::{Part, PlaceHistory, Spot, answer};
-use crate::search::Place;
+use crate::engine::{Part, PlaceHistory, answer};
+use crate::model::follow;
+use crate::search::Coordinates;
 use crate::{Accuracy, Axis, Limit, LimitKind, ProductFile};
+use clatter_flight::{Followed, Until};
 
 /// Numbers by the generator of Knuth's MMIX, from 0 to 1.
 struct Random(u64);
@@ -118,16 +119,15 @@ fn tightest(seed: u64) -> Option<([f64; 5], String)> {
     let text = product(&mut r);
     let file = ProductFile::read(&text, "random.toml").ok()?;
     let (listed, component) = (file.listed(), &file.components[0]);
-    let ranges = file.ranges_of(&listed[0].drop, listed[0].posture, &Accuracy::default());
+    let ranges = file.ranges_of(&listed[0].drop, listed[0].base, &Accuracy::default());
     let shares = std::array::from_fn(|_| r.unit());
-    let flat = Place { shares, ..ranges.middle(component) };
-    let drop = ranges.single(&Place { first: r.one_of(ranges.firsts()), ..flat });
-    let [position_m, across_m] = component.ends_m()[0];
-    let part = Part { position_m, across_m, inside: component.inside, suspension: None };
+    let flat = Coordinates { shares, ..ranges.middle(component) };
+    let drop = ranges.single(&Coordinates { first: r.one_of(ranges.firsts()), ..flat });
+    let part = Part::at(component.inside.place(component.ends_m()[0]), None);
     let mut most = [0.0_f64; 5];
     for limit in Limit::of(component) {
         let law = ranges.law;
-        let Some(bound) = bound(&file.product, ranges.drop, ranges.posture, component, &limit, law) else { continue };
+        let Some(bound) = bound(&file.product, ranges.drop, ranges.base, component, &limit, law) else { continue };
         let asked = answer(&drop, &part, &limit, ranges.model, 0.01).ok()?;
         assert!(bound > 0.0, "{bound} of {:?}\n{text}", limit.kind);
         most[limit.kind as usize] = asked.value / bound;
@@ -142,13 +142,13 @@ fn later(seed: u64) -> Option<([f64; 2], String)> {
     let text = product(&mut r);
     let file = ProductFile::read(&text, "random.toml").ok()?;
     let (listed, component) = (file.listed(), &file.components[0]);
-    let ranges = file.ranges_of(&listed[0].drop, listed[0].posture, &Accuracy::default());
+    let ranges = file.ranges_of(&listed[0].drop, listed[0].base, &Accuracy::default());
     let shares = std::array::from_fn(|_| r.unit());
-    let drop = ranges.single(&Place { shares, ..ranges.middle(component) });
-    let up = Followed::until(&drop, ranges.model, 0.01, Until::Lands).ok().filter(Followed::is_early)?;
-    let on = Followed::until(&drop, ranges.model, 0.01, Until::Rebounded).ok()?;
-    let spot = Spot { at_m: component.ends_m()[0], inside: component.inside };
-    let [up, on] = [&up, &on].map(|followed| PlaceHistory::new(followed, spot).ok());
+    let drop = ranges.single(&Coordinates { shares, ..ranges.middle(component) });
+    let up = follow(&drop, ranges.model, 0.01, Until::Lands).ok().filter(Followed::is_early)?;
+    let on = follow(&drop, ranges.model, 0.01, Until::Rebounded).ok()?;
+    let place = component.inside.place(component.ends_m()[0]);
+    let [up, on] = [&up, &on].map(|followed| PlaceHistory::new(followed, place).ok());
     let (up, on) = (up?, on?);
     let ask = |limit: &Limit, part: Option<&Suspension>| {
         let of = |felt: &PlaceHistory<'_>| {

@@ -1,7 +1,5 @@
 //! What a designer can change, how far, and what a change does.
 
-use clatter_flight::Body;
-
 use crate::{Component, ComponentAssessment, Error, LimitKind, Mount, Product, Spread, units};
 
 /// One thing that a designer can change while all else stays.
@@ -30,9 +28,10 @@ impl Lever {
     /// Those of a part: the inertia ratio of a bar, the place across a plate, the contact time where the file gives one, and each of its limits.
     #[must_use]
     pub fn of(product: &Product, component: &Component) -> Vec<Self> {
-        let mut levers = match product.width {
-            None => vec![Self::InertiaRatio, Self::Restitution, Self::Position],
-            Some(_) => vec![Self::Restitution, Self::Position, Self::Across],
+        let mut levers = if product.body.is_wide() {
+            vec![Self::Restitution, Self::Position, Self::Across]
+        } else {
+            vec![Self::InertiaRatio, Self::Restitution, Self::Position]
         };
         levers.extend([Self::Frequency, Self::Damping]);
         levers.extend(product.contact_time_s.map(|_| Self::ContactTime));
@@ -241,6 +240,6 @@ impl Product {
         let larger = half + root;
         let square = if q > 0.0 { product * product * less / larger } else { larger / less };
         let rho = square.sqrt();
-        Ok(Self { body: Body::off_center(a, b, rho)?, gyration_m: Spread::value(rho)?, ..self.clone() })
+        Ok(Self { body: self.body_with(rho)?, gyration_m: Spread::value(rho)?, ..self.clone() })
     }
 }

@@ -87,7 +87,7 @@ impl Case<'_> {
     }
 
     fn ranges<'b>(&self, file: &'b ProductFile, listed: &'b Listed) -> Ranges<'b> {
-        file.ranges_of(&listed.drop, listed.posture, &self.accuracy)
+        file.ranges_of(&listed.drop, listed.base, &self.accuracy)
     }
 
     /// The law by which a drop breaks the part.

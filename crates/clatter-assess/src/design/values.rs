@@ -1,7 +1,5 @@
 //! Values of levers: where they are, how far they go, and as what they can be specified.
 
-use clatter_flight::Body;
-
 use super::lever::{Change, Lever};
 use super::remedies::Case;
 use crate::{Damping, Law, Mount, Product, ProductFile, Spread};
@@ -105,7 +103,7 @@ impl Case<'_> {
         let nearest = specified(f64::round);
         let gyration = if nearest * nearest > a * b { specified(f64::floor) } else { nearest };
         let gyration_m = Spread::value(gyration).ok()?;
-        Some(Product { body: Body::off_center(a, b, gyration).ok()?, gyration_m, ..product })
+        Some(Product { body: product.body_with(gyration).ok()?, gyration_m, ..product })
     }
 
     /// The file with these values; without its records, which a verdict is not made from.

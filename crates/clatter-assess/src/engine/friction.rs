@@ -1,13 +1,13 @@
 //! Bounds what friction of the ground, which no drop is followed with, may add to parts of a box that move along the ground.
 
+use clatter_flight::{Axis, Push};
 use clatter_shock::Suspension;
 
 use super::PlaceHistory;
 use super::later::slowest;
+use crate::Limit;
 use crate::bound::FRICTION;
-use crate::course::{BlockMotion, Course, Pushed};
 use crate::quantity::Source;
-use crate::{Axis, Limit};
 
 impl PlaceHistory<'_> {
     /// Returns [`friction`](Self::friction) of the part that it adds most to; of a limit that is no response there are none.
@@ -24,9 +24,8 @@ impl PlaceHistory<'_> {
     /// of mass. At the place that is at most μ P (1 + |J⁻¹ (p × a)| r), a the axis of the part and r the distance of the farthest corner. Pushes
     /// that overlap are one, of impulse I and peak P; a suspended part feels each as a shock of the velocity I, and as no more than twice its peak.
     fn friction(&self, limit: &Limit, suspension: Option<&Suspension>) -> f64 {
-        let Course::Block(motion) = &self.followed.motion else { return 0.0 };
-        let axis = self.spot.inside.axis;
-        let Some(levers) = self.followed.drop.levers(&self.spot).filter(|_| axis != Axis::Z) else { return 0.0 };
+        let axis = self.place.axis;
+        let Some(levers) = self.followed.drop.levers(&self.place).filter(|_| axis != Axis::Z) else { return 0.0 };
         let turned = levers.across - 1.0;
         // Across the blow where the axis is that of the blow, but for what turning does.
         let adds = |own: f64, push: f64| {
@@ -39,14 +38,14 @@ impl PlaceHistory<'_> {
             };
             straight + turned * across - own
         };
-        let pushes = motion.pushes();
-        let most = |of: &dyn Fn(&Pushed) -> f64| pushes.iter().map(of).fold(0.0, f64::max);
-        let own = |pushed: &Pushed, of: &dyn Fn(&crate::shock::Shock) -> f64| {
+        let pushes = self.followed.pushes();
+        let most = |of: &dyn Fn(&Push) -> f64| pushes.iter().map(of).fold(0.0, f64::max);
+        let own = |pushed: &Push, of: &dyn Fn(&crate::shock::Shock) -> f64| {
             let within = |shock: &&crate::shock::Shock| (pushed.from_s..=pushed.until_s).contains(&shock.time_s);
             self.shocks().iter().filter(within).map(of).fold(0.0, f64::max)
         };
-        let changes = |pushed: &Pushed| adds(own(pushed, &|shock| shock.change), pushed.impulse_m_s);
-        let peaks = |pushed: &Pushed| adds(own(pushed, &|shock| shock.peak), pushed.peak_m_s2);
+        let changes = |pushed: &Push| adds(own(pushed, &|shock| shock.change), pushed.impulse_m_s);
+        let peaks = |pushed: &Push| adds(own(pushed, &|shock| shock.peak), pushed.peak_m_s2);
         match (limit.kind.source(), suspension) {
             (Source::Turn, _) => 0.0,
             (Source::Shock, _) => most(&changes) / limit.allowed,
@@ -67,30 +66,5 @@ impl PlaceHistory<'_> {
                 unit * largest / limit.allowed
             }
         }
-    }
-}
-
-impl BlockMotion {
-    /// Returns what pushes the box, presses that overlap as one, in order.
-    fn pushes(&self) -> Vec<Pushed> {
-        let mut all: Vec<Pushed> = Vec::new();
-        for [from_s, until_s] in self.pressed() {
-            match all.last_mut() {
-                Some(last) if from_s <= last.until_s => last.until_s = last.until_s.max(until_s),
-                _ => all.push(Pushed { from_s, until_s, impulse_m_s: 0.0, peak_m_s2: 0.0 }),
-            }
-        }
-        let mut k = 0;
-        for (times, ends) in self.pushed() {
-            let middle_s = 0.5 * (times[0] + times[1]);
-            while k < all.len() && all[k].until_s < middle_s {
-                k += 1;
-            }
-            if let Some(pushed) = all.get_mut(k).filter(|pushed| pushed.from_s <= middle_s) {
-                pushed.impulse_m_s += 0.5 * (ends[0] + ends[1]) * (times[1] - times[0]);
-                pushed.peak_m_s2 = pushed.peak_m_s2.max(ends[0]).max(ends[1]);
-            }
-        }
-        all
     }
 }

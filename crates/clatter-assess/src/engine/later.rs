@@ -1,11 +1,11 @@
 //! What may come after a motion was left, by the energy that is left.
 
+use clatter_flight::Followed;
 use clatter_shock::Suspension;
 
-use super::PlaceHistory;
+use super::{PlaceHistory, kept_arms};
 use crate::Limit;
 use crate::bound::box_acceleration;
-use crate::drop::Followed;
 use crate::quantity::Source;
 
 /// What strikes may do at a place after a motion was left, by the energy left.
@@ -97,14 +97,14 @@ impl PlaceHistory<'_> {
     /// What strikes may do here after the motion was left.
     pub(super) fn later(&self) -> Later {
         let drop = &self.followed.drop;
-        let (points, here) = drop.in_radii(&self.spot);
+        let (points, here) = drop.in_radii(&self.place);
         let dot = |[x, y]: [f64; 2], [x2, y2]: [f64; 2]| x * x2 + y * y2;
         let mass = |p: [f64; 2]| (1.0 + dot(p, p)).sqrt();
         let farthest = points.iter().fold(0.0_f64, |most, &p| most.max(dot(p, p)));
         // All energy in the motion of the center of mass, over all of it in what moves the farthest point fastest.
         let is_box = self.is_box();
         let fastest = if is_box { 1.0 } else { (1.0 + farthest).sqrt() };
-        let center = self.followed.motion.later_m_s() / fastest;
+        let center = self.followed.later_m_s() / fastest;
         let pressed = points.iter().fold(0.0, |all, &p| libm::hypot(all, (1.0 + dot(here, p)) / mass(p)));
         // A strike gives back the restitution's share of what it takes; several that overlap may turn all of the motion around.
         let [_, most_e] = drop.restitutions();
@@ -126,7 +126,7 @@ impl PlaceHistory<'_> {
                 if is_box {
                     let longest_s = drop.contact_times_s().map_or(0.0, |[_, longest]| longest);
                     let speed = 0.5 * center * turned;
-                    box_acceleration(drop, &self.spot, speed, center * self.peak_per_change(), longest_s)
+                    box_acceleration(drop, &self.place, speed, center * self.peak_per_change(), longest_s)
                 } else {
                     center * pressed.max(mass(here)) * self.peak_per_change()
                 }
@@ -148,15 +148,18 @@ impl PlaceHistory<'_> {
     /// What a shock of this size may be off by: the share of the largest shock that lever arms get wrong, and what later ones
     /// could exceed it by.
     pub(super) fn off_by(&self, value: f64, of_box: impl Fn(&Later) -> f64) -> f64 {
-        let Followed { largest_m_s, motion, .. } = self.followed;
+        let Followed { largest_m_s, .. } = self.followed;
         // No later strike changes the velocity of a point of a bar or of a plate by more, between its ends or corners; of a box, that of its
         // center of mass. A part may be beyond feet, whose instant impacts are those of the feet.
-        let later =
-            if self.is_box() || self.followed.drop.feet.is_some() { of_box(&self.later()) } else { motion.later_m_s() };
-        self.followed.kept_arms() * largest_m_s + (later - value).max(0.0)
+        let later = if self.is_box() || self.followed.drop.body.feet.is_some() {
+            of_box(&self.later())
+        } else {
+            self.followed.later_m_s()
+        };
+        kept_arms(self.followed) * largest_m_s + (later - value).max(0.0)
     }
     fn is_box(&self) -> bool {
-        self.followed.drop.is_box()
+        self.followed.drop.is_solid()
     }
     /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
     pub(super) fn later_of(&self, limit: &Limit, suspension: Option<&Suspension>) -> f64 {
@@ -176,48 +179,29 @@ impl PlaceHistory<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drop::{Across, Model, Posture, SingleDrop, Until};
-    use crate::engine::Spot;
-    use crate::{ContactLaw, OwnContacts, Width};
+    use clatter_flight::{Axis, Body, Drop, Place, Side, Until};
+
+    use crate::Model;
+    use crate::model::follow;
 
     /// A box of 120 mm × 80 mm × 20 mm with these radii of gyration of its mass along length and width, that lands flat at 2 m/s.
-    fn lying([along, gyration_m]: [f64; 2], restitution: f64) -> SingleDrop {
-        let width =
-            Width { edges_m: [0.04; 2], gyration_m, product_of_inertia_m2: 0.0, thickness_m: Some(0.02), depth: None };
-        let posture = Some(Posture { upward: [0.0, 0.0, 1.0], thickness_m: 0.02, about: None });
-        SingleDrop {
-            body: clatter_flight::Body::new(0.12, along).unwrap(),
-            across: Some(Across { width, direction_rad: 0.0, posture }),
-            first: clatter::End::A,
-            tilt_rad: 0.0,
-            flat: false,
-            speed_m_s: 2.0,
-            spin_rad_s: 0.0,
-            restitution,
+    fn lying([along, gyration_m]: [f64; 2], restitution: f64) -> Drop {
+        let width = Side { ends_m: [0.04; 2], gyration_m };
+        let body = Body::new(0.12, along).unwrap().with_width(width).with_thickness(Side::even(0.02));
+        Drop {
+            is_level: false,
             gravity_m_s2: 9.81,
             contact_time_s: Some(2e-4),
-            contact_law: ContactLaw::Hysteretic,
-            feet: None,
-            own_contacts: OwnContacts::NONE,
+            ..Drop::new(body, 2.0, 0.0, restitution)
         }
     }
 
     /// A bar of 150 mm that lands flat, with contacts of 0.2 ms.
-    fn bar(speed_m_s: f64, restitution: f64) -> SingleDrop {
-        SingleDrop {
-            body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
-            across: None,
-            first: clatter::End::A,
-            tilt_rad: 0.0,
-            flat: false,
-            speed_m_s,
-            spin_rad_s: 0.0,
-            restitution,
+    fn bar(speed_m_s: f64, restitution: f64) -> Drop {
+        Drop {
             gravity_m_s2: 9.81,
             contact_time_s: Some(2e-4),
-            contact_law: ContactLaw::Hysteretic,
-            feet: None,
-            own_contacts: OwnContacts::NONE,
+            ..Drop::new(Body::new(0.15, 0.045).unwrap(), speed_m_s, 0.0, restitution)
         }
     }
 
@@ -227,8 +211,8 @@ mod tests {
     fn a_box_that_lands_again_stays_within_its_bounds() {
         let (e, v, time_s) = (0.6, 2.0, 2e-4);
         let drop = lying([0.058, 0.039], e);
-        let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
-        let later = PlaceHistory::new(&followed, [0.0; 2]).unwrap().later();
+        let followed = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let later = PlaceHistory::new(&followed, Place::default()).unwrap().later();
         // Gravity works during the contact, by a thousandth.
         let lands = 0.995 * e * v;
         assert!(later.shock_m_s >= (1.0 + e) * lands && later.turned_m_s >= (1.0 + e) * lands, "{}", later.shock_m_s);
@@ -245,9 +229,8 @@ mod tests {
     #[test]
     fn where_nothing_is_felt_what_may_come_is_bounded() {
         let drop = lying([0.04, 0.025], 0.5);
-        let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
-        let along = crate::Inside { height_m: 0.0, axis: crate::Axis::X };
-        let place = PlaceHistory::new(&up, Spot { at_m: [0.0; 2], inside: along }).unwrap();
+        let up = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let place = PlaceHistory::new(&up, Place { axis: Axis::X, ..Place::default() }).unwrap();
         let limit = Limit::new(crate::LimitKind::RattleSpace, 1e-3);
         let part = Suspension::from_hz(40.0, clatter_shock::DampingRatio::new(0.05).unwrap()).unwrap();
         let asked = place.answer_or_nothing(&limit, Some(&part)).unwrap();
@@ -261,9 +244,9 @@ mod tests {
     #[test]
     fn what_rings_on_adds_to_what_comes() {
         let drop = bar(1.0, 0.9);
-        let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
-        let on = Followed::until(&drop, Model::Compliant, 0.01, Until::Past(0.3)).unwrap();
-        let [up, on] = [&up, &on].map(|followed| PlaceHistory::new(followed, [0.0; 2]).unwrap());
+        let up = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let on = follow(&drop, Model::Compliant, 0.01, Until::Past(0.3)).unwrap();
+        let [up, on] = [&up, &on].map(|followed| PlaceHistory::new(followed, Place::default()).unwrap());
         let limit = Limit::new(crate::LimitKind::RattleSpace, 1e-3);
         let mut tightest = 0.0_f64;
         for n in 0..60 {
@@ -291,14 +274,14 @@ mod tests {
         let part = Suspension::from_hz(1.0, clatter_shock::DampingRatio::new(0.0).unwrap()).unwrap();
         let hangs = drop.gravity_m_s2 / (part.omega() * part.omega());
         let limit = Limit::new(crate::LimitKind::RattleSpace, hangs);
-        let up = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
-        let weights = (up.carried_m_s2(&Spot::from([0.0; 2])), up.weight_to_come_m_s2());
-        assert!(up.is_early() && weights == (0.0, 9.81), "{} {weights:?} {:?}", up.is_early(), up.motion.stop());
-        let up = PlaceHistory::new(&up, [0.0; 2]).unwrap();
+        let up = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let weights = (up.carried_m_s2(&Place::default()), up.weight_to_come_m_s2());
+        assert!(up.is_early() && weights == (0.0, 9.81), "{} {weights:?} {:?}", up.is_early(), up.stop());
+        let up = PlaceHistory::new(&up, Place::default()).unwrap();
         let said = up.later_most(&limit, [&part], 0.0);
-        let still = Followed::new(&drop, Model::Compliant, 0.01).unwrap();
-        assert_eq!((still.carried_m_s2(&Spot::from([0.0; 2])), still.weight_to_come_m_s2()), (9.81, 0.0));
-        let still = PlaceHistory::new(&still, [0.0; 2]).unwrap();
+        let still = follow(&drop, Model::Compliant, 0.01, Until::Over).unwrap();
+        assert_eq!((still.carried_m_s2(&Place::default()), still.weight_to_come_m_s2()), (9.81, 0.0));
+        let still = PlaceHistory::new(&still, Place::default()).unwrap();
         let asked = still.answer(&limit, Some(&part), 0.0).unwrap().unwrap().utilization();
         // 1 + √(1 + x²) with what the fall alone moves it by, x = v ω/g = 0.19; bounces bring both about within a tenth of a period.
         assert!((asked - 2.0).abs() < 0.1, "{asked}");
@@ -308,27 +291,18 @@ mod tests {
     /// Bounces that lose a hundredth are given up: what is left are geometric series, of both ends of a bar and of four corners of a plate.
     #[test]
     fn bounces_that_were_given_up_are_those_of_all_points() {
-        let width =
-            Width { edges_m: [0.04; 2], gyration_m: 0.023, product_of_inertia_m2: 0.0, thickness_m: None, depth: None };
-        for (across, points) in [(None, 2.0), (Some(Across { width, direction_rad: 0.3, posture: None }), 4.0)] {
-            let drop = SingleDrop {
-                body: clatter_flight::Body::new(0.15, 0.045).unwrap(),
-                across,
-                first: clatter::End::A,
-                tilt_rad: 0.02,
-                flat: false,
-                speed_m_s: 3.0,
-                spin_rad_s: 0.0,
-                restitution: 0.99,
+        let bar = Body::new(0.15, 0.045).unwrap();
+        let plate = bar.with_width(Side { ends_m: [0.04; 2], gyration_m: 0.023 });
+        for (body, direction_rad, points) in [(bar, 0.0, 2.0), (plate, 0.3, 4.0)] {
+            let drop = Drop {
+                direction_rad,
                 gravity_m_s2: 9.81,
                 contact_time_s: Some(2e-4),
-                contact_law: ContactLaw::Hysteretic,
-                feet: None,
-                own_contacts: OwnContacts::NONE,
+                ..Drop::new(body, 3.0, 0.02, 0.99)
             };
-            let followed = Followed::new(&drop, Model::Compliant, 0.01).unwrap();
-            assert!(followed.is_given_up(), "{:?}", followed.motion.stop());
-            let later = PlaceHistory::new(&followed, [0.0; 2]).unwrap().later();
+            let followed = follow(&drop, Model::Compliant, 0.01, Until::Over).unwrap();
+            assert!(followed.is_given_up(), "{:?}", followed.stop());
+            let later = PlaceHistory::new(&followed, Place::default()).unwrap().later();
             let series: f64 = (0..5000).map(|n| 0.99_f64.powi(n)).sum();
             let in_turn = later.given_up.expect("given up").in_turn;
             assert!((in_turn / (points * series) - 1.0).abs() < 1e-9, "{in_turn}");
@@ -341,8 +315,8 @@ mod tests {
     fn a_stiff_part_is_asked_for_no_more_than_said_as_it_lands_again() {
         let (e, v, time_s) = (0.6, 2.0, 2e-4);
         let drop = bar(v, e);
-        let followed = Followed::until(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
-        let later = PlaceHistory::new(&followed, [0.0; 2]).unwrap().later();
+        let followed = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
+        let later = PlaceHistory::new(&followed, Place::default()).unwrap().later();
         let duration = time_s * (0.5 * (1.0 + (0.075_f64 / 0.045).powi(2))).sqrt();
         let amplitude = (1.0 + e) * e * v * std::f64::consts::FRAC_PI_2 / duration;
         let shape = clatter_shock::Shape::HalfSine;

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use clatter::End;
-use clatter_flight::{Ahead, Body, Contact, Model, Motion, Scene};
+use clatter_flight::{Ahead, Contact, Model, Motion, Profile, Scene};
 
 use super::solve::{self, Minimum, Problem};
 use super::{Known, Set};
@@ -238,7 +238,7 @@ impl Drop<'_> {
     }
     fn scene(&self, x: &[f64]) -> Result<Scene, clatter::Error> {
         let ([a, b], length) = (self.arms(), self.known.body.length_m());
-        let body = Body::off_center(a, b, 0.5 * length * libm::exp(x[GYRATION]))?;
+        let body = Profile::off_center(a, b, 0.5 * length * libm::exp(x[GYRATION]))?;
         let (speed, tilt) = (libm::exp(x[SPEED]), libm::asin(self.sin_tilt(x)));
         Scene::new(body, x[RESTITUTION], speed, tilt.to_degrees(), self.known.gravity_m_s2)?
             .with_spin(x[SPIN] * speed * 2.0 / length)
@@ -358,7 +358,7 @@ mod tests {
     fn a_range_counts_as_a_datum_of_its_standard_deviation() {
         let known = Known {
             gyration_m: [0.04; 2],
-            body: Body::new(0.15, 0.04).expect("a body"),
+            body: clatter_flight::Body::new(0.15, 0.04).expect("a body"),
             gyration_known: true,
             first: First::End(End::A),
             gravity_m_s2: 0.0,

@@ -2,12 +2,14 @@
 
 use serde::Serialize;
 
-use super::plate::{BEYOND_PEAK, BLOCK, measured, reason};
+use super::plate::{BEYOND_PEAK, BLOCK, along_length, measured, reason};
 use super::{Groups, Ladder, Reference, Rung, cheapest, with};
+use crate::Model;
 use crate::assess::Listed;
-use crate::drop::{Across, Followed, Model, SingleDrop, Until};
 use crate::engine::{Part, answer};
-use crate::{Assessment, Axis, DropName, Error, Inside, LandingLimit, Limit, ProductFile, Width};
+use crate::model::follow;
+use crate::{Assessment, DropName, Error, LandingLimit, Limit, ProductFile};
+use clatter_flight::{Axis, Body, Drop, Place, Side, Until};
 
 /// One drop of a box: how late its last corner may come, beside a contact, and what it leaves least room.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -41,7 +43,7 @@ impl LandingLadder {
 impl ProductFile {
     /// What the tolerance leaves open of each drop of a box.
     pub(super) fn landing_ladders(&self, assessment: &Assessment) -> Vec<LandingLadder> {
-        let Some(((faces_m, _), [shortest, longest])) = self.product.faces_m().zip(self.product.contact_times_s())
+        let Some((faces_m, [shortest, longest])) = self.product.body.faces_m().zip(self.product.contact_times_s())
         else {
             return Vec::new();
         };
@@ -73,45 +75,37 @@ impl ProductFile {
     }
 }
 
-impl SingleDrop {
-    /// The same drop as one of the plate that the face of a box is, with its part; none of an edge, of a corner, of a part that does not
-    /// move across the face, and of a spin about another axis than that of the tilt.
-    fn as_plate(&self, part: &Part) -> Option<(Self, Part)> {
-        let across = self.across?;
-        let posture = across.posture?;
-        let normal = part.inside.axis as usize;
-        if part.inside.axis == Axis::Any || (0..3).any(|axis| axis != normal && posture.upward[axis] != 0.0) {
-            return None;
-        }
-        let depth = across.width.depth_of(posture.thickness_m);
-        let edges = [self.body.arms_m(), across.width.edges_m, across.width.faces_m(posture.thickness_m)];
-        let radii = [self.body.gyration_m(), across.width.gyration_m, depth.gyration_m];
-        let places = [part.position_m, part.across_m, part.inside.height_m];
-        let [x, y] = [[1, 2], [0, 2], [0, 1]][normal];
-        let upward = across.upward_of(&posture, self.tilt_rad);
-        let thickness_m = Some(edges[normal].iter().sum());
-        let [xz, yz] = depth.products_of_inertia_m2;
-        let product_of_inertia_m2 = [yz, xz, across.width.product_of_inertia_m2][normal];
-        let width = Width { edges_m: edges[y], gyration_m: radii[y], product_of_inertia_m2, thickness_m, depth: None };
-        let turns = rising(upward, self.spin_of_box(&across));
-        let ([up, aside], [rise, beside]) = ([upward[x], upward[y]], [turns[x], turns[y]]);
-        // Level and turning, it rises from then on.
-        let level = up == 0.0 && aside == 0.0 && self.spin_rad_s != 0.0;
-        if (rise * aside - beside * up).abs() > 1e-9 * libm::hypot(up, aside) * self.spin_rad_s.abs() {
-            return None;
-        }
-        let spins = libm::hypot(rise, beside);
-        let spin_rad_s = if level { spins } else { spins.copysign(rise * up + beside * aside) };
-        let [up, aside] = if level { [rise, beside] } else { [up, aside] };
-        let across = Across { width, direction_rad: libm::atan2(aside, up), posture: None };
-        let body = clatter_flight::Body::off_center(edges[x][0], edges[x][1], radii[x]).ok()?;
-        let tilt_rad = libm::asin(libm::hypot(upward[x], upward[y]).min(1.0));
-        let part = Part { position_m: places[x], across_m: places[y], inside: Inside::default(), ..*part };
-        Some((
-            Self { body, across: Some(across), first: across.first(), tilt_rad, spin_rad_s: spin_rad_s + 0.0, ..*self },
-            part,
-        ))
+/// The same drop as one of the plate that the face of a box is, with its part; none of an edge, of a corner, of a part that does not
+/// move across the face, and of a spin about another axis than that of the tilt.
+fn as_plate(drop: &Drop, part: &Part) -> Option<(Drop, Part)> {
+    let [length, width, thickness] = [Some(drop.body.length), drop.body.width, drop.body.thickness];
+    let sides = [length?, width?, thickness?];
+    let normal = part.place.axis as usize;
+    if part.place.axis == Axis::Any || (0..3).any(|axis| axis != normal && drop.base[axis] != 0.0) {
+        return None;
     }
+    let [x, y] = [[1, 2], [0, 2], [0, 1]][normal];
+    let [xy, xz, yz] = drop.body.products_m2;
+    let (up, turns) = (drop.up(), rising(drop.up(), drop.spin()));
+    let ([up, aside], [rise, beside]) = ([up[x], up[y]], [turns[x], turns[y]]);
+    // Level and turning, it rises from then on.
+    let is_level = up == 0.0 && aside == 0.0 && drop.spin_rad_s != 0.0;
+    if (rise * aside - beside * up).abs() > 1e-9 * libm::hypot(up, aside) * drop.spin_rad_s.abs() {
+        return None;
+    }
+    let tilt_rad = libm::asin(libm::hypot(up, aside).min(1.0));
+    let spins = libm::hypot(rise, beside);
+    let spin_rad_s = if is_level { spins } else { spins.copysign(rise * up + beside * aside) } + 0.0;
+    let [up, aside] = if is_level { [rise, beside] } else { [up, aside] };
+    let [a, b] = sides[x].ends_m;
+    let mut body = Body::off_center(a, b, sides[x].gyration_m).ok()?.with_width(sides[y]);
+    body.products_m2[0] = [yz, xz, xy][normal];
+    // The thickness across the face, with the mass spread evenly over it.
+    let body = body.with_thickness(Side::even(sides[normal].m()));
+    let (base, direction_rad) = ([0.0, 0.0, 1.0], libm::atan2(aside, up));
+    let plate = Drop { body, is_level: true, base, tilt_rad, direction_rad, spin_rad_s, spin_axis: None, ..*drop };
+    let at_m = part.place.at_m;
+    Some((plate, Part::at(Place::flat([at_m[x], at_m[y]]), part.suspension)))
 }
 
 /// How fast the vertical moves in axes of a box that turns: n × ω.
@@ -119,28 +113,23 @@ fn rising([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {
     [y * c - z * b, z * a - x * c, x * b - y * a]
 }
 
-impl SingleDrop {
-    /// What the plate that a face of a box is lacks: turned off it, the center of mass leaves the middle of the face by its height.
-    fn leans(&self) -> String {
-        let width = self.across.map(|across| across.width);
-        let height_m = 0.5 * width.and_then(|width| width.thickness_m).unwrap_or(0.0);
-        let half_m = 0.5 * width.map_or(f64::INFINITY, |width| width.m()).min(self.body.length_m());
-        with("its height over the face counts", "φ h/b", Some(self.tilt_rad * height_m / half_m))
-    }
+/// What the plate that a face of a box is lacks: turned off it, the center of mass leaves the middle of the face by its height.
+fn leans(plate: &Drop) -> String {
+    let [height_m, half_m] =
+        [plate.body.thickness().m(), plate.body.width_m().min(plate.body.length_m())].map(|m| 0.5 * m);
+    with("its height over the face counts", "φ h/b", Some(plate.tilt_rad * height_m / half_m))
 }
 
 impl Ladder {
     /// Of a box: itself, and where it lands on a face the plate that this is and the bar along it.
-    pub(super) fn of_box(drop: &SingleDrop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
+    pub(super) fn of_box(drop: &Drop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
         let exact = answer(drop, part, limit, Model::Compliant, tolerance)?;
         let until_s = (BEYOND_PEAK * exact.time_s).max(drop.clatter_s());
-        let until = |drop: &SingleDrop| Followed::until(drop, Model::Compliant, tolerance, Until::Past(until_s));
-        let plate = drop.as_plate(part);
+        let until = |drop: &Drop| follow(drop, Model::Compliant, tolerance, Until::Past(until_s));
+        let plate = as_plate(drop, part);
         let mut models = Vec::new();
-        if let Some((plate, part)) = &plate
-            && let Some(across) = &plate.across
-        {
-            let bar = (plate.along(across), Part { across_m: 0.0, ..*part });
+        if let Some((plate, part)) = &plate {
+            let bar = (plate.along_length(), along_length(part));
             // What a body refuses is left out.
             models.extend(measured(Rung::Bar, &|| until(&bar.0), &bar.1, limit, &exact));
             models.extend(measured(Rung::Plate, &|| until(plate), part, limit, &exact));
@@ -149,7 +138,7 @@ impl Ladder {
         let groups = plate.as_ref().map_or_else(|| Groups::of(drop, part), |(plate, part)| Groups::of(plate, part))?;
         let cheapest = cheapest(&models, tolerance).unwrap_or(Rung::Block);
         let reason = match &plate {
-            Some((plate, _)) => reason(&models, cheapest, tolerance, &groups, plate.leans()),
+            Some((plate, _)) => reason(&models, cheapest, tolerance, &groups, leans(plate)),
             None => "no bar and no plate lands so, or moves the part along this axis".to_owned(),
         };
         let reference = Reference { model: Rung::Block, value: exact.value, tolerance: BLOCK };

@@ -1,44 +1,25 @@
 //! The rungs of a plate: the bar along its length, the plate of small tilt, the box with full rotation.
 
 use super::{FINER, Groups, Ladder, Measured, Reference, Rung, cheapest, percent, time, with};
-use crate::assess::THIN;
-use crate::drop::{Across, Followed, Model, SingleDrop, Until};
+use crate::Model;
 use crate::engine::{Answer, Part, answer, of_followed};
-use crate::{Error, Limit, OwnContact, OwnContacts};
+use crate::model::follow;
+use crate::{Error, Limit};
+use clatter_flight::{Drop, Followed, Until};
 
 /// Until so long a box is followed, over the time of the peak that the plate of small tilt has.
 pub(super) const BEYOND_PEAK: f64 = 1.5;
 /// A box is left where later presses do less than this share of the largest.
 pub(super) const BLOCK: f64 = 1e-3;
 
-impl SingleDrop {
-    /// The same drop without what is across: of the bar along the length, which rises to its other end as the edge does.
-    pub(super) fn along(&self, across: &Across) -> Self {
-        let rises = self.gaps_m(across)[0] / self.body.length_m();
-        // Its ends press as the corners of the edge that comes down first.
-        let lands = self.own_contacts.mirrored(true, [false, across.signs()[1] < 0.0]);
-        let own_contacts = OwnContacts([lands.0[0], lands.0[1], OwnContact::NONE, OwnContact::NONE]);
-        // That is how much of its spin lies along the length, at any tilt.
-        let spin_rad_s = self.spin_rad_s * libm::cos(across.direction_rad).abs();
-        Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), spin_rad_s, own_contacts, ..*self }
-    }
-}
-
 impl Ladder {
-    pub(super) fn of_plate(
-        drop: &SingleDrop,
-        across: &Across,
-        part: &Part,
-        limit: &Limit,
-        tolerance: f64,
-    ) -> Result<Self, Error> {
-        let bar = (drop.along(across), Part { across_m: 0.0, ..*part });
-        let peak = of_followed(&Followed::new(drop, Model::Compliant, tolerance)?, part, limit)?;
-        let thickness_m = across.width.thickness_m.unwrap_or(THIN * drop.body.length_m());
+    pub(super) fn of_plate(drop: &Drop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
+        let bar = (drop.along_length(), along_length(part));
+        let peak = of_followed(&follow(drop, Model::Compliant, tolerance, Until::Over)?, part, limit)?;
         // All are followed as far, and once.
         let until_s = (BEYOND_PEAK * peak.time_s).max(drop.clatter_s());
-        let as_block = || Followed::as_block(drop, thickness_m, until_s);
-        let until = |drop| Followed::until(drop, Model::Compliant, tolerance, Until::Past(until_s));
+        let as_block = || Ok(Followed::as_block(drop, until_s)?);
+        let until = |drop| follow(drop, Model::Compliant, tolerance, Until::Past(until_s));
         let block = as_block().and_then(|block| of_followed(&block, part, limit)).ok();
         let (fullest, exact) = match block {
             Some(block) => (Rung::Block, block),
@@ -62,6 +43,11 @@ impl Ladder {
     }
 }
 
+/// The part in the bar along the length.
+pub(super) fn along_length(part: &Part) -> Part {
+    Part::new(part.place.at_m[0], part.suspension)
+}
+
 /// A body on the drop, beside the exact answer.
 pub(super) fn measured(
     model: Rung,
@@ -72,7 +58,7 @@ pub(super) fn measured(
 ) -> Result<Measured, Error> {
     let (found, seconds) = time::measured(|| of_followed(&follow()?, part, limit))?;
     let error = (found.utilization() / exact.utilization() - 1.0).abs();
-    let strikes = follow()?.motion.struck_s().len();
+    let strikes = follow()?.struck_s().len();
     Ok(Measured { model, value: found.value, error, seconds, strikes })
 }
 

@@ -4,9 +4,9 @@ use clatter::End;
 
 use super::Point;
 use super::drops::{Drops, Inputs, Places, Tilt, along, corners, parts};
-use crate::drop::{SingleDrop, Until};
 use crate::search::Ranges;
 use crate::{Component, Limit, LimitAssessment, WorstCase};
+use clatter_flight::{Drop, Until};
 
 /// A curve for each end that may touch first: at each tilt the drop that asks most of those followed. These are the `shared` ones, at
 /// the ends of the ranges, and those with the speed, spin, restitution and contact time of the worst case; the worst case is one of the
@@ -21,10 +21,10 @@ pub(super) fn over_tilt(
     let Some(asked) = Limit::of(component).into_iter().find(|l| l.kind == limit.limit) else { return Vec::new() };
     let Some(worst) = &limit.worst_case else { return Vec::new() };
     let corners = corners(ranges);
-    let SingleDrop { speed_m_s, spin_rad_s, restitution, contact_time_s, .. } = worst.drop;
+    let Drop { speed_m_s, spin_rad_s, restitution, contact_time_s, .. } = worst.drop;
     let own: Inputs = (speed_m_s, spin_rad_s, restitution, contact_time_s);
     // At the tilt of the worst case all of them, at the others what is not shared.
-    let here = if worst.drop.flat { Vec::new() } else { vec![(worst.drop.tilt_rad, true)] };
+    let here = if worst.drop.is_flat { Vec::new() } else { vec![(worst.drop.tilt_rad, true)] };
     let at_worst = Drops::new(ranges, &here, &corners, until);
     let of_worst = Drops::new(ranges, if corners.contains(&own) { &[] } else { tilts }, &[own], until);
     let parts = parts(component, &asked, Some(worst));
@@ -41,7 +41,7 @@ pub(super) fn over_tilt(
     }
     found.extend(of_worst_case(limit));
     let curve = |first: End| {
-        let mut points: Vec<Point> = found.iter().filter(|point| point.drop.first == first).copied().collect();
+        let mut points: Vec<Point> = found.iter().filter(|point| point.drop.first() == first).copied().collect();
         points.sort_by(|a, b| a.tilt_rad.total_cmp(&b.tilt_rad));
         let same = |a: &Point, b: &Point| b.tilt_rad - a.tilt_rad < 1e-12;
         let most = |at: &[Point]| at.iter().copied().reduce(|a, b| if b.share > a.share { b } else { a });
@@ -53,5 +53,5 @@ pub(super) fn over_tilt(
 /// The worst case, as it is told; a flat one has no tilt of its own.
 fn of_worst_case(limit: &LimitAssessment) -> Option<Point> {
     let (WorstCase { drop, part, .. }, demand) = limit.worst_case.zip(limit.demand)?;
-    (!drop.flat).then_some(Point { tilt_rad: drop.tilt_rad, drop, part, share: demand / limit.allowed })
+    (!drop.is_flat).then_some(Point { tilt_rad: drop.tilt_rad, drop, part, share: demand / limit.allowed })
 }

@@ -4,10 +4,12 @@ use std::sync::OnceLock;
 
 use clatter_shock::{DampingRatio, Suspension};
 
-use crate::drop::{Followed, Model, SingleDrop, Until};
+use crate::Model;
 use crate::engine::PlaceHistory;
+use crate::model::follow;
 use crate::search::Ranges;
 use crate::{Component, Limit, Mount, Part, WorstCase};
+use clatter_flight::{Drop, Followed, Place, Until};
 
 /// Steps of the tilt over its range; they are twice as close at its low end as at its high end.
 const STEPS: u32 = 40;
@@ -28,7 +30,7 @@ pub(super) struct Drops {
 }
 
 struct Kept {
-    drop: SingleDrop,
+    drop: Drop,
     /// Of which drop of the file.
     listed: usize,
     /// Whether that of a symmetric product stands for the one that is turned around as well.
@@ -71,22 +73,16 @@ impl Drops {
         for &first in ranges.firsts() {
             for &tilt in tilts {
                 for &(speed_m_s, spin_rad_s, restitution, contact_time_s) in inputs {
-                    let drop = SingleDrop {
-                        body: ranges.product.body,
-                        across: None,
-                        first,
-                        tilt_rad: tilt.0,
-                        flat: false,
-                        speed_m_s,
+                    let drop = Drop {
+                        direction_rad: Drop::towards(first),
                         spin_rad_s,
-                        restitution,
                         gravity_m_s2: ranges.drop.gravity_m_s2,
                         contact_time_s,
                         contact_law: ranges.law,
-                        feet: ranges.product.feet,
                         own_contacts: ranges.product.own_contacts,
+                        ..Drop::new(ranges.product.body, speed_m_s, tilt.0, restitution)
                     };
-                    let drop = SingleDrop { flat: drop.lands_as_one(ranges.merge_s), ..drop };
+                    let drop = Drop { is_flat: drop.lands_as_one(ranges.merge_s), ..drop };
                     self.all.push(Kept { drop, listed, turns, tilt, followed: OnceLock::new() });
                 }
             }
@@ -120,19 +116,19 @@ impl Drops {
         self.all[view.index].listed
     }
 
-    pub(super) fn drop(&self, view: View) -> SingleDrop {
+    pub(super) fn drop(&self, view: View) -> Drop {
         let drop = self.all[view.index].drop;
-        let first = if view.turned { drop.first.other() } else { drop.first };
-        SingleDrop { first, ..drop }
+        let first = if view.turned { drop.first().other() } else { drop.first() };
+        Drop { direction_rad: Drop::towards(first), ..drop }
     }
 
     /// What a place feels in a drop, for parts up to a natural frequency; none where the drop is not answered.
     fn felt(&self, view: View, position_m: f64, fastest_rad_s: f64) -> Option<PlaceHistory<'_>> {
         let kept = &self.all[view.index];
-        let follow = || Followed::until(&kept.drop, self.model, self.tolerance, self.until).ok();
+        let follow = || follow(&kept.drop, self.model, self.tolerance, self.until).ok();
         let followed = kept.followed.get_or_init(follow).as_ref()?;
         let position_m = if view.turned { -position_m } else { position_m };
-        PlaceHistory::rough(followed, [position_m, 0.0], fastest_rad_s).ok()
+        PlaceHistory::rough(followed, Place::flat([position_m, 0.0]), fastest_rad_s).ok()
     }
 }
 

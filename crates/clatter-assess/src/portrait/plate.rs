@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use clatter_shock::Suspension;
 
 use super::Point;
-use crate::course::Course;
-use crate::drop::{Followed, SingleDrop, Until};
 use crate::engine::PlaceHistory;
+use crate::model::follow;
 use crate::quantity::Source;
 use crate::search::rough_to_rad_s;
-use crate::{Across, Component, ComponentAssessment, Limit, LimitAssessment, LimitKind, Part, Product, WorstCase};
+use crate::{Component, ComponentAssessment, Limit, LimitAssessment, LimitKind, Part, Product, WorstCase};
+use clatter_flight::{Drop, Followed, Place, Until};
 
 /// Directions of the curve, and of them one in so many for the map.
 const DIRECTIONS: u32 = 72;
@@ -77,11 +77,11 @@ impl Product {
     /// The plate as flights take it, corner a at (−, −); none of a bar.
     #[must_use]
     pub fn plate(&self) -> Option<clatter_flight::Plate> {
-        let (width, [left, right]) = (self.width.as_ref()?, self.body.arms_m());
-        let [front, back] = width.edges_m;
+        let (width, [left, right]) = (self.body.width.as_ref()?, self.body.arms_m());
+        let [front, back] = width.ends_m;
         let gyration = [self.body.gyration_m(), width.gyration_m];
         let plate = clatter_flight::Plate::new([left, right, front, back], gyration).ok()?;
-        plate.with_product_of_inertia(width.product_of_inertia_m2).ok()
+        plate.with_product_of_inertia(self.body.products_m2[0]).ok()
     }
 }
 
@@ -102,39 +102,38 @@ impl<'a> OneLimit<'a> {
         let (suspension, rough_to_rad_s) = (worst.part.suspension, rough_to_rad_s(component));
         Some(Self { limit: asked, suspension, rough_to_rad_s, worst })
     }
-    /// Off an edge or a corner no direction is that of a plan.
-    fn across(&self) -> Option<Across> {
-        self.worst.drop.across.filter(|across| across.posture.is_none())
+    /// Off an edge or a corner no direction is that of a plan, and a bar has none.
+    fn has_directions(&self) -> bool {
+        self.worst.drop.body.is_wide() && self.worst.drop.is_level
     }
     /// Whether it asks for more in one place than in another.
     fn has_map(&self) -> bool {
         self.limit.kind.source() != Source::Turn
     }
     /// The worst drop with other directions all around, every so many of them, with their numbers.
-    fn around(&self, across: &Across, every: u32) -> impl Iterator<Item = (u32, SingleDrop)> {
-        let turned = |k: u32| (k, self.rising_to(across, TAU * f64::from(k) / f64::from(DIRECTIONS)));
+    fn around(&self, every: u32) -> impl Iterator<Item = (u32, Drop)> {
+        let turned = |k: u32| (k, self.rising_to(TAU * f64::from(k) / f64::from(DIRECTIONS)));
         let all: Vec<_> = (0..=DIRECTIONS).filter(|k| k.is_multiple_of(every)).map(turned).collect();
         all.into_iter()
     }
     /// The share that a followed drop asks at a place, where it passes `above`.
     fn share(&self, followed: &Followed, at_m: [f64; 2], above: f64) -> Option<f64> {
-        let felt = PlaceHistory::rough(followed, at_m, self.rough_to_rad_s).ok()?;
+        let felt = PlaceHistory::rough(followed, Place::flat(at_m), self.rough_to_rad_s).ok()?;
         felt.answer(&self.limit, self.suspension.as_ref(), above).ok()?.map(|answer| answer.utilization())
     }
     /// The most at some places, and which of them.
     fn most(&self, followed: &Followed, places: &[[f64; 2]]) -> Option<(f64, Part)> {
         let mut most: Option<(f64, Part)> = None;
-        for &at_m @ [position_m, across_m] in places {
-            let part = Part { across_m, ..Part::new(position_m, self.suspension) };
+        for &at_m in places {
+            let part = Part::at(Place::flat(at_m), self.suspension);
             let more = self.share(followed, at_m, most.map_or(-1.0, |most| most.0));
             most = more.map(|share| (share, part)).or(most);
         }
         most
     }
     /// The worst drop with another direction.
-    fn rising_to(&self, across: &Across, direction_rad: f64) -> SingleDrop {
-        let across = Across { direction_rad, ..*across };
-        SingleDrop { first: across.first(), across: Some(across), ..self.worst.drop }
+    fn rising_to(&self, direction_rad: f64) -> Drop {
+        Drop { direction_rad, ..self.worst.drop }
     }
 }
 
@@ -147,52 +146,47 @@ pub(super) fn portrait(
     until: Until,
 ) -> Option<PlatePortrait> {
     let tightest = assessed.tightest();
-    let asked = OneLimit::of(component, tightest)?;
-    let (worst, across) = (asked.worst, asked.across()?);
-    let own = Followed::new(&worst.drop, worst.model, worst.tolerance).ok()?;
+    let asked = OneLimit::of(component, tightest).filter(OneLimit::has_directions)?;
+    let worst = asked.worst;
+    let own = follow(&worst.drop, worst.model, worst.tolerance, Until::Over).ok()?;
     let given_rad = given(worst);
     let places = component.places_m();
     let (mut points, mut counted) = (Vec::new(), Vec::new());
-    for (k, drop) in asked.around(&across, 1) {
-        let Ok(followed) = Followed::until(&drop, worst.model, worst.tolerance, until) else { continue };
+    for (k, drop) in asked.around(1) {
+        let Ok(followed) = follow(&drop, worst.model, worst.tolerance, until) else { continue };
         let Some((share, part)) = asked.most(&followed, &places) else { continue };
         points.push(Point { tilt_rad: drop.tilt_rad, drop, part, share });
-        if k < DIRECTIONS && k.is_multiple_of(OF_MAP) && is_given(given_rad, direction(&drop)) {
+        if k < DIRECTIONS && k.is_multiple_of(OF_MAP) && is_given(given_rad, drop.direction_rad) {
             counted.push((share, followed));
         }
     }
     let share = tightest.demand? / tightest.allowed;
-    let here = asked.rising_to(&across, across.direction_rad.rem_euclid(TAU));
-    let after = points.partition_point(|point| direction(&point.drop) < direction(&here));
+    let here = asked.rising_to(worst.drop.direction_rad.rem_euclid(TAU));
+    let after = points.partition_point(|point| point.drop.direction_rad < here.direction_rad);
     points.insert(after, Point { tilt_rad: here.tilt_rad, drop: here, part: worst.part, share });
     let map = if asked.has_map() { map_of(&asked, &own, &in_order(counted)) } else { None };
     let mut others: Vec<_> = assessed.limits.iter().filter(|limit| limit.limit != tightest.limit).collect();
     others.sort_by(|a, b| a.room().total_cmp(&b.room()));
     let other = |limit: &LimitAssessment| {
-        let asked = OneLimit::of(component, limit).filter(OneLimit::has_map)?;
-        let (worst, across) = (asked.worst, asked.across()?);
+        let asked = OneLimit::of(component, limit).filter(|asked| asked.has_map() && asked.has_directions())?;
+        let worst = asked.worst;
         let given_rad = given(worst);
-        let follow = |(k, drop): (u32, SingleDrop)| {
-            let is_counted = k < DIRECTIONS && is_given(given_rad, direction(&drop));
-            let followed = is_counted.then(|| Followed::until(&drop, worst.model, worst.tolerance, until).ok())??;
+        let counts = |(k, drop): (u32, Drop)| {
+            let is_counted = k < DIRECTIONS && is_given(given_rad, drop.direction_rad);
+            let followed = is_counted.then(|| follow(&drop, worst.model, worst.tolerance, until).ok())??;
             let (share, _) = asked.most(&followed, &places)?;
             Some((share, followed))
         };
-        let counted = asked.around(&across, OF_MAP).filter_map(follow).collect();
-        let own = Followed::new(&worst.drop, worst.model, worst.tolerance).ok()?;
+        let counted = asked.around(OF_MAP).filter_map(counts).collect();
+        let own = follow(&worst.drop, worst.model, worst.tolerance, Until::Over).ok()?;
         Some((limit.limit, map_of(&asked, &own, &in_order(counted))?))
     };
     Some(PlatePortrait {
-        strikes: strikes(&own, &across),
+        strikes: own.strikes_of_corners().into_iter().map(strike).collect(),
         over_direction: points,
         given_rad,
         maps: map.map(|map| (tightest.limit, map)).into_iter().chain(others.into_iter().filter_map(other)).collect(),
     })
-}
-
-/// Where a drop rises to.
-fn direction(drop: &SingleDrop) -> f64 {
-    drop.across.map_or(0.0, |across| across.direction_rad)
 }
 
 /// Drops by what they ask, the most demanding ones first, so that the others are soon known to ask for less.
@@ -206,48 +200,23 @@ fn is_given(given_rad: Option<[f64; 2]>, direction_rad: f64) -> bool {
     given_rad.is_none_or(|[lo, hi]| (direction_rad - lo + 1e-9).rem_euclid(TAU) <= hi - lo + 2e-9)
 }
 
-fn strikes(own: &Followed, across: &Across) -> Vec<CornerStrike> {
-    let all: Vec<(usize, f64, f64)> = match &own.motion {
-        Course::Plate(motion) => motion
-            .strikes
-            .iter()
-            .map(|strike| (strike.point, strike.time_s, strike.delta_v_m_s[strike.point]))
-            .collect(),
-        // Beyond the feet are the corners, in their order.
-        Course::PlateOnFeet(motion) => {
-            let of = motion.strikes.iter();
-            of.map(|strike| (strike.point % 4, strike.time_s, strike.delta_v_m_s[strike.point])).collect()
-        }
-        Course::Bar(_) | Course::BarOnFeet(_) | Course::Block(_) => Vec::new(),
-    };
-    let [sx, sy] = across.signs();
-    let corner = |point: usize| {
-        let right = (point == 1 || point == 2) ^ (sx < 0.0);
-        let back = point >= 2;
-        match (right, back ^ (sy < 0.0)) {
-            (false, false) => 0,
-            (true, false) => 1,
-            (true, true) => 2,
-            (false, true) => 3,
-        }
-    };
-    let strike = |(point, time_s, delta_v_m_s)| CornerStrike { corner: corner(point), time_s, delta_v_m_s };
-    all.into_iter().map(strike).collect()
+fn strike((corner, time_s, delta_v_m_s): (usize, f64, f64)) -> CornerStrike {
+    CornerStrike { corner, time_s, delta_v_m_s }
 }
 
 /// The map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.
 fn map_of(asked: &OneLimit<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
     let [length, width] = own.drop.sides_m();
-    let ([x, y], [a, b]) = (asked.worst.part.at_m(), own.drop.body.arms_m());
+    let [x, y] = asked.worst.part.at_m();
     // The least is asked near the center of mass.
-    let center = [0.5 * (a - b), own.drop.across.map_or(0.0, |across| across.width.center_m())];
+    let center = own.drop.body.from_center([0.0; 3]).map(|from| 0.0 - from);
     let columns = (PLACES * length / width).sqrt().clamp(7.0, 24.0).round();
     let rows = (PLACES / columns).max(7.0).round();
     let (along_m, across_m) = (lines(length, columns, [center[0], x]), lines(width, rows, [center[1], y]));
     let mut shares = Vec::with_capacity(along_m.len() * across_m.len());
     for &y in &across_m {
         for &x in &along_m {
-            let felt = PlaceHistory::new(own, [x, y]).ok()?;
+            let felt = PlaceHistory::new(own, Place::flat([x, y])).ok()?;
             let answer = felt.answer(&asked.limit, asked.suspension.as_ref(), -1.0).ok()?;
             let own = answer.map_or(0.0, |answer| answer.utilization());
             shares.push(others.iter().fold(own, |most, other| asked.share(other, [x, y], most).unwrap_or(most)));

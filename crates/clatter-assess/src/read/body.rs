@@ -3,13 +3,12 @@
 use std::ops::Range;
 
 use clatter::Mass;
-use clatter_flight::{Body, ContactLaw};
+use clatter_flight::{Body, ContactLaw, Feet, OwnContact, OwnContacts, PLACES, Side};
 
 use super::{At, Reader, Section};
 use crate::check::{self, body_of, width_of};
 use crate::fault::Fault;
-use crate::own::PLACES;
-use crate::{DataFault, Depth, Feet, OwnContact, OwnContacts, Product, Spread, Width};
+use crate::{DataFault, Product, Spread};
 
 impl Reader {
     pub(super) fn product(&mut self, section: &Section<'_>) -> Option<Product> {
@@ -41,7 +40,7 @@ impl Reader {
                 self.data(key.span(), &fault, "beside this");
             }
         }
-        let (mut product_of_inertia_m2, mut depth) = (0.0, None);
+        let (mut products_m2, mut depth) = ([0.0; 3], None);
         let (center_m, gyration) = if let Some(moment) = &moment {
             let Some(mass) = &mass else {
                 if !section.table.contains_key("mass") {
@@ -54,12 +53,12 @@ impl Reader {
         } else if let Some(masses) = &masses {
             let sides = [0, 1, 2].map(|side| center_and_gyration(&masses.value.iter().map(|piece| piece[side])));
             let product = |one, other| product_of_inertia(&masses.value, [one, other], [sides[one].0, sides[other].0]);
-            product_of_inertia_m2 = product(0, 1);
-            let (center_m, gyration_m) = sides[2];
-            let products_of_inertia_m2 = [product(0, 2), product(1, 2)];
+            products_m2[0] = product(0, 1);
             // Where none has a height, all are spread evenly.
-            let is_given = masses.value.iter().any(|[.., height]| matches!(height, Mass::Point { .. }));
-            depth = is_given.then_some(Depth { center_m, gyration_m, products_of_inertia_m2 });
+            if masses.value.iter().any(|[.., height]| matches!(height, Mass::Point { .. })) {
+                depth = Some(sides[2]);
+                products_m2 = [products_m2[0], product(0, 2), product(1, 2)];
+            }
             let center = At { value: [sides[0].0, sides[1].0], span: masses.span.clone() };
             (Some(center), of_values([sides[0].1, sides[1].1], masses.span.clone())?)
         } else {
@@ -86,19 +85,20 @@ impl Reader {
             Some(width) => {
                 let center_across = center_m.map(|At { value: [_, y], span }| At { value: y, span });
                 let width_m = width.value - 2.0 * inset_m[1];
-                let width =
-                    self.width(width_m, inset_m[1], center_across, &At { value: across, span: span.clone() })?;
-                let width = Width { product_of_inertia_m2, thickness_m, depth, ..width };
-                Some(width)
+                Some(self.width(width_m, inset_m[1], center_across, &At { value: across, span: span.clone() })?)
             }
             None if self.is_plate => return None,
             None => None,
         };
+        let thickness = width.and(thickness_m).map(|thickness_m| {
+            let half_m = 0.5 * thickness_m;
+            let side = |(center_m, gyration_m)| Side { ends_m: [half_m + center_m, half_m - center_m], gyration_m };
+            depth.map_or(Side::even(thickness_m), side)
+        });
+        let body = Body { width, thickness, products_m2, feet, ..body };
         let product = Product {
             name: name?,
             body,
-            width,
-            feet,
             own_contacts,
             gyration_m: along,
             mass_kg: mass.map(|m| m.value).or(total),
@@ -174,7 +174,7 @@ impl Reader {
     }
 
     /// The side across, with what it asks told in the file's terms.
-    fn width(&mut self, width_m: f64, inset_m: f64, center: Option<At<f64>>, gyration: &At<Spread>) -> Option<Width> {
+    fn width(&mut self, width_m: f64, inset_m: f64, center: Option<At<f64>>, gyration: &At<Spread>) -> Option<Side> {
         if !gyration.value.is_value() {
             let message = "the radius of gyration of the mass along the width has a range";
             self.fault(

@@ -1,13 +1,14 @@
 //! How it falls, and what a box lands on.
 
 use clatter::End;
+use clatter_flight::Feet;
 
 use super::{Reader, Section, shown};
 use crate::check::{FLAT, STEEPEST_RAD, spin_down};
 use crate::data_fault::out_of_range;
 use crate::keys;
 use crate::standard;
-use crate::{Attitude, DataFault, Drop, DropName, Fall, Feet, First, Landing, Law, Product, Spread};
+use crate::{Attitude, DataFault, DropName, DropRanges, Fall, First, Landing, Law, Product, Spread};
 
 /// Keys of what a box lands on, by so many faces at once.
 const LANDS_ON: [&str; 3] = ["face", "edge", "corner"];
@@ -31,7 +32,11 @@ fn up_to(angle_rad: f64) -> Spread {
 
 impl Reader {
     /// How it falls, and what a box lands on in one drop after the other.
-    pub(super) fn drops(&mut self, root: &Section<'_>, product: Option<&Product>) -> (Option<Drop>, Vec<Landing>) {
+    pub(super) fn drops(
+        &mut self,
+        root: &Section<'_>,
+        product: Option<&Product>,
+    ) -> (Option<DropRanges>, Vec<Landing>) {
         let several = root.table.get("drop").is_some_and(|drops| drops.get_ref().as_array().is_some());
         let sections = if several { self.tables(root, "drop") } else { self.table(root, "drop").into_iter().collect() };
         let is_of_box = |section: &Section<'_>| {
@@ -43,7 +48,7 @@ impl Reader {
             let faults = self.faults.len();
             let lands_on = self.lands_on(section, product);
             let drop = self.drop(section);
-            if let (Some(feet), Some(drop)) = (product.and_then(|product| product.feet), &drop) {
+            if let (Some(feet), Some(drop)) = (product.and_then(|product| product.body.feet), &drop) {
                 self.on_feet(section, drop, &feet);
             }
             if let (Some(product), Some(drop)) = (product, &drop) {
@@ -56,7 +61,7 @@ impl Reader {
             let of_box = lands_on.into_iter().map(|LandsOn { attitude, height_m, tolerance_rad, source }| {
                 let fall = if is_listed { Fall::HeightM(Spread::finite(height_m)) } else { drop.fall };
                 Landing {
-                    drop: Drop { fall, tilt_rad: up_to(tolerance_rad), ..drop },
+                    drop: DropRanges { fall, tilt_rad: up_to(tolerance_rad), ..drop },
                     attitude: Some(attitude),
                     source,
                 }
@@ -76,13 +81,13 @@ impl Reader {
             let at = sections.last().map_or(0..0, |section| section.span.clone());
             self.fault(at, message, label, "put the others into another file");
         }
-        let gravity = |drop: &Drop| drop.gravity_m_s2.to_bits();
+        let gravity = |drop: &DropRanges| drop.gravity_m_s2.to_bits();
         if let Some(n) = drops.windows(2).position(|two| gravity(&two[0]) != gravity(&two[1])) {
             self.data(sections[n + 1].span.clone(), &DataFault::Gravity, "in this drop");
         }
         // What is common to all.
         let drop = drops.into_iter().next();
-        let drop = drop.map(|drop| Drop { fall: all.first().map_or(drop.fall, |first| first.drop.fall), ..drop });
+        let drop = drop.map(|drop| DropRanges { fall: all.first().map_or(drop.fall, |first| first.drop.fall), ..drop });
         // One alone is no list.
         if !self.is_box && all.len() == 1 {
             all.clear();
@@ -91,7 +96,7 @@ impl Reader {
     }
 
     /// Whether what touches first comes down.
-    fn spins(&mut self, section: &Section<'_>, drop: &Drop, product: &Product) {
+    fn spins(&mut self, section: &Section<'_>, drop: &DropRanges, product: &Product) {
         let Some(spin) = section.table.get("spin") else { return };
         if let Err(fault) = spin_down(product, drop, self.is_box) {
             self.data(spin.span(), &fault, "this");
@@ -99,8 +104,9 @@ impl Reader {
     }
 
     /// Whether feet touch first.
-    fn on_feet(&mut self, section: &Section<'_>, drop: &Drop, feet: &Feet) {
-        let (tilt_rad, most_rad) = (drop.tilt_rad.hi(), feet.steepest_rad(drop.direction_rad.as_ref()));
+    fn on_feet(&mut self, section: &Section<'_>, drop: &DropRanges, feet: &Feet) {
+        let (tilt_rad, most_rad) =
+            (drop.tilt_rad.hi(), feet.steepest_rad(drop.direction_rad.map(|given| [given.lo(), given.hi()])));
         if self.is_box {
             self.data(section.span.clone(), &DataFault::FeetOfBox, "in this drop");
         } else if tilt_rad > most_rad {
@@ -153,8 +159,8 @@ impl Reader {
             landings.extend(self.tilted(section).map(|attitude| (attitude, 1.0, None)));
         }
         if let (Some(keyword), Some(product)) = (self.text(section, "standard"), product) {
-            let across = product.width.map_or([0.0; 2], |width| [width.m(), width.thickness_m.unwrap_or(0.0)]);
-            let largest_m = across.into_iter().fold(product.body.length_m(), f64::max);
+            let thickness_m = product.body.thickness.map_or(0.0, |thickness| thickness.m());
+            let largest_m = product.body.length_m().max(product.body.width_m()).max(thickness_m);
             match standard::drops(&keyword.value, standard::Item { mass_kg: product.mass_kg, largest_m }) {
                 Ok((drops, source)) => {
                     landings.extend(drops.into_iter().map(|(attitude, height_m)| (attitude, height_m, Some(source))));
@@ -170,7 +176,7 @@ impl Reader {
         landings.into_iter().map(one).collect()
     }
 
-    fn drop(&mut self, section: &Section<'_>) -> Option<Drop> {
+    fn drop(&mut self, section: &Section<'_>) -> Option<DropRanges> {
         let height = self.spread(section, "height");
         let speed = self.spread(section, "speed");
         // Those of a box are what it lands on.
@@ -230,6 +236,6 @@ impl Reader {
         };
         let tilt_rad = if self.is_box { Spread::finite(0.0) } else { tilt?.value };
         let spin_rad_s = spin.map_or(Spread::finite(0.0), |spin| spin.value);
-        Some(Drop { fall, tilt_rad, spin_rad_s, first, direction_rad: direction.map(|d| d.value), gravity_m_s2 })
+        Some(DropRanges { fall, tilt_rad, spin_rad_s, first, direction_rad: direction.map(|d| d.value), gravity_m_s2 })
     }
 }

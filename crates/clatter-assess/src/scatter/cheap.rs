@@ -11,7 +11,7 @@ use clatter_shock::{VelocityShock, VelocityShocks};
 
 use super::sample::{PartSample, Sample};
 use crate::quantity::Source;
-use crate::{Error, SingleDrop};
+use crate::{Drop, Error};
 
 /// A train is left where a strike is this share of the first, or after so many.
 const SMALL: f64 = 1e-3;
@@ -26,19 +26,19 @@ pub(super) fn answer(sample: &Sample, asked: &mut Vec<f64>) {
 }
 
 /// The strikes of a drop; end a of the train is the one that touches first.
-fn strikes(drop: &SingleDrop) -> Result<Vec<Impact>, Error> {
-    if drop.flat {
+fn strikes(drop: &Drop) -> Result<Vec<Impact>, Error> {
+    if drop.is_flat {
         let (approach, delta_v) = (-drop.speed_m_s, [(1.0 + drop.restitution) * drop.speed_m_s; 2]);
         return Ok(vec![Impact { number: 1, end: End::A, time: 0.0, approach, delta_v }]);
     }
     let bar = Bar::from_arms(drop.body.arms_m(), drop.body.gyration_m(), drop.restitution)?;
-    let bar = if drop.first == End::A { bar } else { bar.exchanged() };
+    let bar = if drop.first() == End::A { bar } else { bar.exchanged() };
     let start = Start::new(drop.approaches_m_s(), drop.body.length_m() * libm::sin(drop.tilt_rad))?;
     let counts = |strike: &Impact| -strike.approach > SMALL * drop.speed_m_s;
     Ok(bar.train(&start).take(MOST_STRIKES).take_while(counts).collect())
 }
 
-fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample) -> Result<f64, Error> {
+fn of_part(drop: &Drop, train: &[Impact], part: &PartSample) -> Result<f64, Error> {
     let mut asked = 0.0_f64;
     // Of instant impacts all is linear in the place.
     for place in part.ends() {
@@ -75,7 +75,7 @@ fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample) -> Result<f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ContactLaw, Inside, Limit, LimitKind, Model, Part};
+    use crate::{Inside, Limit, LimitKind, Model, Part};
     use clatter_flight::Body;
     use clatter_shock::{DampingRatio, Suspension};
     use proptest::prelude::*;
@@ -91,10 +91,9 @@ mod tests {
         ) {
             let length = 0.14;
             let body = Body::off_center(0.5 * length * (1.0 + center), 0.5 * length * (1.0 - center), gyration * length).unwrap();
-            let drop = SingleDrop {
-                body, first: if first_a { End::A } else { End::B }, tilt_rad, flat: false, speed_m_s: 3.0, spin_rad_s: 0.0, restitution: e,
-                across: None,
-                gravity_m_s2: 0.0, contact_time_s: contact, contact_law: ContactLaw::Hysteretic, feet: None, own_contacts: crate::OwnContacts::NONE,
+            let first = if first_a { End::A } else { End::B };
+            let drop = Drop {
+                direction_rad: Drop::towards(first), gravity_m_s2: 0.0, contact_time_s: contact, ..Drop::new(body, 3.0, tilt_rad, e)
             };
             let ends_m = [ends.0, (ends.0 + ends.1).min(0.07)];
             let suspension = (!hard).then(|| Suspension::from_hz(hz, DampingRatio::new(zeta).unwrap()).unwrap());

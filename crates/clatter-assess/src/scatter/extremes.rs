@@ -10,7 +10,7 @@ use super::philox::Stream;
 use super::sample::{PartSample, Sample};
 use super::{Error, SampleDemand, cheap};
 use crate::verdict::MERGE_S;
-use crate::{Component, Limit, Model, Mount, ProductFile, SingleDrop, Spread};
+use crate::{Component, Drop, Limit, Model, Mount, ProductFile, Spread};
 
 /// The worst at every point of a plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,7 +84,7 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
     let closed_form_error = (0..tried).into_par_iter().map(off).reduce(|| 0.0, f64::max);
     let closed = closed_form_error <= LARGEST_ERROR;
     let worst = points.par_iter().map(|(body, e)| if closed { many.closed(body, *e) } else { few.full(body, *e) });
-    let fullest = few.drops.first().map_or(Model::FiniteTilt, SingleDrop::fullest);
+    let fullest = few.drops.first().map_or(Model::FiniteTilt, Model::fullest);
     Ok(Extremes { model: if closed { Model::Map } else { fullest }, closed_form_error, worst: worst.collect() })
 }
 
@@ -104,7 +104,7 @@ fn error(cheap: &[f64], full: &[Result<SampleDemand, crate::Error>]) -> f64 {
 
 /// The drops of the search and the parts in them.
 struct Corners {
-    drops: Vec<SingleDrop>,
+    drops: Vec<Drop>,
     /// Of each component, in one row.
     parts: Vec<PartSample>,
     /// How many of each component.
@@ -169,25 +169,21 @@ impl Corners {
                     for (&contact_time_s, &spin_rad_s) in
                         times.iter().flat_map(|time| spins.iter().map(move |spin| (time, spin)))
                     {
-                        drops.extend((0..=steps).map(|k| SingleDrop {
-                            body: product.body,
-                            across: None,
-                            first,
-                            tilt_rad: drop.tilt_rad.at(f64::from(k) / f64::from(steps.max(1))),
-                            flat: false,
-                            speed_m_s,
-                            spin_rad_s,
-                            restitution: 0.0,
-                            gravity_m_s2: drop.gravity_m_s2,
-                            contact_time_s,
-                            contact_law: product.law(),
-                            feet: product.feet,
-                            own_contacts: product.own_contacts,
+                        drops.extend((0..=steps).map(|k| {
+                            let tilt_rad = drop.tilt_rad.at(f64::from(k) / f64::from(steps.max(1)));
+                            Drop {
+                                direction_rad: Drop::towards(first),
+                                spin_rad_s,
+                                gravity_m_s2: drop.gravity_m_s2,
+                                contact_time_s,
+                                contact_law: product.law(),
+                                own_contacts: product.own_contacts,
+                                ..Drop::new(product.body, speed_m_s, tilt_rad, 0.0)
+                            }
                         }));
                         let least = drops.len() - 1 - steps as usize;
-                        let flat: Option<SingleDrop> =
-                            drops.get(least).filter(|drop| drop.lands_as_one(MERGE_S)).copied();
-                        drops.extend(flat.map(|drop| SingleDrop { flat: true, ..drop }));
+                        let flat: Option<Drop> = drops.get(least).filter(|drop| drop.lands_as_one(MERGE_S)).copied();
+                        drops.extend(flat.map(|drop| Drop { is_flat: true, ..drop }));
                     }
                 }
             }
@@ -197,7 +193,7 @@ impl Corners {
 
     /// One of the drops, of another body and restitution.
     fn sample(&self, body: &Body, e: f64, drop: usize) -> Sample {
-        let drop = SingleDrop { body: *body, restitution: e, ..self.drops[drop] };
+        let drop = Drop { body: *body, restitution: e, ..self.drops[drop] };
         Sample { uniforms: Vec::new(), drops: vec![drop], parts: self.parts.clone() }
     }
 
@@ -206,10 +202,10 @@ impl Corners {
         let mut worst = Worst::new(&self.counts);
         for drop in &self.drops {
             // Another body may be turned up where it touches, which no train tells.
-            if (SingleDrop { body: *body, ..*drop }).approaches_m_s()[0] >= 0.0 {
+            if (Drop { body: *body, ..*drop }).approaches_m_s()[0] >= 0.0 {
                 return vec![None; self.counts.len()];
             }
-            sample.drops[0] = SingleDrop { body: *body, restitution: e, ..*drop };
+            sample.drops[0] = Drop { body: *body, restitution: e, ..*drop };
             cheap::answer(&sample, &mut asked);
             worst.raise(&asked, |asked, most| Some(asked.max(most)));
         }
@@ -219,7 +215,7 @@ impl Corners {
     fn full(&self, body: &Body, e: f64) -> Vec<Option<f64>> {
         let mut worst = Worst::new(&self.counts);
         for drop in &self.drops {
-            let drop = SingleDrop { body: *body, restitution: e, ..*drop };
+            let drop = Drop { body: *body, restitution: e, ..*drop };
             let mut followings = FollowedDrops::of(&drop, &self.parts);
             worst.raise(&self.parts, |part, most| followings.larger(part, most).ok());
         }

@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 
 use super::SampleDemand;
 use super::sample::PartSample;
-use crate::drop::{Followed, Until};
 use crate::engine::PlaceHistory;
+use crate::model::{Model, follow};
 use crate::quantity::Source;
-use crate::{Error, Limit, LimitKind, SingleDrop};
+use crate::{Drop, Error, Limit, LimitKind};
+use clatter_flight::{Followed, Until};
 
 /// How exactly a sample is answered. A coarser answer costs no less: more samples are left open and followed once more.
 const TOLERANCE: f64 = 0.005;
@@ -26,9 +27,9 @@ const BOUNCES: f64 = 4.0;
 /// asked. Where the error told leaves open whether a limit holds, it is followed again, finer.
 #[derive(Debug)]
 pub(super) struct FollowedDrops<'a> {
-    drop: &'a SingleDrop,
+    drop: &'a Drop,
     /// The box that a plate is.
-    boxed: Option<SingleDrop>,
+    boxed: Option<Drop>,
     /// The first swing of the slowest part takes so long at most.
     swing_s: f64,
     early: LazyDrop,
@@ -40,7 +41,7 @@ pub(super) struct FollowedDrops<'a> {
 type LazyDrop = Option<Result<Followed, Error>>;
 
 impl<'a> FollowedDrops<'a> {
-    pub(super) fn of(drop: &'a SingleDrop, parts: &[PartSample]) -> Self {
+    pub(super) fn of(drop: &'a Drop, parts: &[PartSample]) -> Self {
         let suspensions = parts.iter().filter_map(|part| part.suspension.as_ref());
         let swing_s = suspensions.map(|part| PI / part.omega()).fold(0.0, f64::max);
         Self { drop, boxed: drop.boxed(), swing_s, early: None, whole: None, finer: [None, None] }
@@ -48,7 +49,7 @@ impl<'a> FollowedDrops<'a> {
 
     /// What the drop asks of a part; why, where it is not answered.
     pub(super) fn answer(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
-        if self.drop.is_box() || self.boxed.is_some() {
+        if self.drop.is_solid() || self.boxed.is_some() {
             return self.of_box(part);
         }
         let mut asked = self.passing(part, TOLERANCE, LEAST)?;
@@ -56,7 +57,8 @@ impl<'a> FollowedDrops<'a> {
             if !asked.is_open() {
                 break;
             }
-            let fine = following.get_or_insert_with(|| Followed::new(self.drop, self.drop.fullest(), tolerance));
+            let fine =
+                following.get_or_insert_with(|| follow(self.drop, Model::fullest(self.drop), tolerance, Until::Over));
             let finer = fine.as_ref().map_err(Clone::clone).and_then(|fine| of_part(fine, part, LEAST));
             // A motion that is too long to be followed finer stays open.
             let Ok((finer, _)) = finer else { break };
@@ -71,11 +73,11 @@ impl<'a> FollowedDrops<'a> {
     /// A plate whose contacts are too soft for so thin a box lands on the corners of its bottom, however far they sink in.
     fn of_box(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
         let drop = self.boxed.as_ref().unwrap_or(self.drop);
-        let until = |time_s| Followed::until(drop, drop.fullest(), TOLERANCE, Until::Past(time_s));
+        let until = |time_s| follow(drop, Model::fullest(drop), TOLERANCE, Until::Past(time_s));
         let lands_s = self.swing_s.max(drop.clatter_s());
         let on_bottom = |error| {
-            let posture = self.boxed.and_then(|boxed| boxed.across?.posture).ok_or(error)?;
-            Ok(Followed::as_block(self.drop, posture.thickness_m, lands_s)?.left_early(drop))
+            let boxed = self.boxed.as_ref().ok_or(error)?;
+            Ok(Followed::as_block(self.drop, lands_s)?.left_early(boxed))
         };
         let of_part = |followed: &Result<Followed, Error>| {
             let followed = followed.as_ref().map_err(Clone::clone)?;
@@ -99,16 +101,16 @@ impl<'a> FollowedDrops<'a> {
 
     /// What the drop asks of a part where that passes a utilization.
     fn passing(&mut self, part: &PartSample, tolerance: f64, above: f64) -> Result<SampleDemand, Error> {
-        let (drop, model) = (self.drop, self.drop.fullest());
+        let (drop, model) = (self.drop, Model::fullest(self.drop));
         let followed = |following: &mut LazyDrop, follow: &dyn Fn() -> Result<Followed, Error>| {
             let followed = following.get_or_insert_with(follow);
             followed.as_ref().map_err(Clone::clone).and_then(|followed| of_part(followed, part, above))
         };
-        let (asked, goes_on) = followed(&mut self.early, &|| Followed::until(drop, model, tolerance, Until::Lands))?;
+        let (asked, goes_on) = followed(&mut self.early, &|| follow(drop, model, tolerance, Until::Lands))?;
         if !goes_on {
             return Ok(asked);
         }
-        match followed(&mut self.whole, &|| Followed::new(drop, model, tolerance)) {
+        match followed(&mut self.whole, &|| follow(drop, model, tolerance, Until::Over)) {
             Ok((asked, _)) => Ok(asked),
             // However it goes on, it has failed.
             Err(_) if asked.within[0] > 1.0 => Ok(asked),
@@ -118,7 +120,7 @@ impl<'a> FollowedDrops<'a> {
 }
 
 /// What a drop asks of every part; why, of those that it does not answer.
-pub(super) fn answer(drop: &SingleDrop, parts: &[PartSample], asked: &mut Vec<Result<SampleDemand, Error>>) {
+pub(super) fn answer(drop: &Drop, parts: &[PartSample], asked: &mut Vec<Result<SampleDemand, Error>>) {
     let mut followings = FollowedDrops::of(drop, parts);
     asked.clear();
     asked.extend(parts.iter().map(|part| followings.answer(part)));
@@ -191,21 +193,21 @@ fn with_friction(followed: &Followed, part: &PartSample) -> Result<f64, Error> {
 
 /// The acceleration that a damage boundary asks for besides its velocity change, as a limit of its own; without a contact time no
 /// acceleration is known, and the velocity change alone counts.
-fn critical_acceleration(limit: &Limit, drop: &SingleDrop) -> Option<Limit> {
+fn critical_acceleration(limit: &Limit, drop: &Drop) -> Option<Limit> {
     let of_boundary = limit.kind.source() == Source::Boundary && drop.contact_time_s.is_some();
     of_boundary.then(|| Limit::new(LimitKind::Acceleration, limit.critical_acceleration_m_s2))
 }
 
 /// Whether a limit may pass a utilization. A damage boundary does not unless the largest velocity change and the largest acceleration
 /// of all shocks both do, which is found sooner than shock by shock.
-fn may_pass(felt: &PlaceHistory<'_>, limit: &Limit, drop: &SingleDrop, above: f64) -> Result<bool, Error> {
+fn may_pass(felt: &PlaceHistory<'_>, limit: &Limit, drop: &Drop, above: f64) -> Result<bool, Error> {
     let Some(acceleration) = critical_acceleration(limit, drop) else { return Ok(true) };
     let change = Limit::new(LimitKind::VelocityChange, limit.allowed);
     Ok(felt.answer(&change, None, above)?.is_some() && felt.answer(&acceleration, None, above)?.is_some())
 }
 
 /// Whether what comes later may pass a utilization; a damage boundary only by both of its quantities.
-fn may_pass_later(felt: &PlaceHistory<'_>, limit: &Limit, part: &PartSample, drop: &SingleDrop, above: f64) -> bool {
+fn may_pass_later(felt: &PlaceHistory<'_>, limit: &Limit, part: &PartSample, drop: &Drop, above: f64) -> bool {
     let parts = part.suspension.as_slice();
     let acceleration = critical_acceleration(limit, drop);
     let may_pass = |limit: &Limit, parts| felt.later_most(limit, parts, above) > above;

@@ -324,7 +324,7 @@ impl Sampler {
             return Err(Error::Setting { name: "confidence", value: confidence, allowed: "in (0, 1)" });
         }
         let inputs = Inputs::new(file, settings.merge_s)?;
-        let fullest = inputs.blank().drops[0].fullest();
+        let fullest = Model::fullest(&inputs.blank().drops[0]);
         Ok(Self { settings, inputs, components: file.components.clone(), drop_names: file.drop_names(), fullest })
     }
 

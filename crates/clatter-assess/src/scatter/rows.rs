@@ -97,9 +97,9 @@ impl Sampler {
 fn in_si(sample: &Sample, column: Column) -> f64 {
     match column {
         Column::TiltDeg => sample.drops[0].tilt_rad,
-        Column::DirectionDeg => sample.drops[0].across.map_or(f64::NAN, |across| across.direction_rad),
+        Column::DirectionDeg => sample.drops[0].direction_rad,
         Column::LandingTiltDeg(n) => sample.drops[n].tilt_rad,
-        Column::LandingDirectionDeg(n) => sample.drops[n].across.map_or(f64::NAN, |across| across.direction_rad),
+        Column::LandingDirectionDeg(n) => sample.drops[n].direction_rad,
         other => sample.value(other),
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use clatter::End;
-use clatter_flight::Body;
+use clatter_flight::{Drop, Place};
 use clatter_shock::Suspension;
 
 use super::draw::Quantile;
@@ -11,11 +11,10 @@ use super::landing::OfLanding;
 use super::philox::Stream;
 use super::{Column, Error, PlateAs};
 use crate::assess::Listed;
+use crate::attitude::Base;
 use crate::component::places;
-use crate::drop::{Across, Posture};
-use crate::engine::Spot;
 use crate::quantity::Source;
-use crate::{Component, Damping, Fall, Inside, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
+use crate::{Component, Damping, Fall, Inside, Law, Limit, LimitKind, Mount, ProductFile, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -180,7 +179,7 @@ pub(super) struct Inputs {
     /// How a plate is followed; none of a bar, and of a box that lands on anything.
     pub(super) plate: Option<PlateAs>,
     /// What is the same in all drops.
-    drop: SingleDrop,
+    drop: Drop,
     /// Whether a sample goes through the drops of a list.
     has_list: bool,
     restitution: Drawn,
@@ -194,8 +193,8 @@ pub(super) struct Inputs {
 /// What one drop is drawn from.
 #[derive(Debug)]
 struct DropInputs {
-    /// Of a box, how it lands but for its tolerance.
-    posture: Option<Posture>,
+    /// How a box lies as it lands, but for its tolerance.
+    base: Option<Base>,
     /// Ends that may be first, and what either of them is drawn from.
     firsts: &'static [End],
     first: Option<usize>,
@@ -224,7 +223,7 @@ pub(super) struct Sample {
     /// Of each input that varies, the uniform number that it comes from.
     pub(super) uniforms: Vec<f64>,
     /// One, or all that it goes through, one after the other.
-    pub(super) drops: Vec<SingleDrop>,
+    pub(super) drops: Vec<Drop>,
     pub(super) parts: Vec<PartSample>,
 }
 
@@ -247,9 +246,9 @@ impl PartSample {
         if along[0] < along[1] { along } else { &along[..1] }
     }
     /// Places at which a drop with contacts is answered, as [`Component::places_m`](crate::Component::places_m).
-    pub(super) fn spots(&self) -> Vec<Spot> {
+    pub(super) fn spots(&self) -> Vec<Place> {
         let places = places(self.reaches_m, self.limits.iter().map(|limit| limit.kind));
-        places.into_iter().map(|at_m| Spot { at_m, inside: self.inside }).collect()
+        places.into_iter().map(|at_m| self.inside.place(at_m)).collect()
     }
 }
 
@@ -306,7 +305,7 @@ impl Finder {
 
     /// Which end is first, height or speed, tilt and spin of a drop, where it is one of several of that.
     fn drop(&mut self, listed: &Listed, landing: Option<usize>, is_bar: bool) -> Result<DropInputs, Error> {
-        let Listed { drop, posture } = listed;
+        let Listed { drop, base } = listed;
         let own = |of: OfLanding, other: Input| landing.map_or(other, |n| Input::Landing(n, of));
         let firsts = drop.first_ends();
         let first = (is_bar && firsts.len() > 1).then(|| {
@@ -318,7 +317,7 @@ impl Finder {
             Fall::SpeedMS(speed) => (self.drawn(own(OfLanding::Speed, Input::Speed), speed, "")?, false),
         };
         let mut tilt_rad = drop.tilt_rad;
-        if posture.is_some() && !tilt_rad.is_value() {
+        if base.is_some() && !tilt_rad.is_value() {
             // All attitudes within the tolerance: rings of them grow with the angle.
             self.assumed_even.push(own(OfLanding::Tilt, Input::Tilt));
             tilt_rad = Spread::new(tilt_rad.lo(), tilt_rad.hi(), Law::Triangular { mode: tilt_rad.hi() })?;
@@ -326,7 +325,7 @@ impl Finder {
         let tilt = self.drawn(own(OfLanding::Tilt, Input::Tilt), &tilt_rad, "")?;
         let spins = drop.may_spin();
         let spin = spins.then(|| self.drawn(own(OfLanding::Spin, Input::Spin), &drop.spin_rad_s, "")).transpose()?;
-        Ok(DropInputs { posture: *posture, firsts, first, fall, is_height, tilt, direction: None, spin })
+        Ok(DropInputs { base: *base, firsts, first, fall, is_height, tilt, direction: None, spin })
     }
 }
 
@@ -338,12 +337,12 @@ impl Inputs {
         file.check_apart(merge_s).map_err(crate::Error::from)?;
         let (product, drop, listed) = (&file.product, &file.drop, file.listed());
         let mut finder = Finder::default();
-        let across = product.width.map(|width| Across { width, direction_rad: 0.0, posture: listed[0].posture });
+        let is_bar = !product.body.is_wide();
         let has_list = !file.landings.is_empty();
         let number = |n: usize| has_list.then_some(n);
         let mut drops = Vec::with_capacity(listed.len());
         for (n, one) in listed.iter().enumerate() {
-            drops.push(finder.drop(one, number(n), across.is_none())?);
+            drops.push(finder.drop(one, number(n), is_bar)?);
         }
         let restitution = finder.drawn(Input::Restitution, &product.restitution, "")?;
         let contact_time =
@@ -352,10 +351,10 @@ impl Inputs {
             .then(|| finder.drawn(Input::Gyration, &product.gyration_m, ""))
             .transpose()?;
         let any = Spread::new(0.0, TAU, Law::Uniform)?;
-        for (n, one) in drops.iter_mut().enumerate().filter(|_| across.is_some()) {
+        for (n, one) in drops.iter_mut().enumerate().filter(|_| !is_bar) {
             let input = number(n).map_or(Input::Direction, |n| Input::Landing(n, OfLanding::Direction));
             // A box that is turned off nothing, and does not turn, is turned towards nothing.
-            let any = if one.posture.is_some() && one.tilt.input.is_none() && one.spin.is_none() {
+            let any = if one.base.is_some() && one.tilt.input.is_none() && one.spin.is_none() {
                 Spread::finite(0.0)
             } else {
                 any
@@ -369,26 +368,20 @@ impl Inputs {
             parts.push(finder.part(i, component)?);
             of_part.push((0..shared).chain(own..finder.varied.len()).collect());
         }
-        let same = SingleDrop {
-            body: product.body,
-            across,
-            first: drop.first_ends()[0],
-            tilt_rad: drop.tilt_rad.lo(),
-            flat: false,
-            speed_m_s: listed[0].drop.speeds_m_s()[0],
-            spin_rad_s: 0.0,
-            restitution: product.restitution.lo(),
+        let (speed_m_s, restitution_least) = (listed[0].drop.speeds_m_s()[0], product.restitution.lo());
+        let same = Drop {
+            is_level: listed[0].base.is_none(),
+            direction_rad: Drop::towards(drop.first_ends()[0]),
             gravity_m_s2: drop.gravity_m_s2,
             contact_time_s: product.contact_time_s.map(|time| time.lo()),
             contact_law: product.law(),
-            feet: product.feet,
             own_contacts: product.own_contacts,
+            ..Drop::new(product.body, speed_m_s, drop.tilt_rad.lo(), restitution_least)
         };
-        let plate = same.across.filter(|_| !same.is_box()).map(|across| {
-            let posture = same.boxed().and_then(|drop| drop.across?.posture);
-            posture.map_or(PlateAs::Level, |posture| PlateAs::Box {
-                thickness_m: posture.thickness_m,
-                assumed: across.width.thickness_m.is_none(),
+        let plate = (!is_bar && same.is_level).then(|| {
+            same.boxed().map_or(PlateAs::Level, |boxed| PlateAs::Box {
+                thickness_m: boxed.body.thickness().m(),
+                assumed: product.body.thickness.is_none(),
             })
         });
         let Finder { varied, assumed_even } = finder;
@@ -447,19 +440,16 @@ impl Inputs {
     }
 
     /// The drops that these uniform numbers give, all of one product.
-    fn product(&self, uniforms: &[f64], drops: &mut [SingleDrop]) -> Result<(), crate::Error> {
+    fn product(&self, uniforms: &[f64], drops: &mut [Drop]) -> Result<(), crate::Error> {
         for (inputs, drop) in self.drops.iter().zip(drops) {
-            if let (Some(across), Some(direction)) = (&mut drop.across, &inputs.direction) {
-                across.posture = inputs.posture;
-                across.direction_rad = direction.at(uniforms);
-                drop.first = across.first();
-            } else {
-                drop.first = match inputs.first {
-                    None => inputs.firsts[0],
-                    Some(first) if uniforms[first] < 0.5 => End::A,
-                    Some(_) => End::B,
-                };
+            if let Some(base) = &inputs.base {
+                (drop.base, drop.spin_axis) = (base.up, base.spin_axis);
             }
+            drop.direction_rad = match (&inputs.direction, inputs.first) {
+                (Some(direction), _) => direction.at(uniforms),
+                (None, None) => Drop::towards(inputs.firsts[0]),
+                (None, Some(first)) => Drop::towards(if uniforms[first] < 0.5 { End::A } else { End::B }),
+            };
             let fall = inputs.fall.at(uniforms);
             drop.speed_m_s = if inputs.is_height { (2.0 * drop.gravity_m_s2 * fall).sqrt() } else { fall };
             drop.tilt_rad = inputs.tilt.at(uniforms);
@@ -467,10 +457,9 @@ impl Inputs {
             drop.restitution = self.restitution.at(uniforms);
             drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
             if let Some(gyration) = &self.gyration {
-                let [a, b] = drop.body.arms_m();
-                drop.body = Body::off_center(a, b, gyration.at(uniforms))?;
+                drop.body = drop.body.with_gyration_m(gyration.at(uniforms))?;
             }
-            drop.flat = drop.lands_as_one(self.merge_s);
+            drop.is_flat = drop.lands_as_one(self.merge_s);
         }
         Ok(())
     }
@@ -510,7 +499,7 @@ impl Inputs {
             };
             return (0..self.drops.len()).flat_map(of).collect();
         }
-        let falls = if self.drop.across.is_some() { Column::DirectionDeg } else { Column::First };
+        let falls = if self.drop.body.is_wide() { Column::DirectionDeg } else { Column::First };
         let mut all = vec![falls, Column::SpeedMS, Column::TiltDeg];
         all.extend(self.drops[0].spin.map(|_| Column::SpinRadS));
         all
@@ -549,8 +538,8 @@ impl Sample {
         let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
         // What the product has is the same in all of its drops.
         let drop = &self.drops[0];
-        let first = |drop: &SingleDrop| if drop.first == End::A { 0.0 } else { 1.0 };
-        let direction = |drop: &SingleDrop| drop.across.map(|across| across.direction_rad.to_degrees());
+        let first = |drop: &Drop| if drop.first() == End::A { 0.0 } else { 1.0 };
+        let direction = |drop: &Drop| drop.body.is_wide().then(|| drop.direction_rad.to_degrees());
         let value = match column {
             Column::First => Some(first(drop)),
             Column::LandingFirst(n) => Some(first(&self.drops[n])),

@@ -1,13 +1,13 @@
 //! From drops that ask much to those that ask most.
 
 use super::grid::halton;
-use super::ranges::{AXES, DAMPING, DIRECTION, FREQUENCY, Place, Ranges, TILT};
+use super::ranges::{AXES, Coordinates, DAMPING, DIRECTION, FREQUENCY, Ranges, TILT};
 use rayon::prelude::*;
 
 use super::{Candidate, Task, Work, fastest_rad_s, rough_to_rad_s};
-use crate::drop::{Followed, Until};
 use crate::engine::{PlaceHistory, of_followed};
 use crate::{Error, Mount};
+use clatter_flight::{Followed, Until};
 
 /// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
 pub(super) const NEAR: f64 = 0.8;
@@ -39,13 +39,13 @@ impl Ranges<'_> {
     /// Whether what is asked changes by edges or steps where contacts meet.
     pub(super) fn has_edges(&self, task: &Task<'_>) -> bool {
         let stiff = |longest_s: f64| fastest_rad_s(task.component) * longest_s > 1.0;
-        let times = self.product.contact_times_s().filter(|_| self.posture.is_none());
+        let times = self.product.contact_times_s().filter(|_| self.base.is_none());
         times.is_some_and(|[_, longest_s]| task.component.mount == Mount::Hard || stiff(longest_s))
     }
 
     /// Climbs from a place as its body and the time of its peak ask.
     pub(super) fn climb_from(&self, task: &Task<'_>, start: Candidate, tilt_step: f64, work: &Work<'_>) -> Candidate {
-        if self.posture.is_some() {
+        if self.base.is_some() {
             let tries = if self.faces() < 3 && !start.late { FACE_TRIES } else { BOX_TRIES };
             return self.climb_around(task, start, (BOX_REACH, tries), work);
         }
@@ -86,7 +86,7 @@ impl Ranges<'_> {
                         continue;
                     }
                     let followed = moved.as_ref().unwrap_or(&here);
-                    let Ok(felt) = PlaceHistory::rough(followed, task.spot(place.at_m), fastest) else { continue };
+                    let Ok(felt) = PlaceHistory::rough(followed, task.place(place.at_m), fastest) else { continue };
                     if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
                         best = Candidate { late: best.late, ..next };
                         here = moved.unwrap_or(here);
@@ -101,14 +101,14 @@ impl Ranges<'_> {
 
     /// What the steps in the direction of a climb shrink by, so that the last moves the touch of no corner by more than a part of a contact:
     /// next to a landing on an edge, and where two corners come down in turn, what is asked changes with that.
-    fn shrinking(&self, place: &Place) -> f64 {
+    fn shrinking(&self, place: &Coordinates) -> f64 {
         libm::pow(self.turn_in_contact(place) / DIRECTION_STEP, f64::from(HALVINGS - 1).recip()).clamp(0.25, 0.5)
     }
 
     /// The part at both ends of its natural frequencies in the same drop, where that asks more: strikes that come in step with it have their
     /// crests far from one another, which no step of a climb goes over.
     fn at_ends_of_frequency(task: &Task<'_>, best: Candidate, here: &Followed, fastest_rad_s: f64) -> Candidate {
-        let Ok(felt) = PlaceHistory::rough(here, task.spot(best.place.at_m), fastest_rad_s) else { return best };
+        let Ok(felt) = PlaceHistory::rough(here, task.place(best.place.at_m), fastest_rad_s) else { return best };
         [0.0, 1.0].into_iter().fold(best, |best, share| {
             let place = best.place.with(FREQUENCY, share);
             let next = Self::in_drop(task, &place, &felt, best.answer.utilization());
@@ -125,7 +125,7 @@ impl Ranges<'_> {
         let mut best = start;
         around(start.place, free, how, work, |place| {
             let Ok(followed) = self.follow(place, until) else { return false };
-            let Ok(felt) = PlaceHistory::rough(&followed, task.spot(place.at_m), fastest) else { return false };
+            let Ok(felt) = PlaceHistory::rough(&followed, task.place(place.at_m), fastest) else { return false };
             let next = Self::in_drop(task, place, &felt, best.answer.utilization()).ok().flatten();
             best = next.map_or(best, |next| Candidate { late: start.late, ..next });
             next.is_some()
@@ -134,13 +134,19 @@ impl Ranges<'_> {
     }
 
     /// A box next to one that leans so far which falls over an edge of what it landed on; none where none is found.
-    pub(super) fn fallen_over(&self, task: &Task<'_>, start: Place, mut lean: f64, work: &Work<'_>) -> Option<Place> {
+    pub(super) fn fallen_over(
+        &self,
+        task: &Task<'_>,
+        start: Coordinates,
+        mut lean: f64,
+        work: &Work<'_>,
+    ) -> Option<Coordinates> {
         let mut fallen = None;
         around(start, self.free_at(task, &start), (BOX_REACH, FACE_TRIES), work, |place| {
             if fallen.is_some() {
                 return false;
             }
-            let leans = self.follow(place, Until::Rebounded).map_or(0.0, |followed| followed.motion.lean());
+            let leans = self.follow(place, Until::Rebounded).map_or(0.0, |followed| followed.lean());
             fallen = Some(*place).filter(|_| leans > 1.0);
             let rises = leans > lean;
             lean = lean.max(leans);
@@ -152,11 +158,11 @@ impl Ranges<'_> {
 
 /// Tries all around a place, ever closer, and around each that rises; a step that went up is taken once more.
 fn around(
-    mut best: Place,
+    mut best: Coordinates,
     free: [bool; AXES],
     (reach, tries): (f64, u32),
     work: &Work<'_>,
-    mut rises: impl FnMut(&Place) -> bool,
+    mut rises: impl FnMut(&Coordinates) -> bool,
 ) {
     let mut again = None;
     for k in 1..=tries {
@@ -184,25 +190,19 @@ impl Ranges<'_> {
     ///
     /// # Errors
     /// That of the worst drop, of a box that is not followed so.
-    pub(crate) fn as_block(
-        &self,
-        task: &Task<'_>,
-        worst: &Candidate,
-        others: &[Candidate],
-        thickness_m: f64,
-    ) -> Result<f64, Error> {
-        let mut most = self.as_block_next_to(task, worst, thickness_m, AS_BLOCK)?;
+    pub(crate) fn as_block(&self, task: &Task<'_>, worst: &Candidate, others: &[Candidate]) -> Result<f64, Error> {
+        let mut most = self.as_block_next_to(task, worst, AS_BLOCK)?;
         for other in others {
-            most = most.max(self.as_block_next_to(task, other, thickness_m, AS_BLOCK / 3)?);
+            most = most.max(self.as_block_next_to(task, other, AS_BLOCK / 3)?);
         }
         Ok(most)
     }
 
-    fn as_block_next_to(&self, task: &Task<'_>, at: &Candidate, thickness_m: f64, count: u32) -> Result<f64, Error> {
-        let of = |place: &Place| -> Result<f64, Error> {
+    fn as_block_next_to(&self, task: &Task<'_>, at: &Candidate, count: u32) -> Result<f64, Error> {
+        let of = |place: &Coordinates| -> Result<f64, Error> {
             let drop = self.single(place);
             let until_s = (BEYOND_PEAK * at.answer.time_s).max(drop.clatter_s());
-            let followed = Followed::as_block(&drop, thickness_m, until_s)?;
+            let followed = Followed::as_block(&drop, until_s)?;
             followed.check_depth()?;
             let part = Candidate { place: *place, ..*at }.part_there(task.component);
             Ok(of_followed(&followed, &part, &task.limit)?.utilization())
@@ -254,7 +254,7 @@ pub(super) fn starts(found: &mut [Candidate]) -> Vec<Candidate> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ranges::Place;
+    use super::super::ranges::Coordinates;
     use super::*;
     use crate::engine::Answer;
     use crate::{Accuracy, Limit, ProductFile, Unit};
@@ -265,7 +265,7 @@ mod tests {
     #[test]
     fn real_tilt_is_asked_next_to_the_worst_drop_and_to_the_others() {
         let text = r#"
-product = { name = "plate", length = "150 mm", width = "70 mm", radius_of_gyration = ["43 mm", "20 mm"], restitution = 0.3, contact_time = "0.3 ms" }
+product = { name = "plate", length = "150 mm", width = "70 mm", thickness = "7 mm", radius_of_gyration = ["43 mm", "20 mm"], restitution = 0.3, contact_time = "0.3 ms" }
 drop = { speed = "3 m/s", tilt = ["2 deg", "14 deg"], direction = "20 deg" }
 component = [{ name = "part", position = ["70 mm", "30 mm"], mount = "hard", velocity_change_limit = "9 m/s" }]
 "#;
@@ -275,21 +275,21 @@ component = [{ name = "part", position = ["70 mm", "30 mm"], mount = "hard", vel
         let at = |tilt: f64| {
             let mut shares = [0.0; AXES];
             shares[TILT] = tilt;
-            let place = Place { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.07, 0.03], shares };
+            let place = Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.07, 0.03], shares };
             let unit = Unit::MeterPerSecond;
             let answer = Answer { value: 0.0, allowed: 9.0, unit, time_s: 5e-3, impact: 1, off_by: 0.0 };
             Candidate { place, part: None, answer, late: false }
         };
-        let alone = |tilt: f64| ranges.as_block_next_to(&task, &at(tilt), 7e-3, 0).unwrap();
+        let alone = |tilt: f64| ranges.as_block_next_to(&task, &at(tilt), 0).unwrap();
         let beside = |tilt: f64| alone(tilt - 0.03).max(alone(tilt + 0.03));
         let rises = |tilt: &f64| beside(*tilt) > 1.001 * alone(*tilt);
         let tilt = [0.2, 0.4, 0.6, 0.8].into_iter().find(rises).expect("it is no plain");
-        let most = ranges.as_block(&task, &at(tilt), &[], 7e-3).unwrap();
+        let most = ranges.as_block(&task, &at(tilt), &[]).unwrap();
         assert!(most >= beside(tilt), "{most} below {}", beside(tilt));
         let mut tilts = [0.1, 0.3, 0.5, 0.7, 0.9];
         tilts.sort_by(|a, b| alone(*a).total_cmp(&alone(*b)));
         let [low, .., high] = tilts;
-        let most = ranges.as_block(&task, &at(low), &[at(high)], 7e-3).unwrap();
+        let most = ranges.as_block(&task, &at(low), &[at(high)]).unwrap();
         assert!(most >= alone(high) && alone(high) > 1.01 * alone(low), "{most}, {}, {}", alone(high), alone(low));
     }
 }

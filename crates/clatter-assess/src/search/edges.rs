@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::Work;
-use super::ranges::{AXES, DIRECTION, Place, Ranges, TILT};
-use crate::drop::{Followed, Until};
+use super::ranges::{AXES, Coordinates, DIRECTION, Ranges, TILT};
+use clatter_flight::{Followed, Until};
 
 /// How often the space between two tilts of the grid is halved about such an edge.
 const HALVINGS: u32 = 8;
@@ -18,7 +18,7 @@ pub(super) struct Order(Vec<(usize, bool)>);
 impl Order {
     /// Of a drop that was followed until it lands.
     pub(super) fn of(followed: &Followed) -> Self {
-        let pressed = followed.motion.presses().into_iter();
+        let pressed = followed.presses().into_iter();
         let mut events: Vec<(f64, usize, bool)> =
             pressed.flat_map(|(point, [from_s, until_s])| [(from_s, point, false), (until_s, point, true)]).collect();
         events.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -29,14 +29,19 @@ impl Order {
 /// Two neighboring drops between which the order changes, and that of the first.
 struct Edge {
     axis: usize,
-    sides: [Place; 2],
+    sides: [Coordinates; 2],
     order: Order,
 }
 
 impl Ranges<'_> {
     /// Drops on both sides of each edge between neighbors of the grid, of which these are the orders, as close to it as the space between
     /// them over 2⁸.
-    pub(super) fn edges(&self, grid: &[(u32, Place)], orders: &[Option<Order>], work: &Work<'_>) -> Vec<(u32, Place)> {
+    pub(super) fn edges(
+        &self,
+        grid: &[(u32, Coordinates)],
+        orders: &[Option<Order>],
+        work: &Work<'_>,
+    ) -> Vec<(u32, Coordinates)> {
         let pairs = grid.windows(2).zip(orders.windows(2));
         let edges: Vec<Edge> = pairs
             .filter_map(|(places, orders)| {
@@ -45,11 +50,11 @@ impl Ranges<'_> {
                 Some(Edge { axis, sides: [*a, *b], order: order.clone() })
             })
             .collect();
-        let close: Vec<[Place; 2]> = edges.into_par_iter().map(|edge| self.close_in(edge, work)).collect();
+        let close: Vec<[Coordinates; 2]> = edges.into_par_iter().map(|edge| self.close_in(edge, work)).collect();
         (0..).zip(close.into_iter().flatten()).collect()
     }
 
-    fn close_in(&self, Edge { axis, sides: [mut near, mut far], order }: Edge, work: &Work<'_>) -> [Place; 2] {
+    fn close_in(&self, Edge { axis, sides: [mut near, mut far], order }: Edge, work: &Work<'_>) -> [Coordinates; 2] {
         for _ in 0..HALVINGS {
             let middle = near.with(axis, 0.5 * (near.shares[axis] + far.shares[axis]));
             let Some(found) = self.order(&middle, work) else { break };
@@ -59,14 +64,14 @@ impl Ranges<'_> {
     }
 
     /// None of a drop that is not answered, or where no more are wanted.
-    fn order(&self, place: &Place, work: &Work<'_>) -> Option<Order> {
+    fn order(&self, place: &Coordinates, work: &Work<'_>) -> Option<Order> {
         work.go_on(0).ok()?;
         self.follow(place, Until::Lands).ok().as_ref().map(Order::of)
     }
 }
 
 /// The axis of two drops of the grid that differ by their tilt or their direction alone.
-fn differ_by(a: &Place, b: &Place) -> Option<usize> {
+fn differ_by(a: &Coordinates, b: &Coordinates) -> Option<usize> {
     let differs = |axis: &usize| a.shares[*axis].to_bits() != b.shares[*axis].to_bits();
     let mut axes = (0..AXES).filter(differs);
     let axis = axes.next().filter(|axis| matches!(*axis, TILT | DIRECTION))?;

@@ -2,14 +2,14 @@
 
 use clatter_shock::Suspension;
 
-use super::Place;
+use super::Coordinates;
 use crate::engine::{Answer, Part};
 use crate::{Component, Error};
 
 /// A drop and a part that ask for something.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Candidate {
-    pub(crate) place: Place,
+    pub(crate) place: Coordinates,
     /// The part, where the limit is on its response.
     pub(crate) part: Option<Suspension>,
     pub(crate) answer: Answer,
@@ -74,7 +74,7 @@ pub(super) struct Candidates {
     pub(super) with_friction: Vec<f64>,
     pub(super) drops: usize,
     /// The box that leaned most, and how far.
-    pub(super) leaning: Option<(f64, Place)>,
+    pub(super) leaning: Option<(f64, Coordinates)>,
 }
 
 impl Candidates {
@@ -94,7 +94,7 @@ impl Candidates {
         let most = |found: &Vec<Candidate>| found.iter().map(|asked| asked.answer.utilization()).fold(0.0, f64::max);
         self.found.iter().map(most).collect()
     }
-    pub(super) fn take(&mut self, answers: Vec<(Place, Result<OfDrop, Error>)>) {
+    pub(super) fn take(&mut self, answers: Vec<(Coordinates, Result<OfDrop, Error>)>) {
         for (place, answer) in answers.into_iter().filter(|(_, answer)| !matches!(answer, Err(Error::Stopped))) {
             self.drops += 1;
             match answer {
@@ -126,8 +126,7 @@ pub(super) fn image(at_m: [f64; 2], sides: [bool; 2]) -> [f64; 2] {
 impl Candidate {
     /// The part where it is.
     pub(crate) fn part_there(&self, component: &Component) -> Part {
-        let [position_m, across_m] = self.place.at_m;
-        Part { position_m, across_m, inside: component.inside, suspension: self.part }
+        Part::at(component.inside.place(self.place.at_m), self.part)
     }
     /// Whether it asks for more of the limit than another drop.
     pub(crate) fn exceeds(&self, other: &Self) -> bool {
@@ -135,13 +134,13 @@ impl Candidate {
     }
     /// The same of the product with sides exchanged.
     pub(super) fn mirrored(self, sides: [bool; 2], is_plate: bool) -> Self {
-        let Place { first, mirrored, at_m, .. } = self.place;
+        let Coordinates { first, mirrored, at_m, .. } = self.place;
         let place = if is_plate {
-            Place { mirrored: [0, 1].map(|k| mirrored[k] ^ sides[k]), ..self.place }
+            Coordinates { mirrored: [0, 1].map(|k| mirrored[k] ^ sides[k]), ..self.place }
         } else {
-            Place { first: if sides[0] { first.other() } else { first }, ..self.place }
+            Coordinates { first: if sides[0] { first.other() } else { first }, ..self.place }
         };
-        Self { place: Place { at_m: image(at_m, sides), ..place }, ..self }
+        Self { place: Coordinates { at_m: image(at_m, sides), ..place }, ..self }
     }
 }
 
@@ -154,8 +153,13 @@ mod tests {
     fn rebounds_of_all_drops_are_the_most_of_any() {
         for order in [[3.0, 1.0, 2.0], [1.0, 2.0, 3.0]] {
             let mut all = Candidates::none(1);
-            let place =
-                Place { first: clatter::End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares: [0.0; 9] };
+            let place = Coordinates {
+                first: clatter::End::A,
+                flat: false,
+                mirrored: [false; 2],
+                at_m: [0.0; 2],
+                shares: [0.0; 9],
+            };
             let of = |most: f64| OfDrop {
                 later: vec![(0, most)],
                 with_friction: vec![(0, 2.0 * most)],

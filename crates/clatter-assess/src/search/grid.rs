@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
 use super::ranges::{
-    AXES, CONTACT, DAMPING, DIRECTION, FREQUENCY, GYRATION, Place, RESTITUTION, Ranges, SPEED, SPIN, TILT,
+    AXES, CONTACT, Coordinates, DAMPING, DIRECTION, FREQUENCY, GYRATION, RESTITUTION, Ranges, SPEED, SPIN, TILT,
 };
 use clatter::End;
 
@@ -86,8 +86,8 @@ impl Ranges<'_> {
     }
 
     /// The drops of the grid; places of parts are left open.
-    pub(super) fn grid(&self, steps: f64, turn_steps: f64) -> Vec<Place> {
-        if self.posture.is_some() {
+    pub(super) fn grid(&self, steps: f64, turn_steps: f64) -> Vec<Coordinates> {
+        if self.base.is_some() {
             return self.around();
         }
         let [slow, fast] = self.drop.speeds_m_s();
@@ -102,7 +102,7 @@ impl Ranges<'_> {
         let of = |first, [tilt, speed]: [f64; 2], line: &[Level; 4], direction: f64, k: usize| {
             let [restitution, contact, gyration, spin] = line.each_ref().map(|level| level.of(k));
             let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction, spin];
-            Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
+            Coordinates { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
         };
         for &first in self.firsts() {
             for (line, direction) in &self.lines() {
@@ -148,7 +148,7 @@ impl Ranges<'_> {
             let speeds = if slow < fast { &[1.0, 0.0, 0.5][..] } else { &[1.0] };
             for (restitution, &speed) in levels.iter().flat_map(|e| speeds.iter().map(move |speed| (e, speed))) {
                 let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-                grid.push(Place { first, flat: true, mirrored: [false; 2], at_m: [0.0; 2], shares });
+                grid.push(Coordinates { first, flat: true, mirrored: [false; 2], at_m: [0.0; 2], shares });
             }
         }
         grid
@@ -157,7 +157,7 @@ impl Ranges<'_> {
     /// Drops of a box all around its posture: as it should land, and turned off that by all of its tolerance and by less, the ends of the
     /// other ranges in turn, all of it at each end of the range of the spin and over it. Off a face they are closer; off an edge along it, where
     /// its corners land one after the other.
-    fn around(&self) -> Vec<Place> {
+    fn around(&self) -> Vec<Coordinates> {
         let (levels, spins) = (self.levels(), self.spins().len());
         let of_spin = levels.len() / spins;
         let count = self.faces();
@@ -172,7 +172,7 @@ impl Ranges<'_> {
             let [restitution, contact, gyration, spin] = level.map(|level| level.of(k));
             let speed = if k % 4 == 3 { (SQRT_7 * f64::from(u32::try_from(k).unwrap_or(0))).fract() } else { 1.0 };
             let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction, spin];
-            Place { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
+            Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
         };
         let all: Vec<_> = all.collect();
         (0..spins)
@@ -228,7 +228,7 @@ impl Ranges<'_> {
     }
 
     /// How far a plate is turned, as a share of its directions, so that some corner comes later by a part of a contact.
-    pub(super) fn turn_in_contact(&self, place: &Place) -> f64 {
+    pub(super) fn turn_in_contact(&self, place: &Coordinates) -> f64 {
         let (drop, [from, to]) = (self.single(place), self.directions());
         let turned_m = self.reach_m() * libm::sin(drop.tilt_rad) * (to - from);
         drop.contact_times_s().map_or(0.0, |[shortest, _]| PART_OF_CONTACT * shortest * drop.speed_m_s / turned_m)
@@ -251,15 +251,15 @@ impl Ranges<'_> {
     }
 
     /// Drops whose first two contacts overlap or nearly do.
-    pub(super) fn overlaps(&self) -> Vec<(u32, Place)> {
-        let is_searched = !self.drop.tilt_rad.is_value() && self.posture.is_none();
+    pub(super) fn overlaps(&self) -> Vec<(u32, Coordinates)> {
+        let is_searched = !self.drop.tilt_rad.is_value() && self.base.is_none();
         let times = self.product.longest_contacts_s();
         let one_by_one = times.into_iter().filter(|_| is_searched).flat_map(|time_s| self.overlaps_within(time_s));
         one_by_one.collect()
     }
 
     /// The same of contacts that last so long.
-    fn overlaps_within(&self, contact_s: f64) -> Vec<(u32, Place)> {
+    fn overlaps_within(&self, contact_s: f64) -> Vec<(u32, Coordinates)> {
         let [lo, hi] = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()];
         // A spin that closes the tilt lets contacts overlap at larger ones.
         let [fastest, _] = self.closing_m_s();
@@ -276,7 +276,7 @@ impl Ranges<'_> {
             let tilt = share(lo + f64::from(k) * step);
             let spin = self.spin_share((spread(k, SQRT_13) + GOLDEN * n).fract());
             let shares = [tilt, 1.0, restitution, contact, 0.0, 0.0, spread(k, SQRT_5), direction, spin];
-            (k, Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares })
+            (k, Coordinates { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares })
         };
         let directions = (OVERLAPS_A_QUARTER * self.quarters()).max(1);
         let drops = |k: u32| {
@@ -288,7 +288,7 @@ impl Ranges<'_> {
     }
 
     /// Drop k of a sequence that spreads evenly over the ranges (Halton's), half of it at an end of each, where worst cases lie as a rule.
-    pub(super) fn spread_out(&self, k: u32) -> Place {
+    pub(super) fn spread_out(&self, k: u32) -> Coordinates {
         let firsts = self.firsts();
         // Not by its last digit, which tells the half of the tilts.
         let first = firsts[k.count_ones() as usize % firsts.len()];
@@ -299,10 +299,10 @@ impl Ranges<'_> {
         for (n, axis) in order.into_iter().filter(|axis| free[*axis]).enumerate() {
             let share = radical_inverse(PRIMES[n], k);
             // Directions have no ends, and a box that is turned off nothing balances for long.
-            let has_ends = axis != DIRECTION && (axis != TILT || self.posture.is_none());
+            let has_ends = axis != DIRECTION && (axis != TILT || self.base.is_none());
             shares[axis] = if has_ends { (2.0 * share - 0.5).clamp(0.0, 1.0) } else { share };
         }
-        Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
+        Coordinates { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
     }
 }
 

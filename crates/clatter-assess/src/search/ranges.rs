@@ -4,13 +4,15 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use clatter::End;
 
-use crate::drop::{Across, Model, Posture, SingleDrop};
+use crate::Model;
+use crate::attitude::Base;
 use crate::search::{Candidate, Task};
-use crate::{Component, ContactLaw, Drop, Mount, Product, Spread, WorstCase};
+use crate::{Component, ContactLaw, DropRanges, Mount, Product, Spread, WorstCase};
+use clatter_flight::Drop;
 
 /// Where in the ranges a drop and a part are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Place {
+pub(crate) struct Coordinates {
     pub(crate) first: End,
     /// Whether both ends land as one.
     pub(crate) flat: bool,
@@ -38,10 +40,10 @@ pub(super) const SPIN: usize = 8;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ranges<'a> {
     pub(crate) product: &'a Product,
-    pub(crate) drop: &'a Drop,
+    pub(crate) drop: &'a DropRanges,
     pub(crate) model: Model,
-    /// Of a box, how it lands but for its tolerance.
-    pub(crate) posture: Option<Posture>,
+    /// How a box lies as it lands, but for its tolerance.
+    pub(crate) base: Option<Base>,
     /// How many drops the product is put through.
     pub(crate) listed: usize,
     pub(crate) law: ContactLaw,
@@ -52,36 +54,38 @@ pub(crate) struct Ranges<'a> {
 
 impl Ranges<'_> {
     /// The drop at a place.
-    pub(crate) fn single(&self, place: &Place) -> SingleDrop {
+    pub(crate) fn single(&self, place: &Coordinates) -> Drop {
         let [slow, fast] = self.drop.speeds_m_s();
         let tilt = &self.drop.tilt_rad;
         let [lo, hi] = [tilt.lo().sqrt(), tilt.hi().sqrt()];
         let [share, speed, restitution, contact, ..] = place.shares;
         let root = lo + share * (hi - lo);
-        let across = self.product.width.map(|width| {
+        let direction_rad = if self.product.body.is_wide() {
             let [from, to] = self.directions();
-            let straight = from + place.shares[DIRECTION] * (to - from);
-            Across { width, direction_rad: image(straight, place.mirrored), posture: self.posture }
-        });
-        SingleDrop {
+            image(from + place.shares[DIRECTION] * (to - from), place.mirrored)
+        } else {
+            Drop::towards(place.first)
+        };
+        Drop {
             body: self.product.body_at(place.shares[GYRATION]),
-            across,
-            first: across.map_or(place.first, |across| across.first()),
+            is_level: self.base.is_none(),
+            base: self.base.map_or([0.0, 0.0, 1.0], |base| base.up),
             tilt_rad: if place.flat { 0.0 } else { (root * root).clamp(tilt.lo(), tilt.hi()) },
-            flat: place.flat,
+            direction_rad,
+            is_flat: place.flat,
             speed_m_s: (slow + speed * (fast - slow)).clamp(slow, fast),
             spin_rad_s: if place.flat { 0.0 } else { self.drop.spin_rad_s.at(place.shares[SPIN]) },
-            restitution: self.product.restitution.at(restitution),
+            spin_axis: self.base.and_then(|base| base.spin_axis),
             gravity_m_s2: self.drop.gravity_m_s2,
+            restitution: self.product.restitution.at(restitution),
             contact_time_s: self.product.contact_time_s.map(|time| time.at(contact)),
             contact_law: self.law,
-            feet: self.product.feet,
             own_contacts: self.product.own_contacts,
         }
     }
 
     /// Where in the ranges a worst case is.
-    pub(crate) fn place_of(&self, component: &Component, worst: &WorstCase) -> Place {
+    pub(crate) fn place_of(&self, component: &Component, worst: &WorstCase) -> Coordinates {
         let share = |[lo, hi]: [f64; 2], x: f64| if hi > lo { ((x - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
         let of = |spread: &Spread, x: f64| share([spread.lo(), spread.hi()], x);
         let drop = &worst.drop;
@@ -93,9 +97,9 @@ impl Ranges<'_> {
             }
             _ => [0.0; 2],
         };
-        let images = self.mirrors().iter().filter_map(|&mirrored| {
+        let images = self.mirrors().iter().filter(|_| drop.body.is_wide()).filter_map(|&mirrored| {
             let [lo, hi] = self.directions();
-            let direction = image(drop.across?.direction_rad, mirrored);
+            let direction = image(drop.direction_rad, mirrored);
             // The turn that is in the range, or next to it by roundings.
             let off = |x: f64| (lo - x).max(x - hi).max(0.0);
             let turned = [direction - TAU, direction, direction + TAU];
@@ -113,14 +117,14 @@ impl Ranges<'_> {
             direction,
             of(&self.drop.spin_rad_s, drop.spin_rad_s),
         ];
-        Place { first: drop.first, flat: drop.flat, mirrored, at_m: worst.part.at_m(), shares }
+        Coordinates { first: drop.first(), flat: drop.is_flat, mirrored, at_m: worst.part.at_m(), shares }
     }
 
     /// The middle of all ranges.
-    pub(crate) fn middle(&self, component: &Component) -> Place {
+    pub(crate) fn middle(&self, component: &Component) -> Coordinates {
         let at_m = [component.position_m, component.across_m].map(|place| 0.5 * (place.lo() + place.hi()));
         let (first, mirrored) = (self.drop.first_ends()[0], [false; 2]);
-        Place { first, flat: false, mirrored, at_m, shares: [0.5; AXES] }
+        Coordinates { first, flat: false, mirrored, at_m, shares: [0.5; AXES] }
     }
 
     /// Whether the drops with the least tilt land as one: without a contact time, strikes closer than any contact lasts are not
@@ -138,7 +142,7 @@ impl Ranges<'_> {
     }
 
     /// Which axes have a range at a place: a flat drop has no tilt.
-    pub(super) fn free_at(&self, task: &Task<'_>, place: &Place) -> [bool; AXES] {
+    pub(super) fn free_at(&self, task: &Task<'_>, place: &Coordinates) -> [bool; AXES] {
         let mut free = self.free(task);
         free[TILT] &= !place.flat;
         free
@@ -170,10 +174,10 @@ impl Ranges<'_> {
 
     /// The directions that drops are followed in: of a plate that may rise to any, those of which the others are mirror images.
     pub(super) fn directions(&self) -> [f64; 2] {
-        match (&self.product.width, &self.drop.direction_rad) {
+        match (&self.product.body.width, &self.drop.direction_rad) {
             (None, _) => [0.0; 2],
             (_, Some(given)) => [given.lo(), given.hi()],
-            (_, None) if self.posture.is_some() => [0.0, TAU],
+            (_, None) if self.base.is_some() => [0.0, TAU],
             (_, None) => match self.symmetries() {
                 [true, true] => [0.0, FRAC_PI_2],
                 [true, false] => [-FRAC_PI_2, FRAC_PI_2],
@@ -184,18 +188,18 @@ impl Ranges<'_> {
     }
     /// Whether exchanging its ends, and its long edges, leaves a plate as it is.
     fn symmetries(&self) -> [bool; 2] {
-        let Some(width) = &self.product.width else { return [false; 2] };
-        let even = |[lo, hi]: [f64; 2]| lo.to_bits() == hi.to_bits() && width.product_of_inertia_m2 == 0.0;
-        let own = |sides: [bool; 2]| self.product.own_contacts.is_even(true, sides);
-        [even(self.product.body.arms_m()) && own([true, false]), even(width.edges_m) && own([false, true])]
+        let Some(width) = &self.product.body.width else { return [false; 2] };
+        let even = |[lo, hi]: [f64; 2]| lo.to_bits() == hi.to_bits() && self.product.body.products_m2[0] == 0.0;
+        let own = |sides: [bool; 2]| self.product.own_contacts.is_even(sides);
+        [even(self.product.body.arms_m()) && own([true, false]), even(width.ends_m) && own([false, true])]
     }
     /// Images of a drop that are drops of the ranges as well, itself first: which sides are exchanged.
     pub(super) fn mirrors(&self) -> &'static [[bool; 2]] {
-        if self.product.width.is_none() {
+        if !self.product.body.is_wide() {
             return if self.turns() { &[[false, false], [true, false]] } else { &[[false, false]] };
         }
         match self.symmetries() {
-            _ if self.drop.direction_rad.is_some() || self.posture.is_some() => &[[false, false]],
+            _ if self.drop.direction_rad.is_some() || self.base.is_some() => &[[false, false]],
             [true, true] => &[[false, false], [true, false], [false, true], [true, true]],
             [true, false] => &[[false, false], [true, false]],
             [false, true] => &[[false, false], [false, true]],
@@ -207,12 +211,11 @@ impl Ranges<'_> {
     pub(super) fn faces(&self) -> usize {
         // So far its tolerance levels a side.
         let level = libm::sin(self.drop.tilt_rad.hi());
-        self.posture.map_or(0, |posture| posture.upward.iter().filter(|side| side.abs() > level).count())
+        self.base.map_or(0, |base| base.up.iter().filter(|side| side.abs() > level).count())
     }
     /// The longest way from the lowest point to the highest, along the body.
     pub(super) fn reach_m(&self) -> f64 {
-        let length = self.product.body.length_m();
-        self.product.width.map_or(length, |width| libm::hypot(length, width.m()))
+        libm::hypot(self.product.body.length_m(), self.product.body.width_m())
     }
     /// A share of the range of the spin; 0 where it has none, so that no two places differ by it.
     pub(super) fn spin_share(&self, share: f64) -> f64 {
@@ -229,17 +232,17 @@ impl Ranges<'_> {
     /// Of a symmetric product one end first is the other one turned around.
     pub(crate) fn turns(&self) -> bool {
         let [a, b] = self.product.body.arms_m();
-        let is_even = a.to_bits() == b.to_bits() && self.product.own_contacts.is_even(false, [true, false]);
-        is_even && self.drop.first_ends().len() > 1 && self.product.width.is_none()
+        let is_even = a.to_bits() == b.to_bits() && self.product.own_contacts.is_even([true, false]);
+        is_even && self.drop.first_ends().len() > 1 && !self.product.body.is_wide()
     }
 
     /// The ends that are let touch first.
     pub(crate) fn firsts(&self) -> &'static [End] {
-        if self.turns() || self.product.width.is_some() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() }
+        if self.turns() || self.product.body.is_wide() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() }
     }
 }
 
-impl Place {
+impl Coordinates {
     /// Landing flat: as one, or with the tilt at the least of its range.
     pub(crate) fn flattened(mut self, as_one: bool) -> Self {
         self.flat = as_one;
@@ -261,7 +264,7 @@ fn image(direction_rad: f64, [along, across]: [bool; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drop::Model;
+    use crate::Model;
     use crate::engine::Part;
     use crate::{Accuracy, ProductFile};
     use clatter_shock::{DampingRatio, Suspension};
@@ -276,7 +279,7 @@ component = [{ name = "part", position = "30 mm", natural_frequency = ["80 Hz", 
 "#;
         let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
         let (ranges, component) = (file.ranges(&Accuracy::default()), &file.components[0]);
-        let place = Place {
+        let place = Coordinates {
             first: End::B,
             flat: false,
             mirrored: [false; 2],

@@ -1,10 +1,11 @@
 //! The worst of what a search reached, answered to the tolerance.
 
-use super::ranges::{Place, RESTITUTION, Ranges};
+use super::ranges::{Coordinates, RESTITUTION, Ranges};
 use super::{Candidate, Task, Worst};
 use crate::Error;
-use crate::drop::Followed;
 use crate::engine::{Answer, of_followed};
+use crate::model::follow;
+use clatter_flight::Until;
 
 /// Worst cases that are answered to the tolerance, early ones and late ones.
 const TRIES: usize = 8;
@@ -81,9 +82,9 @@ impl Ranges<'_> {
 
     /// What a drop that was found asks to the tolerance, of the part that was found.
     pub(super) fn exactly(&self, task: &Task<'_>, found: &Candidate) -> Result<Candidate, Error> {
-        let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
+        let followed = follow(&self.single(&found.place), self.model, self.tolerance, Until::Over)?;
         let at = |at_m: [f64; 2]| {
-            let there = Candidate { place: Place { at_m, ..found.place }, ..*found };
+            let there = Candidate { place: Coordinates { at_m, ..found.place }, ..*found };
             let answer = of_followed(&followed, &there.part_there(task.component), &task.limit)?;
             Ok::<_, Error>(Candidate { answer, ..there })
         };

@@ -37,7 +37,7 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     }
     writeln!(out)?;
     writeln!(out, "Bound by energy: no drop of the ranges asks for more; parts on a suspension have none.")?;
-    let flat = match (file.is_box(), file.product.width) {
+    let flat = match (file.is_box(), file.product.body.width) {
         (true, _) => "the box were not turned off what it lands on.",
         (_, Some(_)) => "all corners landed at once, as drop standards assume.",
         _ => "both ends landed at once, as drop standards assume.",

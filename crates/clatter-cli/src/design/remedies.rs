@@ -85,7 +85,7 @@ impl Found<'_> {
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let product = &self.0.file.product;
         let e = either([product.restitution.lo(), product.restitution.hi()].map(short), "");
-        let is = match product.width {
+        let is = match product.body.width {
             None => format!("q = {}", figures(product.inertia_ratio())),
             Some(_) if !self.0.file.is_box() => "a plate".to_owned(),
             Some(_) => "a box".to_owned(),

@@ -301,7 +301,7 @@ impl DropArgs {
             let (along, ratio) = if gyration.is_none() { file.inertia() } else { (file.center_of_mass(), f64::NAN) };
             let stretched = 2.0 * halves[0] / file.length_m();
             let center = [along, width.center_m() / halves[1]];
-            Some((center, [ratio * halves[0], width.gyration_m], stretched * width.product_of_inertia_m2))
+            Some((center, [ratio * halves[0], width.gyration_m], stretched * file.product_of_inertia_m2()))
         });
         let (own_center, own_gyration, own_product) = of_file.unwrap_or(([0.0; 2], [f64::NAN; 2], 0.0));
         let center = self.center_of_plate(halves)?.unwrap_or(own_center);

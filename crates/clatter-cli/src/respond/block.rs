@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use clatter_answer::respond::Largest;
 use clatter_answer::respond::block::{self, Answer, Question};
-use clatter_assess::{Part, WorstCase};
+use clatter_assess::WorstCase;
 use clatter_flight::Contact;
 use clatter_shock::Suspension;
 
@@ -53,9 +53,9 @@ impl Args {
         let setup = Setup { drop: of_box, contact: Contact::new(drop.contact_law, drop.restitution, time_s)? };
         let [x, y, z] = of_box.block().size_m();
         let part = file.part([0.5 * x, 0.5 * y])?;
-        let Part { position_m, across_m, inside, .. } = worst.part;
-        let at_m = [position_m, across_m, inside.height_m.clamp(-0.5 * z, 0.5 * z)];
-        let mut question = Question::new(setup.drop, setup.contact, at_m, inside.axis)?;
+        let [x, y, height_m] = worst.part.place.at_m;
+        let at_m = [x, y, height_m.clamp(-0.5 * z, 0.5 * z)];
+        let mut question = Question::new(setup.drop, setup.contact, at_m, worst.part.place.axis);
         question.drop = *drop;
         question.suspension = self.suspension(part.as_ref().and_then(|part| part.suspension))?;
         question.limits = part.as_ref().map(|part| part.allowed.clone());
@@ -95,7 +95,7 @@ impl Args {
         setup.within(at_m)?;
         let axis = self.axis.unwrap_or(Axis::Z);
         let damping = self.damping.ratio()?;
-        let mut question = Question::new(setup.drop, setup.contact, at_m, axis.into())?;
+        let mut question = Question::new(setup.drop, setup.contact, at_m, axis.into());
         question.drop.own_contacts = self.own_contacts(None, true)?;
         question.tolerance = self.tolerance;
         question.suspension = self.omega().map(|omega| Suspension::new(omega, damping)).transpose()?;

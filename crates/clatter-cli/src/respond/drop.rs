@@ -71,7 +71,7 @@ impl Args {
         question.contact_time_s = setup.contact_time_s;
         question.contact_law = setup.contact_law;
         question.feet = feet;
-        question.own_contacts = own_contacts.mirrored(false, [setup.first == End::B, false]);
+        question.own_contacts = own_contacts.mirrored([setup.first == End::B, false]);
         question.suspension = self.suspension(part.and_then(|part| part.suspension))?;
         question.limits = part.map(|part| part.allowed.clone());
         question.tolerance = self.tolerance;

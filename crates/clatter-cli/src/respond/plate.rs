@@ -81,7 +81,7 @@ impl Args {
         let mut question = Question::new(setup.scene, contact, places[0]);
         question.at = places;
         question.feet = feet;
-        question.own_contacts = own_contacts.mirrored(true, setup.mirrored);
+        question.own_contacts = own_contacts.mirrored(setup.mirrored);
         question.mirrored = setup.mirrored;
         question.suspension = self.suspension(part.and_then(|part| part.suspension))?;
         question.limits = part.map(|part| part.allowed.clone());

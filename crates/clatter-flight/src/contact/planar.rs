@@ -7,15 +7,15 @@ use std::f64::consts::FRAC_PI_2;
 use clatter::Sine;
 
 use super::pose::{Borne, Extent, Pose, Pushes};
-use crate::body::Body;
 use crate::excitation::turning;
+use crate::profile::Profile;
 use crate::roots::safe_step;
 use crate::scene::Scene;
 
-/// A [`Body`] in motion.
+/// A [`Profile`] in motion.
 #[derive(Debug, Clone, Copy)]
 pub struct Planar<const N: usize> {
-    pub(crate) body: Body<N>,
+    pub(crate) body: Profile<N>,
     gravity: f64,
     /// Square of the radius of gyration.
     rho2: f64,

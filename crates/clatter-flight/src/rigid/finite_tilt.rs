@@ -32,15 +32,15 @@
 use super::ballistic::Clock;
 use super::pivot::{self, Event};
 use super::settling::Settling;
-use crate::body::Body;
 use crate::flight::{After, Flight, Log, SHARE, State, short};
+use crate::profile::Profile;
 use crate::roots::{far_step, first_zero, safe_step};
 use crate::scene::Scene;
 
 /// The body in flight, or at the moment of a strike.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Airborne {
-    pub(super) body: Body,
+    pub(super) body: Profile,
     pub(super) gravity: f64,
     /// Heights and vertical velocities of the ends.
     pub(super) ends: State,

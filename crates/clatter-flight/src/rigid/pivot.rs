@@ -15,7 +15,7 @@
 //! `x = √(ψ_m − ψ)`, where the integrand is smooth.
 
 use super::finite_tilt::Airborne;
-use crate::body::Body;
+use crate::profile::Profile;
 use clatter::quadrature::integrate;
 
 /// No error allowed beyond the quadrature's own rounding.
@@ -105,7 +105,7 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
 /// `whole`.
 ///
 /// With the lever arm x and the height over the center of mass of that end, `ω′ = x (g + over ω²)/(ρ² + x²)`.
-pub(super) fn along(body: &Body, gravity: f64, i: usize, begin: [f64; 2], t: f64, whole: f64) -> [f64; 2] {
+pub(super) fn along(body: &Profile, gravity: f64, i: usize, begin: [f64; 2], t: f64, whole: f64) -> [f64; 2] {
     let rate = |[tilt, spin]: [f64; 2]| {
         let (x, over) = body.levers(libm::sin(tilt), libm::cos(tilt));
         [spin, x[i] * (gravity + over[i] * spin * spin) / body.inertia(x[i])]

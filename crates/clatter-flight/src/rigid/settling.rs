@@ -23,7 +23,7 @@
 //! both ends around it, heights below `(11 δ)²/(2 (1 − p) g)`, so a window of 4τ and
 //! `C = 12.5 + 50 ρ²/L² + 60.5/(1 − p)`. Coarse, but the price of a factor is a few more strikes.
 
-use crate::body::Body;
+use crate::profile::Profile;
 
 /// The constants of the bound for one body and restitution.
 #[derive(Debug, Clone, Copy)]
@@ -43,7 +43,7 @@ pub(super) struct Settling {
 
 impl Settling {
     /// `slack` ≥ 0 widens the case q < 0 for a motion whose inertia ratios are only nearly those of a level body.
-    pub(super) fn new(body: &Body, e: f64, gravity: f64, slack: f64) -> Self {
+    pub(super) fn new(body: &Profile, e: f64, gravity: f64, slack: f64) -> Self {
         let arm = body.arms_m();
         let length = body.length_m();
         let shortest = length / arm[0].min(arm[1]);
@@ -100,22 +100,22 @@ mod tests {
     const G: f64 = 9.81;
 
     /// Bodies with q from −0.9 to 0.9, on center and off, and restitutions from 0 to 0.9.
-    fn cases() -> impl Iterator<Item = (Body, f64)> {
+    fn cases() -> impl Iterator<Item = (Profile, f64)> {
         let arms = [[0.07, 0.07], [0.05, 0.09], [0.2, 0.06]];
         arms.into_iter().flat_map(|[a, b]| {
             [0.02, 0.05, 0.07, 0.12, 0.3].into_iter().flat_map(move |rho| {
-                let body = Body::off_center(a, b, rho).expect("a body");
+                let body = Profile::off_center(a, b, rho).expect("a body");
                 [0.0, 0.1, 0.3, 0.6, 0.9].map(|e| (body, e))
             })
         })
     }
 
-    fn settling(body: &Body, e: f64) -> Settling {
+    fn settling(body: &Profile, e: f64) -> Settling {
         Settling::new(body, e, G, 0.0)
     }
 
     /// Velocities and heights of a window whose strikes are slower than 1, over 1 and over 1/2g.
-    fn slow_box(body: &Body) -> (f64, f64) {
+    fn slow_box(body: &Profile) -> (f64, f64) {
         let lift = body.inertia_ratios().into_iter().fold(0.0, |p: f64, q| p.max(-q));
         if lift > 0.0 { (5.0, 121.0 / (1.0 - lift)) } else { (1.0, 1.0) }
     }
@@ -163,7 +163,7 @@ mod tests {
     }
 
     /// Drops until rest, low enough that the body stays near the ground, high enough for strikes of every pattern.
-    fn drops(body: Body, e: f64) -> impl Iterator<Item = Motion> {
+    fn drops(body: Profile, e: f64) -> impl Iterator<Item = Motion> {
         [(0.0, 0.0), (0.3, 0.0), (3.0, 0.0), (0.3, 6.0), (3.0, -5.0)].into_iter().map(move |(tilt, spin)| {
             let scene = Scene::new(body, e, 1.5, tilt, G).and_then(|s| s.with_spin(spin)).expect("a drop");
             scene.fly(Model::Ballistic).expect("a motion")

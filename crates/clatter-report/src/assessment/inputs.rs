@@ -1,7 +1,7 @@
 //! What an assessment was made from, in words: the product, its drop, how a part is held.
 
 use clatter_assess::{
-    Assessment, Axis, Component, Damping, Drop, Fall, First, Mount, OwnContact, ProductFile, Spread, Width,
+    Assessment, Axis, Component, Damping, DropRanges, Fall, First, Mount, OwnContact, ProductFile, Side, Spread,
 };
 use clatter_figures::{model_words as model, three};
 
@@ -13,17 +13,17 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     let product = &file.product;
     let mut rows = Vec::new();
     let mut add = |what: &str, value: String| rows.push([what.to_owned(), value]);
-    match &product.width {
+    match &product.body.width {
         None => add("Body", body(file)),
         Some(width) => {
-            add("Body", sides(file, width));
+            add("Body", sides(file));
             add("Mass", inertia(file, width));
         }
     }
     add("Restitution", range(&product.restitution, 1.0, ""));
     match product.contact_time_s {
         Some(time) => {
-            let who = match (&product.feet, &product.width) {
+            let who = match (&product.body.feet, &product.body.width) {
                 (Some(_), _) => "a foot",
                 (None, Some(_)) => "a corner",
                 (None, None) => "an end",
@@ -43,7 +43,7 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     }
     add("Drop", drop(file));
     if file.landings.is_empty() {
-        add("Tilt", tilt(&file.drop, product.width.is_some()));
+        add("Tilt", tilt(&file.drop, product.body.is_wide()));
     } else if !file.is_box() {
         add("Drops", format!("{}, each told below", file.landings.len()));
     } else {
@@ -75,7 +75,7 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     );
     // It is the same for all limits.
     if let Some(limit) = assessment.components.iter().flat_map(|c| &c.limits).next() {
-        let tilt = match (&product.width, file.is_box()) {
+        let tilt = match (&product.body.width, file.is_box()) {
             (None, _) => "",
             (Some(_), false) => ", lever arms of a level plate",
             (Some(_), true) => ", a box with full rotation",
@@ -86,12 +86,12 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
 }
 
 /// At which tilt a bar or a plate lands, and what of it first.
-fn tilt(drop: &Drop, is_plate: bool) -> String {
+fn tilt(drop: &DropRanges, is_plate: bool) -> String {
     format!("{} at the first touch, {}", degrees(&drop.tilt_rad), first(drop, is_plate))
 }
 
 /// What of a bar or a plate lands first.
-pub(super) fn first(drop: &Drop, is_plate: bool) -> String {
+pub(super) fn first(drop: &DropRanges, is_plate: bool) -> String {
     match (drop.first, &drop.direction_rad) {
         (First::End(first), _) => format!("end {} first", end(first)),
         (First::Either, None) if is_plate => "rising to any direction".to_owned(),
@@ -133,15 +133,15 @@ fn body(file: &ProductFile) -> String {
 
 /// What it lands on, where that is not its ends or corners.
 fn feet(file: &ProductFile) -> String {
-    let Some(feet) = &file.product.feet else { return String::new() };
+    let Some(feet) = &file.product.body.feet else { return String::new() };
     let ([x, y], high) = (feet.inset_m.map(millimeters), millimeters(feet.height_m));
-    let inside = if file.product.width.is_some() { format!("{x} and {y}") } else { x };
+    let inside = if file.product.body.is_wide() { format!("{x} and {y}") } else { x };
     format!(", on feet {inside} inside the edges and {high} high")
 }
 
 /// Contacts of their own, each with what it has of its own.
 fn own_contacts(file: &ProductFile) -> String {
-    let place = if file.product.width.is_some() { "corner" } else { "end" };
+    let place = if file.product.body.is_wide() { "corner" } else { "end" };
     let one = |(at, own): (&str, OwnContact)| {
         let e = own.restitution.map(|e| format!("restitution {}", three(e)));
         let time = own.contact_time_s.map(|time_s| format!("touches for {} ms", three(1e3 * time_s)));
@@ -151,24 +151,25 @@ fn own_contacts(file: &ProductFile) -> String {
 }
 
 /// Sides of a plate.
-fn sides(file: &ProductFile, width: &Width) -> String {
-    let thick = width.thickness_m.map_or(String::new(), |m| format!(", thickness {}", millimeters(m)));
+fn sides(file: &ProductFile) -> String {
+    let thick = file.product.body.thickness;
+    let thick = thick.map_or(String::new(), |side| format!(", thickness {}", millimeters(side.m())));
     let [length, across] = file.product.sides_m().map(millimeters);
     format!("length {length}, width {across}{thick}{}", feet(file))
 }
 
 /// Mass of a plate, and where it lies.
-fn inertia(file: &ProductFile, width: &Width) -> String {
+fn inertia(file: &ProductFile, width: &Side) -> String {
     let mut said: Vec<String> = file.product.mass_kg.iter().map(|kg| format!("{} kg", three(*kg))).collect();
     let along = range(&file.product.gyration_m, 1e-3, "mm");
     said.push(format!("radii of gyration {along} along the length, {} along the width", millimeters(width.gyration_m)));
-    let ([a, b], [front, back]) = (file.product.body.arms_m(), width.edges_m);
-    let center = [0.5 * (a - b), 0.5 * (front - back)];
-    if center[0].abs() > 1e-9 * (a + b) || center[1].abs() > 1e-9 * width.m() {
+    let body = &file.product.body;
+    let center = [body.length.center_m(), width.center_m()];
+    if center[0].abs() > 1e-9 * body.length_m() || center[1].abs() > 1e-9 * width.m() {
         said.push(format!("center of mass at {}", place(center)));
     }
-    if width.product_of_inertia_m2 != 0.0 {
-        let of = three(1e6 * width.product_of_inertia_m2).replace('-', "−");
+    if body.products_m2[0] != 0.0 {
+        let of = three(1e6 * body.products_m2[0]).replace('-', "−");
         said.push(format!("product of inertia over the mass {of} mm²"));
     }
     said.join(", ")
@@ -199,7 +200,7 @@ fn drop(file: &ProductFile) -> String {
 
 /// Where a part sits and how it is held, in a sentence.
 pub(super) fn held(component: &Component, file: &ProductFile) -> String {
-    if file.product.width.is_some() {
+    if file.product.body.is_wide() {
         let along = match component.inside.axis {
             Axis::Z if file.is_box() => " It moves along the thickness.",
             Axis::Z => "",
@@ -309,7 +310,7 @@ drop = [{ height = "1 m", face = "bottom" }, { height = "0.5 m", face = "top" }]
 component = [{ name = "part", position = ["0 mm", "0 mm"], mount = "hard", velocity_change_limit = "9 m/s" }]
 "#;
         let file = ProductFile::read(text, "box.toml").unwrap_or_else(|faults| panic!("{faults}"));
-        let of = inertia(&file, &file.product.width.unwrap());
+        let of = inertia(&file, &file.product.body.width.unwrap());
         assert!(of.contains("0.08 kg, radii of gyration 30 mm along the length, 10 mm along the width"), "{of}");
         assert!(of.ends_with("product of inertia over the mass 150 mm²"), "{of}");
         assert_eq!(drop(&file), "each from its own height, at 3.13 to 4.43 m/s");

@@ -36,7 +36,7 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
         (landing.speed_m_s.map(f64::to_bits), landing.spin_rad_s.map(|spins| spins.map(f64::to_bits)))
     };
     let alike = assessment.landings.windows(2).all(|two| speeds(&two[0]) == speeds(&two[1]));
-    let is_plate = file.product.width.is_some();
+    let is_plate = file.product.body.is_wide();
     let row = |(landing, listed): (&LandingAssessment, &Landing)| {
         let tightest = landing.tightest()?;
         let component = file.components.iter().find(|component| component.name == tightest.component)?;

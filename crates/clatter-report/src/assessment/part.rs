@@ -45,20 +45,20 @@ fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     let first = match (worst.landing.and_then(DropName::attitude), worst.direction_deg()) {
         (Some(attitude), _) => attitude.to_string(),
         (None, Some(to)) => format!("{}°", three(to)),
-        (None, None) => end(worst.drop.first).to_owned(),
+        (None, None) => end(worst.drop.first()).to_owned(),
     };
     [
         worst.landing.and_then(DropName::number).map_or(first.clone(), |n| format!("drop {n}: {first}")),
-        if worst.drop.flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg())) },
+        if worst.drop.is_flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg())) },
         format!("{} m/s{}", three(worst.drop.speed_m_s), turning(worst)),
         three(worst.drop.restitution),
         contact.map_or("–".to_owned(), |time| format!("{} ms", three(1e3 * time))),
         worst.frequency_hz().map_or("–".to_owned(), |hz| format!("{} Hz", three(hz))),
         or_none(worst.damping_ratio(), 1.0),
-        if worst.drop.across.is_some() {
-            place([worst.part.position_m, worst.part.across_m])
+        if worst.drop.body.is_wide() {
+            place(worst.part.place.plan_m())
         } else {
-            millimeters(worst.part.position_m)
+            millimeters(worst.part.place.at_m[0])
         },
         worst.impact.to_string(),
     ]
@@ -109,7 +109,7 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait, fil
             )
         }
         Some(_) => String::new(),
-        None if file.product.width.is_some() => {
+        None if file.product.body.is_wide() => {
             portrait.plate.iter().map(|plate| plate::zone(of.limit, plate)).collect()
         }
         None => " In the drops of the figures it holds nowhere along the product.".to_owned(),
@@ -133,12 +133,12 @@ fn drop(worst: &WorstCase) -> String {
         );
     } else if let Some(direction) = worst.direction_deg() {
         format!("on {}, rising to {}°,", plate::lowest(direction), three(direction))
-    } else if worst.drop.flat {
+    } else if worst.drop.is_flat {
         "flat, both ends as one,".to_owned()
     } else {
-        format!("on end {}", end(worst.drop.first))
+        format!("on end {}", end(worst.drop.first()))
     };
-    let tilted = if worst.drop.flat { String::new() } else { format!(", tilted by {}°", three(worst.tilt_deg())) };
+    let tilted = if worst.drop.is_flat { String::new() } else { format!(", tilted by {}°", three(worst.tilt_deg())) };
     let (speed, e) = (three(worst.drop.speed_m_s), three(worst.drop.restitution));
     let turning = turning(worst);
     let which = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!(", drop {n} of the file,"));
@@ -152,7 +152,7 @@ fn turning(worst: &WorstCase) -> String {
 
 /// Up to which tilt both ends land as one.
 fn flat_until(portrait: &Portrait) -> String {
-    let flat = portrait.over_tilt.iter().flat_map(|(_, points)| points).filter(|point| point.drop.flat);
+    let flat = portrait.over_tilt.iter().flat_map(|(_, points)| points).filter(|point| point.drop.is_flat);
     let most = flat.map(|point| point.tilt_rad.to_degrees()).reduce(f64::max);
     most.map_or_else(String::new, |tilt| format!(" Up to {}° both ends land as one.", three(tilt)))
 }
@@ -175,7 +175,7 @@ pub(super) fn part(
             format!(" The limit, {allowed}, lies outside the figure.")
         }
     };
-    let is_plate = pages.file.product.width.is_some();
+    let is_plate = pages.file.product.body.is_wide();
     let over_time = portrait.history.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
     let over_tilt = portrait.over_tilt.iter().flat_map(|(_, curve)| curve).map(|p| tightest.allowed * p.share);
     let undecided = assessed.limits.iter().filter(|l| l.verdict == Verdict::Undecided);

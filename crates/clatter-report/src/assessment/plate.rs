@@ -63,7 +63,7 @@ pub(super) fn plan(
 /// Direction in degrees, share, and whether the file gives the direction.
 pub(super) fn around(of: &PlatePortrait) -> impl Iterator<Item = (f64, f64, bool)> {
     of.over_direction.iter().map(|point| {
-        let direction_rad = point.drop.across.map_or(0.0, |across| across.direction_rad);
+        let direction_rad = point.drop.direction_rad;
         (direction_rad.to_degrees(), point.share, of.is_given(direction_rad))
     })
 }
@@ -84,7 +84,7 @@ pub(super) fn figures(
         shock_m_s: strike.delta_v_m_s,
     };
     let strikes: Vec<Strike> = told(of, worst).iter().map(strike).collect();
-    let (reach_m, place_m) = (reach_m(component), [worst.part.position_m, worst.part.across_m]);
+    let (reach_m, place_m) = (reach_m(component), worst.part.place.plan_m());
     let lands = Landing {
         plate,
         sides_m,
@@ -101,7 +101,7 @@ pub(super) fn figures(
     if let (Some((limit, map)), [_, others @ ..]) = (mapped(assessed, of), &of.maps[..]) {
         let others: Vec<&PlaceMap> = others.iter().map(|(_, map)| map).collect();
         let (allowed, title) = (limit.unit.customary().of_si(limit.allowed), super::title(limit));
-        let place_m = limit.worst_case.map_or(place_m, |worst| [worst.part.position_m, worst.part.across_m]);
+        let place_m = limit.worst_case.map_or(place_m, |worst| worst.part.place.plan_m());
         let heat = HeatMap { plate, sides_m, map, others: &others, allowed, title: &title, reach_m, place_m };
         files.push((format!("map-{number}.svg"), heat_map(&heat)?));
     }

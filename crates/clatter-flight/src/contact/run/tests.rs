@@ -3,7 +3,7 @@
 use super::super::planar::Planar;
 use super::*;
 use crate::ContactLaw;
-use crate::{Body, Scene};
+use crate::{Profile, Scene};
 
 /// A flight whose end a has just touched, and the phase in which it presses.
 fn pressing<'a>(scene: &Scene<2>, contacts: &'a [Contact; 2]) -> (Run<'a, Planar<2>, 2>, Phase<Planar<2>, 2>, f64) {
@@ -15,7 +15,7 @@ fn pressing<'a>(scene: &Scene<2>, contacts: &'a [Contact; 2]) -> (Run<'a, Planar
 }
 
 fn scene() -> Scene<2> {
-    Scene::new(Body::new(0.15, 0.045).unwrap(), 0.3, 4.0, 3.0, 9.81).unwrap()
+    Scene::new(Profile::new(0.15, 0.045).unwrap(), 0.3, 4.0, 3.0, 9.81).unwrap()
 }
 
 /// A phase whose springs are said to be half as stiff again as those that the motion is of gives the body energy that nothing put in.

@@ -1,8 +1,8 @@
 //! Contacts of their own: feet, ends or corners that the ground answers otherwise than the others.
 
-use clatter_flight::{Contact, ContactLaw};
+use clatter::Error;
 
-use crate::Error;
+use crate::{Contact, ContactLaw};
 
 /// A contact of its own; what is not given is that of the product.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,8 +23,8 @@ impl OwnContact {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OwnContacts(pub [OwnContact; 4]);
 
-/// What they are called.
-pub(crate) const PLACES: [&str; 4] = ["a", "b", "c", "d"];
+/// The names of ends and corners.
+pub const PLACES: [&str; 4] = ["a", "b", "c", "d"];
 
 impl OwnContacts {
     /// All are those of the product.
@@ -53,39 +53,42 @@ impl OwnContacts {
     }
     /// The same with length and width running the other way.
     #[must_use]
-    pub fn mirrored(self, is_plate: bool, [along, across]: [bool; 2]) -> Self {
-        Self(std::array::from_fn(|k| self.0[image(k, is_plate, [along, across])]))
+    pub fn mirrored(self, sides: [bool; 2]) -> Self {
+        Self(std::array::from_fn(|k| self.0[image(k, sides)]))
     }
     /// Whether exchanging its ends, or its long edges, leaves them as they are.
-    pub(crate) fn is_even(&self, is_plate: bool, sides: [bool; 2]) -> bool {
-        self.mirrored(is_plate, sides) == *self
+    #[must_use]
+    pub fn is_even(&self, sides: [bool; 2]) -> bool {
+        self.mirrored(sides) == *self
     }
-    /// Those of a bar or of a plate, in their order.
-    fn of(&self, is_plate: bool) -> &[OwnContact] {
-        &self.0[..if is_plate { 4 } else { 2 }]
+    /// The least and the largest restitution of a body with so many points, this one that of the product.
+    #[must_use]
+    pub fn restitutions(&self, points: usize, of_product: f64) -> [f64; 2] {
+        ends(self.0[..points].iter().map(|own| own.restitution.unwrap_or(of_product)))
     }
-    /// The least and the largest of all restitutions, this one that of the product.
-    pub(crate) fn restitutions(&self, is_plate: bool, of_product: f64) -> [f64; 2] {
-        ends(self.of(is_plate).iter().map(|own| own.restitution.unwrap_or(of_product)))
+    /// The shortest and the longest contact of a body with so many points, this one that of the product.
+    #[must_use]
+    pub fn contact_times_s(&self, points: usize, of_product: f64) -> [f64; 2] {
+        ends(self.0[..points].iter().map(|own| own.contact_time_s.unwrap_or(of_product)))
     }
-    /// The shortest and the longest of all contacts, this one that of the product.
-    pub(crate) fn contact_times_s(&self, is_plate: bool, of_product: f64) -> [f64; 2] {
-        ends(self.of(is_plate).iter().map(|own| own.contact_time_s.unwrap_or(of_product)))
-    }
-    /// With all restitutions changed alike.
-    pub(crate) fn with_restitutions(self, of: impl Fn(f64) -> f64) -> Self {
+    /// The same with all restitutions changed alike.
+    #[must_use]
+    pub fn with_restitutions(self, of: impl Fn(f64) -> f64) -> Self {
         Self(self.0.map(|own| OwnContact { restitution: own.restitution.map(&of), ..own }))
     }
     /// The contacts of the corners of a box, in the order that a box has, this one that of the product.
     ///
     /// # Errors
-    /// [`Error::Bar`] for contacts that are none.
+    /// As [`Contact::new`].
     pub fn of_box(&self, of_product: &Contact) -> Result<[Contact; 8], Error> {
         let of: [Contact; 4] = self.contacts(of_product.law(), of_product.restitution(), of_product.time_s())?;
         Ok([0, 1, 3, 2, 0, 1, 3, 2].map(|corner| of[corner]))
     }
     /// The contacts of all points, these restitution and contact time those of the product.
-    pub(crate) fn contacts<const N: usize>(
+    ///
+    /// # Errors
+    /// As [`Contact::new`].
+    pub fn contacts<const N: usize>(
         &self,
         law: ContactLaw,
         restitution: f64,
@@ -101,12 +104,9 @@ impl OwnContacts {
 }
 
 /// The end or corner that is k where sides run the other way.
-fn image(k: usize, is_plate: bool, [along, across]: [bool; 2]) -> usize {
-    let k = match (along, is_plate) {
-        (true, _) => [1, 0, 3, 2][k],
-        (false, _) => k,
-    };
-    if across && is_plate { 3 - k } else { k }
+fn image(k: usize, [along, across]: [bool; 2]) -> usize {
+    let k = if along { [1, 0, 3, 2][k] } else { k };
+    if across { 3 - k } else { k }
 }
 
 fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
@@ -130,17 +130,17 @@ mod tests {
         };
         let all = OwnContacts([0.1, 0.2, 0.3, 0.4].map(own));
         let order = |of: OwnContacts| of.0.map(|own| own.restitution.unwrap_or(0.0));
-        same(&order(all.mirrored(true, [true, false])), &[0.2, 0.1, 0.4, 0.3]);
-        same(&order(all.mirrored(true, [false, true])), &[0.4, 0.3, 0.2, 0.1]);
-        same(&order(all.mirrored(true, [true, true])), &[0.3, 0.4, 0.1, 0.2]);
+        same(&order(all.mirrored([true, false])), &[0.2, 0.1, 0.4, 0.3]);
+        same(&order(all.mirrored([false, true])), &[0.4, 0.3, 0.2, 0.1]);
+        same(&order(all.mirrored([true, true])), &[0.3, 0.4, 0.1, 0.2]);
         let pairs = OwnContacts([own(0.1), own(0.2), own(0.2), own(0.1)]);
-        assert!(pairs.is_even(true, [false, true]) && !pairs.is_even(true, [true, false]));
+        assert!(pairs.is_even([false, true]) && !pairs.is_even([true, false]));
         let end = OwnContacts([OwnContact::NONE, own(0.2), OwnContact::NONE, OwnContact::NONE]);
-        assert!(!end.is_even(false, [true, false]));
-        same(&end.restitutions(false, 0.5), &[0.2, 0.5]);
-        // A bar has no other ends.
+        assert!(!end.is_even([true, false]));
+        same(&end.restitutions(2, 0.5), &[0.2, 0.5]);
+        // Both ends alike.
         let both = OwnContacts([own(0.2), own(0.2), OwnContact::NONE, OwnContact::NONE]);
-        assert!(both.is_even(false, [true, false]));
-        same(&both.restitutions(false, 0.5), &[0.2; 2]);
+        assert!(both.is_even([true, false]));
+        same(&both.restitutions(2, 0.5), &[0.2; 2]);
     }
 }

@@ -2,11 +2,8 @@
 
 use std::f64::consts::PI;
 
-use clatter_flight::Stop;
-
-use super::Followed;
-use crate::course::Course;
-use crate::{Error, Feet, Spread};
+use super::{Course, Followed};
+use crate::{Error, Feet, Stop};
 
 /// Steps of a flight in which the edges are looked at.
 const STEPS: u32 = 16;
@@ -20,15 +17,16 @@ impl Feet {
         x * along.abs() + y * across.abs()
     }
     /// The steepest tilt at which a foot touches before the edge beyond it, in all of these directions; of a plate any, unless given.
-    pub(crate) fn steepest_rad(&self, direction_rad: Option<&Spread>) -> f64 {
+    #[must_use]
+    pub fn steepest_rad(&self, direction_rad: Option<[f64; 2]>) -> f64 {
         let [x, y] = self.inset_m;
         let farthest_m = libm::hypot(x, y);
-        let overhang_m = direction_rad.map_or(farthest_m, |given| {
-            let within = |direction: f64| (given.lo()..=given.hi()).contains(&direction);
+        let overhang_m = direction_rad.map_or(farthest_m, |[lo, hi]| {
+            let within = |direction: f64| (lo..=hi).contains(&direction);
             let corner = libm::atan2(y, x);
             let at = |direction: f64| self.below_m([libm::cos(direction), libm::sin(direction)]);
             let over_a_corner = [corner, PI - corner, PI + corner, 2.0 * PI - corner].into_iter().any(within);
-            if over_a_corner { farthest_m } else { at(given.lo()).max(at(given.hi())) }
+            if over_a_corner { farthest_m } else { at(lo).max(at(hi)) }
         });
         libm::atan2(self.height_m, overhang_m)
     }
@@ -47,7 +45,7 @@ impl Followed {
     /// # Errors
     /// [`Error::Edge`] where one comes down in the clatter.
     pub(super) fn edge_comes_down_s(&self) -> Result<Option<f64>, Error> {
-        let (Some(feet), Course::Bar(motion)) = (&self.drop.feet, &self.motion) else { return Ok(None) };
+        let (Some(feet), Course::Bar(motion)) = (&self.drop.body.feet, &self.motion) else { return Ok(None) };
         let edge_m = |time_s: f64| feet.of_bar(motion.at(time_s).height_m, self.drop.body.length_m());
         // Clear of the ground for ever as it is without gravity, its edges may still come down; where that takes longer than the fall of
         // a length they are slow.
@@ -81,11 +79,8 @@ impl Followed {
 
 #[cfg(test)]
 mod tests {
-    use clatter::End;
-    use clatter_flight::{Body, ContactLaw};
-
     use super::*;
-    use crate::drop::SingleDrop;
+    use crate::{Body, Drop, Model, Until};
 
     /// The edges of a bar at a tilt, 6 mm over feet that are 30 mm inside them.
     #[test]
@@ -107,28 +102,19 @@ mod tests {
         for n in 0..300_u32 {
             let x = |k: u32| f64::from((n * k + 11) % 97) / 97.0;
             let feet = Feet { inset_m: [0.01 + 0.05 * x(17), 0.0], height_m: 3e-3 + 0.01 * x(23) };
-            let drop = SingleDrop {
-                body: Body::off_center(0.05 + 0.03 * x(29), 0.06, 0.03 + 0.02 * x(31)).unwrap(),
-                across: None,
-                first: End::A,
-                tilt_rad: 0.9 * feet.steepest_rad(None) * x(37),
-                flat: false,
-                speed_m_s: 1.0 + 3.0 * x(41),
-                spin_rad_s: 0.0,
-                restitution: 0.6 * x(43),
-                gravity_m_s2: 9.81,
-                contact_time_s: None,
-                contact_law: ContactLaw::Hysteretic,
-                feet: Some(feet),
-                own_contacts: crate::OwnContacts::NONE,
-            };
-            let alone = Followed::new(&SingleDrop { feet: None, ..drop }, drop.fullest(), 0.01).unwrap();
+            let body = Body::off_center(0.05 + 0.03 * x(29), 0.06, 0.03 + 0.02 * x(31)).unwrap();
+            let body = Body { feet: Some(feet), ..body };
+            let tilt_rad = 0.9 * feet.steepest_rad(None) * x(37);
+            let mut drop = Drop::new(body, 1.0 + 3.0 * x(41), tilt_rad, 0.6 * x(43));
+            drop.gravity_m_s2 = 9.81;
+            let follow = |drop: &Drop| Followed::new(drop, Model::FiniteTilt, 0.01, Until::Over);
+            let alone = follow(&Drop { body: Body { feet: None, ..body }, ..drop }).unwrap();
             let lowest = |followed: &Followed| {
                 let Course::Bar(motion) = &followed.motion else { panic!("a bar") };
                 let at = |k: u32| motion.at(motion.stop.time_s() * f64::from(k) / 2000.0).height_m;
                 (0..=2000).map(|k| feet.of_bar(at(k), drop.body.length_m())).fold(0.0, f64::min)
             };
-            match Followed::new(&drop, drop.fullest(), 0.01) {
+            match follow(&drop) {
                 Err(Error::Edge { depth_m, .. }) => {
                     assert!(depth_m > 0.0 && lowest(&alone) < 0.0, "{n}");
                     refused += 1;
@@ -136,8 +122,8 @@ mod tests {
                 Ok(followed) => {
                     // What lies between the steps in which edges are looked at.
                     assert!(lowest(&followed) > -2e-5, "{n}: {} in {drop:?}", lowest(&followed));
-                    let is_left = matches!(followed.motion.stop(), Stop::TimeLimit { .. });
-                    assert!(is_left || followed.motion.stop() == alone.motion.stop(), "{n}");
+                    let is_left = matches!(followed.stop(), Stop::TimeLimit { .. });
+                    assert!(is_left || followed.stop() == alone.stop(), "{n}");
                     if is_left {
                         let touches = feet.of_bar(
                             match &followed.motion {

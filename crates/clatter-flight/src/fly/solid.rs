@@ -1,45 +1,19 @@
-//! The motion of a bar, of a plate or of a box, as what follows a drop needs it.
+//! The motion of a box as places in it feel it.
 
+use crate::{Axis, BlockDrop, BlockFlight, Contact, Error, Stop};
 use clatter::{Excitation, Section};
-use clatter_flight::{BlockDrop, BlockFlight, Contact, Error, FeetMotion, Motion, PlateMotion, Stop};
-
-use crate::Axis;
-
-/// What became of a drop.
-#[derive(Debug, Clone)]
-pub(crate) enum Course {
-    Bar(Motion),
-    /// A bar on two feet, which are its first points; the edges beyond them are the others.
-    BarOnFeet(Motion<4>),
-    Plate(Box<PlateMotion>),
-    PlateOnFeet(Box<FeetMotion>),
-    Block(BlockMotion),
-}
-
-/// The same of a bar and of a plate, and of a box.
-macro_rules! of_each {
-    ($course:expr, $motion:ident => $what:expr, $block:ident => $other:expr) => {
-        match $course {
-            Course::Bar($motion) => $what,
-            Course::BarOnFeet($motion) => $what,
-            Course::Plate($motion) => $what,
-            Course::PlateOnFeet($motion) => $what,
-            Course::Block($block) => $other,
-        }
-    };
-}
 
 /// A motion of a box, followed to a time, as places in it feel it.
 #[derive(Debug, Clone)]
 pub(crate) struct BlockMotion {
-    contacts: [Contact; 8],
-    gravity_m_s2: f64,
-    flight: BlockFlight,
-    stop: Stop,
+    pub(super) contacts: [Contact; 8],
+    pub(super) gravity_m_s2: f64,
+    pub(super) flight: BlockFlight,
+    pub(super) stop: Stop,
     /// What later strikes may change the velocity of the center of mass by: all of the energy that is left is given back there.
     pub(crate) center_m_s: f64,
     /// How far it has leaned at most from the face that it landed over: 1 balanced over an edge, more where it has fallen over.
-    lean: f64,
+    pub(super) lean: f64,
     times_s: Vec<f64>,
     /// Along each axis of the box, what the center of mass feels, and what a meter along x, y and z adds.
     felt: Vec<[[f64; 4]; 3]>,
@@ -49,14 +23,17 @@ pub(crate) struct BlockMotion {
     pressed: Vec<bool>,
 }
 
-/// Contacts that push a box, one after the other or at once.
-pub(crate) struct Pushed {
-    pub(crate) from_s: f64,
-    pub(crate) until_s: f64,
+/// Contacts that push a box at once, as one.
+#[derive(Debug, Clone, Copy)]
+pub struct Push {
+    /// When it begins.
+    pub from_s: f64,
+    /// When it ends.
+    pub until_s: f64,
     /// The change of velocity of the center of mass, with g.
-    pub(crate) impulse_m_s: f64,
+    pub impulse_m_s: f64,
     /// Its largest acceleration.
-    pub(crate) peak_m_s2: f64,
+    pub peak_m_s2: f64,
 }
 
 /// Straight lines in a step of a box, which is a small part of a contact.
@@ -155,8 +132,12 @@ impl BlockMotion {
         lines.map(move |(times, ends)| ([times[0], times[1]], [size(&ends[0]), size(&ends[1])]))
     }
     /// When corners touch and part.
-    fn presses(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
+    pub(crate) fn presses(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
         self.flight.strikes.iter().map(|strike| (strike.corner, [strike.time_s, strike.until_s]))
+    }
+    /// When the last contact parted.
+    pub(crate) fn parted_s(&self) -> f64 {
+        self.presses().fold(0.0, |last, press| last.max(press.1[1]))
     }
     /// The angular acceleration about an axis.
     pub(crate) fn turned_about(&self, about: [f64; 3]) -> Excitation {
@@ -191,6 +172,29 @@ impl BlockMotion {
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         all
     }
+
+    /// Returns what pushes the box, presses that overlap as one, in order.
+    pub(crate) fn pushes(&self) -> Vec<Push> {
+        let mut all: Vec<Push> = Vec::new();
+        for [from_s, until_s] in self.pressed() {
+            match all.last_mut() {
+                Some(last) if from_s <= last.until_s => last.until_s = last.until_s.max(until_s),
+                _ => all.push(Push { from_s, until_s, impulse_m_s: 0.0, peak_m_s2: 0.0 }),
+            }
+        }
+        let mut k = 0;
+        for (times, ends) in self.pushed() {
+            let middle_s = 0.5 * (times[0] + times[1]);
+            while k < all.len() && all[k].until_s < middle_s {
+                k += 1;
+            }
+            if let Some(pushed) = all.get_mut(k).filter(|pushed| pushed.from_s <= middle_s) {
+                pushed.impulse_m_s += 0.5 * (ends[0] + ends[1]) * (times[1] - times[0]);
+                pushed.peak_m_s2 = pushed.peak_m_s2.max(ends[0]).max(ends[1]);
+            }
+        }
+        all
+    }
 }
 
 /// Half of what it does to places on both sides, by the curl of what they feel.
@@ -201,7 +205,7 @@ fn angular_acceleration([x, y, z]: &[[f64; 4]; 3]) -> [f64; 3] {
 /// Axes about which the turning of a box is looked at, all over half of a sphere: one is within 14° of any, 3 %.
 const AXES: u32 = 64;
 
-fn axes() -> impl Iterator<Item = [f64; 3]> {
+pub(super) fn axes() -> impl Iterator<Item = [f64; 3]> {
     (0..AXES).map(|k| {
         let z = (f64::from(k) + 0.5) / f64::from(AXES);
         let (sin, cos) = libm::sincos(std::f64::consts::TAU * (0.618_033_988_749_895 * f64::from(k)).fract());
@@ -210,82 +214,10 @@ fn axes() -> impl Iterator<Item = [f64; 3]> {
     })
 }
 
-/// Directions along a plate, between which the change of its angular velocity is at most half a percent more than along one of them.
-pub(crate) const DIRECTIONS: u32 = 16;
-
-/// One of the directions all over half a turn.
-fn direction(k: u32) -> [f64; 2] {
-    let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(k) / f64::from(DIRECTIONS));
-    [cos, sin]
-}
-
-impl Course {
-    /// Whether contacts take time.
-    pub(crate) fn has_contacts(&self) -> bool {
-        of_each!(self, motion => motion.contact().is_some(), _block => true)
-    }
-    /// Largest acceleration in a lone contact over its change of velocity, of all contacts; none of instant impacts.
-    pub(crate) fn peak_per_change(&self) -> Option<f64> {
-        let most = |of: &[Contact]| of.iter().fold(0.0_f64, |most, contact| most.max(contact.peak_per_change()));
-        of_each!(self, motion => motion.contacts().map(|of| most(&of)), block => Some(most(&block.contacts)))
-    }
-    pub(crate) fn stop(&self) -> Stop {
-        of_each!(self, motion => motion.stop, block => block.stop)
-    }
-    pub(crate) fn later_m_s(&self) -> f64 {
-        of_each!(self, motion => motion.later_m_s, block => block.center_m_s)
-    }
-    /// How far a box has leaned at most from the face that it landed over: 1 balanced over an edge, more where it has fallen over.
-    pub(crate) fn lean(&self) -> f64 {
-        of_each!(self, _motion => 0.0, block => block.lean)
-    }
-    pub(crate) fn largest_m_s(&self) -> f64 {
-        of_each!(self, motion => motion.largest_m_s(), block => block.flight.largest_m_s())
-    }
-    pub(crate) fn gravity_m_s2(&self) -> f64 {
-        of_each!(self, motion => motion.gravity_m_s2(), block => block.gravity_m_s2)
-    }
-    pub(crate) fn parted_s(&self) -> f64 {
-        of_each!(self, motion => motion.parted_s(), block => block.presses().fold(0.0, |last, press| last.max(press.1[1])))
-    }
-    /// When strikes begin, in order.
-    pub(crate) fn struck_s(&self) -> Vec<f64> {
-        of_each!(
-            self,
-            motion => motion.strikes.iter().map(|strike| strike.time_s).collect(),
-            block => block.presses().map(|press| press.1[0]).collect()
-        )
-    }
-    /// Of each strike of contacts that take time, the point, and when it touches and parts.
-    pub(crate) fn presses(&self) -> Vec<(usize, [f64; 2])> {
-        of_each!(self, motion => {
-            let pressed = motion.strikes.iter().zip(&motion.presses);
-            pressed.map(|(strike, press)| (strike.point, [press.from_s, press.until_s])).collect()
-        }, block => block.presses().collect())
-    }
-    /// The angular acceleration of a plate in one of its directions, in rad where what a place feels has m; none of other bodies.
-    pub(crate) fn turned_in(&self, k: u32) -> Option<Excitation> {
-        match self {
-            Self::Plate(motion) => Some(motion.turned(direction(k))),
-            Self::PlateOnFeet(motion) => Some(motion.turned(direction(k))),
-            Self::Bar(_) | Self::BarOnFeet(_) | Self::Block(_) => None,
-        }
-    }
-    /// The angular acceleration, in rad where what a place feels has m: of a plate and of a box about several axes, one after the other.
-    pub(crate) fn turned(&self) -> Box<dyn Iterator<Item = Excitation> + '_> {
-        match self {
-            Self::Bar(motion) => Box::new(std::iter::once_with(|| motion.turned())),
-            Self::BarOnFeet(motion) => Box::new(motion.turned_by_contacts().into_iter()),
-            Self::Plate(_) | Self::PlateOnFeet(_) => Box::new((0..DIRECTIONS).filter_map(|k| self.turned_in(k))),
-            Self::Block(motion) => Box::new(axes().map(|about| motion.turned_about(about))),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_flight::{Block, ContactLaw};
+    use crate::{Block, ContactLaw};
 
     /// A box that lands flat, with μ = 1 + (60/Ry)² + (40/Rx)² of a corner.
     fn flat() -> (BlockDrop, [Contact; 8], f64) {
@@ -303,13 +235,13 @@ mod tests {
         let motion = BlockMotion::new(&drop.with_time_limit_s(0.02).unwrap(), &contact).unwrap();
         // Gravity works during the contact, by a thousandth.
         assert!((motion.center_m_s / (1.6 * 0.6 * 2.0) - 1.0).abs() < 5e-3, "{}", motion.center_m_s);
-        let course = Course::Block(motion);
         // Four springs at once, each of a lone contact at a corner.
         let lasts = 2e-4 * (own / 4.0).sqrt();
         assert!(
-            (course.parted_s() / lasts - 1.0).abs() < 5e-3 && course.struck_s() == [0.0; 4],
+            (motion.parted_s() / lasts - 1.0).abs() < 5e-3
+                && motion.presses().map(|press| press.1[0]).collect::<Vec<_>>() == [0.0; 4],
             "{}",
-            course.parted_s()
+            motion.parted_s()
         );
     }
 
@@ -326,8 +258,6 @@ mod tests {
     fn axes_of_turning_lie_all_over() {
         for k in 0..720 {
             let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 720.0).sin_cos();
-            let along = (0..DIRECTIONS).map(direction).map(|[x, y]| (cos * x + sin * y).abs()).fold(0.0, f64::max);
-            assert!(along > 0.995, "{k}: {along}");
             for z in [-0.9_f64, -0.5, 0.0, 0.3, 0.7, 1.0] {
                 let across = (1.0 - z * z).sqrt();
                 let about = axes().map(|[x, y, up]| (across * (cos * x + sin * y) + z * up).abs()).fold(0.0, f64::max);
