@@ -18,8 +18,8 @@
 use std::convert::Infallible;
 
 use clatter_assess::scatter::{
-    ComponentScatter, Driver, Error, Input, LandingComponent, LandingScatter, PlateAs, Probability, Sampler, Scatter,
-    Settings,
+    ComponentScatter, Driver, Error, LandingComponent, LandingScatter, PlateAs, Probability, Sampler, Scatter,
+    Settings, Varied,
 };
 use clatter_assess::{Component, DropName, Model, ProductFile};
 use serde::{Serialize, Serializer};
@@ -220,8 +220,8 @@ impl ModelJson {
 }
 
 /// The limit that an input is.
-fn limit(input: &Input) -> Option<&'static str> {
-    if let Input::Limit(_, kind) = input { Some(kind.name()) } else { None }
+fn limit(input: &Varied) -> Option<&'static str> {
+    if let Varied::Limit(_, kind) = input { Some(kind.name()) } else { None }
 }
 
 impl<'a> LandingJson<'a> {
@@ -240,7 +240,7 @@ impl<'a> LandingJson<'a> {
 }
 
 impl<'a> ComponentJson<'a> {
-    fn new(c: &'a ComponentScatter, landing: &dyn Fn(&Input) -> Option<DropName>) -> Self {
+    fn new(c: &'a ComponentScatter, landing: &dyn Fn(&Varied) -> Option<DropName>) -> Self {
         let driver = |driver: &Driver| DriverJson {
             input: driver.input.name(),
             landing: landing(&driver.input),
@@ -271,8 +271,8 @@ impl Serialize for Answer<'_> {
         let Self { file, scatter, target } = self;
         let Settings { samples, seed, confidence, .. } = scatter.settings;
         let names = file.drop_names();
-        let landing = |input: &Input| input.landing().map(|n| names[n]);
-        let input = |input: &Input| InputJson {
+        let landing = |input: &Varied| input.landing().map(|n| names[n]);
+        let input = |input: &Varied| InputJson {
             input: input.name(),
             component: input.component(),
             landing: landing(input),

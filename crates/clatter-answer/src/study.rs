@@ -30,6 +30,7 @@ mod parts;
 use std::io;
 use std::ops::Range;
 
+use clatter_assess::Input;
 use clatter_assess::scatter::{Column, PartRow, Sampler, Settings};
 use clatter_assess::{
     Accuracy, Assessment, Component, DropName, Family, Faults, LimitKind, Plan, ProductFile, Verdict,
@@ -233,28 +234,17 @@ impl Study {
         let part = |i: usize| self.components.get(i).map_or("", |component| &component.name);
         let of = |what: &str, i: usize| format!("{what} of {}", part(i));
         let (name, unit) = match column {
-            Column::First => ("b_first".to_owned(), ""),
-            Column::DirectionDeg => ("direction_rad".to_owned(), "rad"),
-            Column::SpeedMS => ("speed_m_s".to_owned(), "m/s"),
-            Column::TiltDeg => ("tilt_rad".to_owned(), "rad"),
-            Column::SpinRadS => ("spin_rad_s".to_owned(), "rad/s"),
-            Column::Restitution => ("restitution".to_owned(), "1"),
-            Column::ContactTimeS => ("contact_time_s".to_owned(), "s"),
-            Column::GyrationM => ("gyration_m".to_owned(), "m"),
+            Column::Drop(input, None) => (input.row().column.to_owned(), input.row().unit),
+            Column::Drop(input, Some(n)) => (self.on(input.row().column, n), input.row().unit),
             Column::FrequencyHz(i) => (of("frequency_hz", i), "Hz"),
             Column::DampingRatio(i) => (of("damping_ratio", i), "1"),
             Column::PositionM(i) => (of("position_m", i), "m"),
             Column::AcrossM(i) => (of("position_across_m", i), "m"),
-            Column::LandingFirst(n) => (self.on("b_first", n), ""),
-            Column::LandingSpeedMS(n) => (self.on("speed_m_s", n), "m/s"),
-            Column::LandingTiltDeg(n) => (self.on("tilt_rad", n), "rad"),
-            Column::LandingSpinRadS(n) => (self.on("spin_rad_s", n), "rad/s"),
-            Column::LandingDirectionDeg(n) => (self.on("direction_rad", n), "rad"),
             Column::Limit(i, kind) => (of(&in_unit(kind, "limit"), i), kind.unit().name()),
             Column::CriticalAccelerationMS2(i) => (of("critical_acceleration_m_s2", i), "m/s2"),
             other => (format!("{other:?}"), ""),
         };
-        let is_first = matches!(column, Column::First | Column::LandingFirst(_));
+        let is_first = matches!(column, Column::Drop(Input::First, _));
         let kind = if is_first { FieldKind::Flag } else { FieldKind::Float };
         Field { name, unit: unit.to_owned(), kind }
     }

@@ -185,8 +185,11 @@ impl ProductFile {
         let mut all = tasks.iter().enumerate();
         let mut components = Vec::with_capacity(these.len());
         let names = self.drop_names();
-        let mut landings: Vec<LandingAssessment> =
-            names.iter().zip(&self.landings).map(|(name, landing)| LandingAssessment::new(*name, landing)).collect();
+        let mut landings: Vec<LandingAssessment> = names
+            .iter()
+            .zip(&self.landings)
+            .map(|(name, landing)| LandingAssessment::new(*name, landing, &self.product))
+            .collect();
         for component in these {
             // Of each limit what every drop says, and then of each drop what stops make of that.
             let mut of_limits = Vec::new();

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use clatter::End;
 use clatter_flight::{Axis, Body, ContactLaw, Feet, Side};
 
+use crate::inputs::INPUTS;
 use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
@@ -45,8 +46,9 @@ impl ProductFile {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn check(&self) -> Result<(), Error> {
+        inputs(&self.product, &self.drop, false)?;
         self.product.check()?;
-        self.drop.check(self.product.body.is_wide())?;
+        self.drop.check(&self.product)?;
         self.check_landings()?;
         self.check_feet()?;
         self.check_spin()?;
@@ -99,12 +101,12 @@ impl ProductFile {
             if is_box {
                 // Its tilt is its tolerance.
                 one(keys::DROP, "attitude_tolerance", landing.tolerance_rad())?;
-                DropRanges { tilt_rad: Spread::finite(0.0), ..*drop }.check(true)?;
+                DropRanges { tilt_rad: Spread::finite(0.0), ..*drop }.check(&self.product)?;
                 if drop.direction_rad.is_some() {
                     return Err(DataFault::OfPlate { field: "direction" });
                 }
             } else {
-                drop.check(self.product.body.is_wide())?;
+                drop.check(&self.product)?;
             }
         }
         Ok(())
@@ -152,8 +154,6 @@ impl Product {
     pub(crate) fn check(&self) -> Result<(), DataFault> {
         named(&self.name)?;
         one(keys::PRODUCT, "length", self.body.length_m())?;
-        spread(keys::PRODUCT, "restitution", Some(&self.restitution))?;
-        spread(keys::PRODUCT, "contact_time", self.contact_time_s.as_ref())?;
         self.mass_kg.map_or(Ok(()), mass)?;
         let inset_m = self.body.feet.map_or(0.0, |feet| feet.inset_m[0]);
         for gyration_m in [self.gyration_m.lo(), self.gyration_m.hi()] {
@@ -353,13 +353,8 @@ pub(crate) fn width_of(width_m: f64, inset_m: f64, center_m: f64, gyration_m: f6
 }
 
 impl DropRanges {
-    fn check(&self, of_plate: bool) -> Result<(), DataFault> {
-        match &self.fall {
-            Fall::HeightM(height) => spread(keys::DROP, "height", Some(height))?,
-            Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
-        }
-        spread(keys::DROP, "spin", Some(&self.spin_rad_s))?;
-        spread(keys::DROP, "tilt", Some(&self.tilt_rad))?;
+    fn check(&self, product: &Product) -> Result<(), DataFault> {
+        inputs(product, self, true)?;
         let steepest = self.tilt_rad.hi();
         if steepest > STEEPEST_RAD {
             return Err(DataFault::Value { field: "tilt", value: steepest, unit: "rad", allowed: keys::allowed(FLAT) });
@@ -368,8 +363,7 @@ impl DropRanges {
         if matches!(self.fall, Fall::HeightM(_)) && self.gravity_m_s2 == 0.0 {
             return Err(DataFault::NoGravity);
         }
-        spread(keys::DROP, "direction", self.direction_rad.as_ref())?;
-        match (of_plate, self.first, &self.direction_rad) {
+        match (product.body.is_wide(), self.first, &self.direction_rad) {
             (true, First::End(_), _) => Err(DataFault::OfPlate { field: "first" }),
             (false, _, Some(_)) => Err(DataFault::OfBar { field: "direction" }),
             _ => Ok(()),
@@ -483,6 +477,14 @@ fn number_of_components(count: usize) -> Result<(), DataFault> {
 }
 
 /// A range or a distribution, all of whose numbers are within the bounds of its key.
+/// Checks the inputs of a drop, or those that all drops share, against their keys.
+fn inputs(product: &Product, drop: &DropRanges, of_drop: bool) -> Result<(), DataFault> {
+    INPUTS.iter().filter(|row| row.input.is_of_drop() == of_drop).try_for_each(|row| {
+        let (table, key) = row.key;
+        spread(table, key, row.input.given(product, drop).as_ref())
+    })
+}
+
 fn spread(table: &'static [Key], name: &'static str, value: Option<&Spread>) -> Result<(), DataFault> {
     let Some(value) = value else { return Ok(()) };
     let own = match value.law() {

@@ -31,8 +31,10 @@ use climb::{CLIMBS, NEAR, starts};
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
+#[cfg(test)]
+pub(crate) use ranges::{AXES, DIRECTION};
 pub(crate) use ranges::{Coordinates, Ranges};
-use ranges::{DAMPING, FREQUENCY};
+pub(crate) use ranges::{DAMPING, FREQUENCY};
 
 /// Is told how much of how much is done, from any thread, and says whether to go on.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);

@@ -3,8 +3,10 @@
 use std::f64::consts::TAU;
 
 use clatter::End;
+use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
+use crate::inputs::{INPUTS, Input, Optional, Row, optional_inputs};
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
 use crate::{Axis, Component, Drop, DropName, DropRanges, Landing, LimitKind, Model, Part, Product, ProductFile, Unit};
 
@@ -149,9 +151,9 @@ pub struct LandingAssessment {
     pub tilt_deg: Option<[f64; 2]>,
     /// The range of speeds at the first touch.
     pub speed_m_s: [f64; 2],
-    /// The range of its spin there, where it has one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spin_rad_s: Option<[f64; 2]>,
+    /// The ranges of inputs there that a file may leave out, where it does not.
+    #[serde(flatten, serialize_with = "by_column")]
+    pub optional: Vec<(Input, [f64; 2])>,
     /// Unsafe where a limit is, undecided where one is and none is unsafe.
     pub verdict: Verdict,
     /// One for each limit of each component, in the order of the file.
@@ -175,17 +177,19 @@ pub struct LandingLimit {
 }
 
 impl LandingAssessment {
-    pub(crate) fn new(name: DropName, landing: &Landing) -> Self {
-        let DropRanges { tilt_rad, spin_rad_s, .. } = &landing.drop;
+    pub(crate) fn new(name: DropName, landing: &Landing, product: &Product) -> Self {
+        let DropRanges { tilt_rad, .. } = &landing.drop;
         let tilt_deg = [tilt_rad.lo(), tilt_rad.hi()].map(f64::to_degrees);
         let is_of_box = landing.attitude.is_some();
+        let there = optional_inputs().map(|(row, _)| row.input).filter(|input| input.is_there(product, &landing.drop));
+        let optional = there.filter_map(|input| Some((input, input.range(product, &landing.drop)?))).collect();
         Self {
             landing: name,
             source: landing.source,
             tolerance_deg: is_of_box.then_some(tilt_deg[1]),
             tilt_deg: (!is_of_box).then_some(tilt_deg),
             speed_m_s: landing.drop.speeds_m_s(),
-            spin_rad_s: Some([spin_rad_s.lo(), spin_rad_s.hi()]).filter(|spins| spins.iter().any(|spin| *spin != 0.0)),
+            optional,
             verdict: Verdict::Safe,
             limits: Vec::new(),
         }
@@ -367,10 +371,10 @@ impl WorstCase {
     pub fn direction_deg(&self) -> Option<f64> {
         self.drop.body.is_wide().then(|| self.drop.direction_rad.to_degrees().rem_euclid(360.0))
     }
-    /// How fast it turns at the first touch; none where it does not.
-    #[must_use]
-    pub fn spin_rad_s(&self) -> Option<f64> {
-        Some(self.drop.spin_rad_s).filter(|spin| *spin != 0.0)
+    /// Inputs that a file may leave out, with their values where they count.
+    pub fn optional(&self) -> impl Iterator<Item = (&'static Row, Optional, f64)> + '_ {
+        let value = |(row, optional): (&'static Row, Optional)| Some((row, optional, row.input.value(&self.drop)?));
+        optional_inputs().filter_map(value).filter(|(_, optional, value)| *value != optional.without)
     }
     /// Along which axis of a box the part is shaken; none of a bar and of a plate.
     #[must_use]
@@ -394,60 +398,45 @@ impl WorstCase {
     }
 }
 
-/// A worst case as it is written for programs.
-#[derive(Serialize)]
-struct WorstCaseRow {
-    #[serde(serialize_with = "letter")]
-    first: End,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    landing: Option<DropName>,
-    tilt_deg: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    direction_deg: Option<f64>,
-    flat: bool,
-    speed_m_s: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    spin_rad_s: Option<f64>,
-    restitution: f64,
-    contact_time_s: Option<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    contacts: Vec<ContactRow>,
-    gyration_m: Option<f64>,
-    frequency_hz: Option<f64>,
-    damping_ratio: Option<f64>,
-    position_m: Sides,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    axis: Option<Axis>,
-    impact: u64,
-    time_s: f64,
-    command: String,
-}
-
 impl Serialize for WorstCase {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Drop { is_flat: flat, speed_m_s, restitution, contact_time_s, .. } = self.drop;
-        let row = WorstCaseRow {
-            first: self.drop.first(),
-            landing: self.landing,
-            tilt_deg: self.tilt_deg(),
-            direction_deg: self.direction_deg(),
-            flat,
-            speed_m_s,
-            spin_rad_s: self.spin_rad_s(),
-            restitution,
-            contact_time_s,
-            contacts: ContactRow::of(&self.drop),
-            gyration_m: self.gyration_m(),
-            frequency_hz: self.frequency_hz(),
-            damping_ratio: self.damping_ratio(),
-            position_m: Sides::of(&self.part, &self.drop),
-            axis: self.axis(),
-            impact: self.impact,
-            time_s: self.time_s,
-            command: self.command(),
-        };
-        row.serialize(serializer)
+        let drop = &self.drop;
+        let mut map = serializer.serialize_map(None)?;
+        if let Some(landing) = self.landing {
+            map.serialize_entry("landing", &landing)?;
+        }
+        map.serialize_entry("flat", &drop.is_flat)?;
+        for row in INPUTS.iter().filter(|row| row.input.told() == row.input) {
+            let title = row.input.title();
+            match (row.input, row.input.value(drop)) {
+                (Input::First, _) => map.serialize_entry(&title, if drop.first() == End::A { "a" } else { "b" })?,
+                (Input::Direction, _) => self.direction_deg().map_or(Ok(()), |at| map.serialize_entry(&title, &at))?,
+                (Input::Gyration, _) => map.serialize_entry(&title, &self.gyration_m())?,
+                (_, Some(value)) if row.optional.is_some_and(|optional| optional.without == value) => {}
+                (input, Some(value)) if input.is_angle() => map.serialize_entry(&title, &value.to_degrees())?,
+                (_, value) => map.serialize_entry(&title, &value)?,
+            }
+        }
+        let contacts = ContactRow::of(drop);
+        if !contacts.is_empty() {
+            map.serialize_entry("contacts", &contacts)?;
+        }
+        map.serialize_entry("frequency_hz", &self.frequency_hz())?;
+        map.serialize_entry("damping_ratio", &self.damping_ratio())?;
+        map.serialize_entry("position_m", &Sides::of(&self.part, drop))?;
+        if let Some(axis) = self.axis() {
+            map.serialize_entry("axis", &axis)?;
+        }
+        map.serialize_entry("impact", &self.impact)?;
+        map.serialize_entry("time_s", &self.time_s)?;
+        map.serialize_entry("command", &self.command())?;
+        map.end()
     }
+}
+
+/// Writes ranges of inputs by their columns.
+fn by_column<S: Serializer>(inputs: &[(Input, [f64; 2])], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(inputs.iter().map(|(input, range)| (input.row().column, range)))
 }
 
 /// A contact of its own as the drop has it.
@@ -522,14 +511,6 @@ pub(crate) fn number_or_null<S: Serializer>(value: &Option<f64>, serializer: S) 
     }
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
-pub(crate) fn letter<S: Serializer>(end: &End, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(match end {
-        End::A => "a",
-        End::B => "b",
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -540,7 +521,7 @@ mod tests {
     fn a_landing_is_as_its_worst_limit() {
         let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();
         let mut limit = file.assess().unwrap().components[0].limits[0].clone();
-        let mut landing = LandingAssessment::new(DropName::Number(1), &Landing::tilted(file.drop));
+        let mut landing = LandingAssessment::new(DropName::Number(1), &Landing::tilted(file.drop), &file.product);
         for (own, all) in [
             (Verdict::Safe, Verdict::Safe),
             (Verdict::Unsafe, Verdict::Unsafe),

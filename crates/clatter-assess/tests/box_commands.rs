@@ -4,9 +4,9 @@ use crate::boxes::{HANDHELD, on};
 use crate::plates::file;
 use clatter_assess::design::{Bounds, Lever, Outcome};
 use clatter_assess::ladder::Rung;
-use clatter_assess::scatter::{Column, Input, OfLanding, Progress, Sampler, Scatter, Settings};
+use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings, Varied};
 use clatter_assess::{
-    Attitude, Drop, DropName, Law, Limit, LimitKind, Model, Mount, Part, ProductFile, Spread, Verdict, answer,
+    Attitude, Drop, DropName, Input, Law, Limit, LimitKind, Model, Mount, Part, ProductFile, Spread, Verdict, answer,
 };
 use clatter_shock::{DampingRatio, Suspension};
 
@@ -40,15 +40,15 @@ fn varied() -> String {
 }
 
 /// A drop of a box that is turned off a face by hand, from the middle of its axes.
-fn single(file: &ProductFile, base: [f64; 3], [speed_m_s, tilt_deg, direction_deg, e, contact_s]: [f64; 5]) -> Drop {
+fn single(file: &ProductFile, base: [f64; 3], [speed_m_s, tilt_rad, direction_rad, e, contact_s]: [f64; 5]) -> Drop {
     Drop {
         is_level: false,
         base,
-        direction_rad: direction_deg.to_radians(),
+        direction_rad,
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: Some(contact_s),
         contact_law: file.product.law(),
-        ..Drop::new(file.product.body, speed_m_s, tilt_deg.to_radians(), e)
+        ..Drop::new(file.product.body, speed_m_s, tilt_rad, e)
     }
 }
 
@@ -151,14 +151,14 @@ fn samples_of_boxes_are_single_drops() {
                 });
             let size = down.iter().map(|x| x * x).sum::<f64>().sqrt();
             let given = [
-                of(Column::LandingSpeedMS(n)),
-                of(Column::LandingTiltDeg(n)),
-                of(Column::LandingDirectionDeg(n)),
-                of(Column::Restitution),
-                of(Column::ContactTimeS),
+                of(Column::Drop(Input::Speed, Some(n))),
+                of(Column::Drop(Input::Tilt, Some(n))),
+                of(Column::Drop(Input::Direction, Some(n))),
+                of(Column::Drop(Input::Restitution, None)),
+                of(Column::Drop(Input::ContactTime, None)),
             ];
             assert!((given[0] - (2.0 * 9.806_65 * 1.22_f64).sqrt()).abs() < 1e-12);
-            assert!(given[1] <= landing.tolerance_rad().to_degrees() * (1.0 + 1e-12));
+            assert!(given[1] <= landing.tolerance_rad() * (1.0 + 1e-12));
             let drop = single(&file, down.map(|x| -x / size + 0.0), given);
             for (i, one) in asked(&file, &drop, of(Column::FrequencyHz(1))).into_iter().enumerate() {
                 let used = of(Column::LandingUtilization(n, i));
@@ -195,8 +195,8 @@ fn boxes_fail_as_often_as_in_plain_sampling() {
     let file = file(&text.replace("restitution = 0.4", "restitution = { uniform = [0.2, 0.6] }"));
     let (many, drops) = (1500, 300_u32);
     let scatter = run(&file, many);
-    let of = [OfLanding::Tilt, OfLanding::Direction].map(|of| Input::Landing(0, of));
-    assert_eq!(scatter.inputs, [of[0], Input::Restitution, of[1]]);
+    let of = [Input::Tilt, Input::Direction].map(|of| Varied::Drop(of, Some(0)));
+    assert_eq!(scatter.inputs, [of[0], Varied::Drop(Input::Restitution, None), of[1]]);
     assert_eq!(scatter.assumed_even, of[..1]);
     let shares = |k: u32| {
         [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3].map(|a| (a * f64::from(k)).fract())

@@ -3,9 +3,9 @@
 use crate::plates::file;
 use clatter_assess::design::{Bounds, Lever, Outcome};
 use clatter_assess::ladder::{Ladder, Rung};
-use clatter_assess::scatter::{Column, Input, PlateAs, Progress, Sampler, Scatter, Settings};
+use clatter_assess::scatter::{Column, PlateAs, Progress, Sampler, Scatter, Settings, Varied};
 use clatter_assess::{
-    Body, Drop, Law, Limit, LimitKind, Model, Part, Place, ProductFile, Side, Spread, Verdict, answer,
+    Body, Drop, Input, Law, Limit, LimitKind, Model, Part, Place, ProductFile, Side, Spread, Verdict, answer,
 };
 
 /// A board in a terminal whose place across it is not known well.
@@ -76,13 +76,13 @@ fn asked(file: &ProductFile, direction_deg: f64, tilt_deg: f64, across_m: f64) -
 /// Every sample of a plate once more, as one drop of the box that it is: direction and place across are those of the row.
 #[test]
 fn samples_of_plates_are_single_drops() {
-    use Column::{AcrossM, ContactTimeS, DirectionDeg, Restitution, SpeedMS, TiltDeg, Utilization};
     let file = file(BOARD);
     let (columns, rows) = values(&file, 60);
-    let known = [DirectionDeg, SpeedMS, TiltDeg, Restitution, ContactTimeS, AcrossM(0), Utilization(0)];
-    assert_eq!(columns, known);
+    let inputs = [Input::Direction, Input::Speed, Input::Tilt, Input::Restitution, Input::ContactTime];
+    let inputs = inputs.map(|input| Column::Drop(input, None));
+    assert_eq!(columns, [&inputs[..], &[Column::AcrossM(0), Column::Utilization(0)]].concat());
     for row in rows {
-        let one = asked(&file, row[0], row[2], row[5]);
+        let one = asked(&file, row[0].to_degrees(), row[2].to_degrees(), row[5]);
         // Places between the corners may ask for more of a change of velocity.
         assert!(row[6] >= one * 0.995 && row[6] <= one * 1.03, "{}, not {one}: {row:?}", row[6]);
     }
@@ -96,7 +96,10 @@ fn plates_fail_as_often_as_in_plain_sampling() {
     let scatter = draw(&file, many);
     let part = &scatter.components[0];
     assert_eq!((scatter.settings.samples, part.unanswered), (many, 0));
-    assert_eq!(scatter.inputs, [Input::Tilt, Input::Direction, Input::Across(0)]);
+    assert_eq!(
+        scatter.inputs,
+        [Varied::Drop(Input::Tilt, None), Varied::Drop(Input::Direction, None), Varied::Across(0)]
+    );
     assert_eq!(scatter.assumed_even, []);
     // Multiples of the powers of a root of x⁴ = x + 1 fill the cube evenly.
     let shares = |k: u32| {
@@ -113,7 +116,7 @@ fn plates_fail_as_often_as_in_plain_sampling() {
     // Four standard deviations of both.
     let most = 4.0 * (failed * (1.0 - failed) * (1.0 / 2000.0 + 1.0 / f64::from(drops))).sqrt();
     assert!((found - failed).abs() < most, "{found} beside {failed}");
-    assert_eq!(part.drivers[0].input, Input::Direction);
+    assert_eq!(part.drivers[0].input, Varied::Drop(Input::Direction, None));
 }
 
 /// Steep drops of a plate, and where they ask for what it is allowed: the thickness of the file, and a twentieth of the length without one.
@@ -129,7 +132,7 @@ fn a_plate_survives_where_its_box_does() {
         let file = steep(thickness);
         assert_eq!(draw(&file, 1).plate, Some(PlateAs::Box { thickness_m, assumed }));
         let sampler = Sampler::new(&file, settings(1)).unwrap();
-        let columns = [Column::TiltDeg, Column::DirectionDeg, Column::AcrossM(0)];
+        let columns = [Column::Drop(Input::Tilt, None), Column::Drop(Input::Direction, None), Column::AcrossM(0)];
         let (mut differ, mut decided) = (0, 0);
         for (drawn, asked) in sampler.rows(0..150, &columns, &|_| ()) {
             let (level, _) = one(&file, drawn[0].to_degrees(), drawn[1].to_degrees());
@@ -157,7 +160,7 @@ fn a_plate_too_soft_for_its_thickness_lands_on_its_bottom() {
         BOARD.replace("width = ", "thickness = \"2 mm\"\nwidth = ").replace("restitution = 0.4", "restitution = 0.2");
     let file = file(&text.replace("extent = [\"30 mm\", \"20 mm\"]\n", ""));
     let (thin_m, high_m) = (0.002, 0.042);
-    let columns = [Column::TiltDeg, Column::DirectionDeg, Column::AcrossM(0)];
+    let columns = [Column::Drop(Input::Tilt, None), Column::Drop(Input::Direction, None), Column::AcrossM(0)];
     let limits = Limit::of(&file.components[0]);
     for (drawn, asked) in Sampler::new(&file, settings(1)).unwrap().rows(0..12, &columns, &|_| ()) {
         let drop = Drop { restitution: 0.2, ..one(&file, drawn[0].to_degrees(), drawn[1].to_degrees()).0 };
@@ -187,7 +190,7 @@ fn a_plate_too_soft_for_its_thickness_lands_on_its_bottom() {
 fn a_direction_of_the_file_is_drawn() {
     let text = BOARD.replace("tilt = {", "direction = { uniform = [\"100 deg\", \"120 deg\"] }\ntilt = {");
     let (columns, rows) = values(&file(&text), 20);
-    assert_eq!(columns[0], Column::DirectionDeg);
+    assert_eq!(columns[0], Column::Drop(Input::Direction, None));
     assert!(rows.iter().all(|row| (100.0..=120.0).contains(&row[0])), "{rows:?}");
     let fixed = text.replace("{ uniform = [\"100 deg\", \"120 deg\"] }", "\"100 deg\"");
     let (_, fixed) = values(&file(&fixed), 20);

@@ -2,9 +2,11 @@
 
 use crate::random::Random;
 use clatter_assess::scatter::{
-    Column, Input, Probability, Progress, Sampler, Scatter, Settings, clopper_pearson, extremes,
+    Column, Probability, Progress, Sampler, Scatter, Settings, Varied, clopper_pearson, extremes,
 };
-use clatter_assess::{Answer, Drop, Limit, LimitKind, Model, Mount, Part, ProductFile, STANDARD_GRAVITY_M_S2, answer};
+use clatter_assess::{
+    Answer, Drop, Input, Limit, LimitKind, Model, Mount, Part, ProductFile, STANDARD_GRAVITY_M_S2, answer,
+};
 
 fn product(product: &str, drop: &str, parts: &str) -> ProductFile {
     let text = format!(
@@ -84,14 +86,14 @@ fn what_drives_a_part_is_found() {
     let (file, _) = known();
     let part = &draw(&file, settings(7000, 1)).components[0];
     let driver = &part.drivers[0];
-    assert_eq!(driver.input, Input::Speed);
+    assert_eq!(driver.input, Varied::Drop(Input::Speed, None));
     // bins of 1/32 lose 0.1 %
     assert!(driver.share.variance > 0.995 && driver.share.trend > 0.99, "{driver:?}");
     assert!(part.drivers[1..].iter().all(|other| other.share.variance < 0.01), "{:?}", part.drivers);
 }
 
 /// Half of the samples survive where the median of the one input that varies just does.
-fn half_survives(body: &str, drop: &str, part: &str, by: Input) {
+fn half_survives(body: &str, drop: &str, part: &str, by: Varied) {
     let file = product(body, drop, part);
     let scatter = draw(&file, settings(4000, 3));
     let found = &scatter.components[0];
@@ -109,7 +111,7 @@ fn half_survives(body: &str, drop: &str, part: &str, by: Input) {
 fn what_a_part_stands_where_it_is_and_how_it_is_damped_may_vary() {
     let drop = format!("speed = \"4 m/s\"\ntilt = \"0.05 deg\"\n{FREE}");
     let half = |part: &str, by| half_survives(DUMBBELL, &drop, part, by);
-    let limit = |kind| Input::Limit(0, kind);
+    let limit = |kind| Varied::Limit(0, kind);
     let hard = "position = \"-70 mm\"\nmount = \"hard\"\n";
     let even = "{ uniform = [\"2.5 m/s\", \"7.5 m/s\"] }";
     half(&format!("{hard}velocity_change_limit = {even}"), limit(LimitKind::VelocityChange));
@@ -122,16 +124,16 @@ fn what_a_part_stands_where_it_is_and_how_it_is_damped_may_vary() {
     // (1 + |s|)/2 of 5 m/s stays below 3.75 m/s for |s| < 1/2.
     let anywhere =
         "position = { uniform = [\"-70 mm\", \"70 mm\"] }\nmount = \"hard\"\nvelocity_change_limit = \"3.75 m/s\"";
-    half(anywhere, Input::Position(0));
+    half(anywhere, Varied::Position(0));
     // One velocity shock at end a: ωz = Δv e^(−ζ acos(ζ)/√(1−ζ²)), below the limit where ζ is above its median, 0.2.
     let omega = std::f64::consts::TAU * 100.0;
     let peak = |zeta: f64| 5.0 / omega * (-zeta / (1.0 - zeta * zeta).sqrt() * zeta.acos()).exp();
     let soft = "position = \"-70 mm\"\nnatural_frequency = \"100 Hz\"\n";
     let space = format!("rattle_space = \"{} m\"", peak(0.2));
-    half(&format!("{soft}damping_ratio = {{ uniform = [0.1, 0.3] }}\n{space}"), Input::Damping(0));
+    half(&format!("{soft}damping_ratio = {{ uniform = [0.1, 0.3] }}\n{space}"), Varied::Damping(0));
     // In between quality factors of 2 and 4, 3 is the median.
     let space = format!("rattle_space = \"{} m\"", peak(1.0 / 6.0));
-    half(&format!("{soft}quality_factor = {{ uniform = [2, 4] }}\n{space}"), Input::Damping(0));
+    half(&format!("{soft}quality_factor = {{ uniform = [2, 4] }}\n{space}"), Varied::Damping(0));
     let range = format!("{{ uniform = [\"{} m\", \"{} m\"] }}", 0.5 * peak(0.2), 1.5 * peak(0.2));
     half(&format!("{soft}damping_ratio = 0.2\nrattle_space = {range}"), limit(LimitKind::RattleSpace));
 }
@@ -147,17 +149,17 @@ fn the_contact_time_may_vary() {
     let at = |tau: f64| std::f64::consts::FRAC_PI_2 * 5.0 / tau;
     let contact = "{ uniform = [\"0.2 ms\", \"0.4 ms\"] }";
     let (body, part) = file(contact, &format!("acceleration_limit = \"{} m/s2\"", at(0.3e-3)));
-    half_survives(&body, &drop, &part, Input::ContactTime);
+    half_survives(&body, &drop, &part, Varied::Drop(Input::ContactTime, None));
     let range =
         format!("acceleration_limit = {{ uniform = [\"{} m/s2\", \"{} m/s2\"] }}", 0.5 * at(0.3e-3), 1.5 * at(0.3e-3));
     let (body, part) = file("\"0.3 ms\"", &range);
-    half_survives(&body, &drop, &part, Input::Limit(0, LimitKind::Acceleration));
+    half_survives(&body, &drop, &part, Varied::Limit(0, LimitKind::Acceleration));
     let critical = format!("{{ uniform = [\"{} m/s2\", \"{} m/s2\"] }}", 0.5 * at(0.3e-3), 1.5 * at(0.3e-3));
     let (body, part) = file(
         "\"0.3 ms\"",
         &format!("damage_boundary = {{ velocity_change = \"0.1 m/s\", acceleration = {critical} }}"),
     );
-    half_survives(&body, &drop, &part, Input::CriticalAcceleration(0));
+    half_survives(&body, &drop, &part, Varied::CriticalAcceleration(0));
 }
 
 /// Without gravity the second strike asks most of the middle, (1 − q)/2 (1 + e)(1 + q (1 + e)) v0: the more, the larger the radius
@@ -171,7 +173,7 @@ fn the_radius_of_gyration_may_vary() {
     let body = "radius_of_gyration = { uniform = [\"25 mm\", \"50 mm\"] }\nrestitution = 0.25";
     let drop = format!("speed = \"4 m/s\"\ntilt = \"0.05 deg\"\n{FREE}");
     let part = format!("position = \"0 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"{} m/s\"", at(37.5));
-    half_survives(body, &drop, &part, Input::Gyration);
+    half_survives(body, &drop, &part, Varied::Drop(Input::Gyration, None));
 }
 
 const SPREAD: &str = "height = { normal = [\"1 m\", \"0.2 m\"], range = [\"0.5 m\", \"1.5 m\"] }\n\
@@ -218,12 +220,12 @@ fn answers(file: &ProductFile, columns: &[Column], row: &[f64]) -> Vec<(LimitKin
     let drop = Drop {
         direction_rad: Drop::towards(if row[0] < 0.5 { clatter::End::A } else { clatter::End::B }),
         gravity_m_s2: STANDARD_GRAVITY_M_S2,
-        contact_time_s: value(Column::ContactTimeS),
+        contact_time_s: value(Column::Drop(Input::ContactTime, None)),
         ..Drop::new(
             file.product.body,
-            value(Column::SpeedMS).unwrap(),
-            value(Column::TiltDeg).unwrap().to_radians(),
-            value(Column::Restitution).unwrap(),
+            value(Column::Drop(Input::Speed, None)).unwrap(),
+            value(Column::Drop(Input::Tilt, None)).unwrap(),
+            value(Column::Drop(Input::Restitution, None)).unwrap(),
         )
     };
     let component = &file.components[0];

@@ -2,7 +2,7 @@
 
 use clatter_assess::design::{Bounds, Lever, Outcome};
 use clatter_assess::scatter::{Column, Progress, Sampler, Settings};
-use clatter_assess::{DropName, Error, LimitAssessment, ProductFile, Spread, Verdict};
+use clatter_assess::{DropName, Error, Input, LimitAssessment, ProductFile, Spread, Verdict};
 
 const BAR: &str = r#"
 product = { name = "terminal", length = "140 mm", radius_of_gyration = "38 mm", restitution = [0.25, 0.4], contact_time = "0.4 ms" }
@@ -106,10 +106,15 @@ fn a_sample_goes_through_all_drops() {
         }
     }
     // Drop 1 has end a first, and no spin.
-    assert!(!columns.contains(&Column::LandingFirst(0)) && !columns.contains(&Column::LandingSpinRadS(0)));
-    let (second, third) = (of(Column::LandingFirst(1)), of(Column::LandingFirst(2)));
-    let (tilts, spins) = (of(Column::LandingTiltDeg(1)), of(Column::LandingSpinRadS(1)));
-    for (a, b) in [(&second, &third), (&tilts, &spins), (&second, &tilts), (&of(Column::LandingTiltDeg(0)), &tilts)] {
+    assert!(
+        !columns.contains(&Column::Drop(Input::First, Some(0)))
+            && !columns.contains(&Column::Drop(Input::Spin, Some(0)))
+    );
+    let (second, third) = (of(Column::Drop(Input::First, Some(1))), of(Column::Drop(Input::First, Some(2))));
+    let (tilts, spins) = (of(Column::Drop(Input::Tilt, Some(1))), of(Column::Drop(Input::Spin, Some(1))));
+    for (a, b) in
+        [(&second, &third), (&tilts, &spins), (&second, &tilts), (&of(Column::Drop(Input::Tilt, Some(0))), &tilts)]
+    {
         #[expect(clippy::cast_precision_loss, reason = "a count")]
         let n = a.len() as f64;
         let mean = |x: &[f64]| x.iter().sum::<f64>() / n;
@@ -118,7 +123,7 @@ fn a_sample_goes_through_all_drops() {
         let correlation = of(a, ma, b, mb) / (of(a, ma, a, ma) * of(b, mb, b, mb)).sqrt();
         assert!(correlation.abs() < 4.0 / n.sqrt(), "{correlation}");
     }
-    assert!(of(Column::LandingSpeedMS(2)).iter().all(|speed| speed.to_bits() == 3_f64.to_bits()));
+    assert!(of(Column::Drop(Input::Speed, Some(2))).iter().all(|speed| speed.to_bits() == 3_f64.to_bits()));
 }
 
 /// A drop that another one exceeds everywhere changes nothing that a page shows: safe places, curves and changes are those of the harder one.

@@ -2,7 +2,9 @@
 
 use clatter::{Bar, End, Start};
 use clatter_assess::scatter::{Column, Progress, Sampler, Settings};
-use clatter_assess::{Body, Drop, Error, Limit, LimitKind, Model, Part, Place, ProductFile, Side, Verdict, answer};
+use clatter_assess::{
+    Body, Drop, Error, Input, Limit, LimitKind, Model, Part, Place, ProductFile, Side, Verdict, answer,
+};
 
 use crate::random::Random;
 
@@ -244,7 +246,7 @@ fn samples_draw_the_spin() {
             let n = columns.iter().position(|column| *column == of);
             n.map(|n| all.chunks(columns.len()).map(|row| row[n]).collect::<Vec<f64>>())
         };
-        [Column::SpinRadS, Column::SpeedMS, Column::TiltDeg].map(column)
+        [Column::Drop(Input::Spin, None), Column::Drop(Input::Speed, None), Column::Drop(Input::Tilt, None)].map(column)
     };
     let [[none, speed, tilt], [spin, same_speed, same_tilt]] =
         ["", ", spin = { uniform = [\"-5 rad/s\", \"15 rad/s\"] }"].map(rows);

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter_answer::scatter::Answer;
+use clatter_assess::Input;
 use clatter_assess::ProductFile;
 use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings};
 use clatter_assess::units::Quantity;
@@ -161,25 +162,14 @@ impl Args {
 fn title(file: &ProductFile, column: Column) -> String {
     let there = |what: &str, n: usize| format!("{what} {}", file.drop_names()[n].there());
     match column {
-        Column::First => "first".to_owned(),
-        Column::DirectionDeg => "direction_deg".to_owned(),
-        Column::SpeedMS => "speed_m_s".to_owned(),
-        Column::TiltDeg => "tilt_deg".to_owned(),
-        Column::SpinRadS => "spin_rad_s".to_owned(),
-        Column::Restitution => "restitution".to_owned(),
-        Column::ContactTimeS => "contact_time_s".to_owned(),
-        Column::GyrationM => "gyration_m".to_owned(),
+        Column::Drop(input, None) => input.title(),
+        Column::Drop(input, Some(n)) => there(&input.title(), n),
         Column::FrequencyHz(i) => format!("frequency_hz of {}", name_of(file, i)),
         Column::DampingRatio(i) => format!("damping_ratio of {}", name_of(file, i)),
         Column::PositionM(i) => format!("position_m of {}", name_of(file, i)),
         Column::AcrossM(i) => format!("position_across_m of {}", name_of(file, i)),
         Column::Limit(i, kind) => format!("{} limit of {}", kind.name(), name_of(file, i)),
         Column::CriticalAccelerationMS2(i) => format!("critical_acceleration_m_s2 of {}", name_of(file, i)),
-        Column::LandingFirst(n) => there("first", n),
-        Column::LandingSpeedMS(n) => there("speed_m_s", n),
-        Column::LandingTiltDeg(n) => there("tilt_deg", n),
-        Column::LandingSpinRadS(n) => there("spin_rad_s", n),
-        Column::LandingDirectionDeg(n) => there("direction_deg", n),
         Column::LandingUtilization(n, i) => there(&format!("utilization of {}", name_of(file, i)), n),
         Column::Utilization(i) => format!("utilization of {}", name_of(file, i)),
         _ => "value".to_owned(),
@@ -200,9 +190,10 @@ fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, counted: &C
             write!(out, "{sample}")?;
             for (column, value) in columns.iter().zip(row) {
                 match column {
-                    Column::First => write!(out, ",{}", if *value < 0.5 { "a" } else { "b" })?,
+                    Column::Drop(Input::First, None) => write!(out, ",{}", if *value < 0.5 { "a" } else { "b" })?,
                     // no answer
                     _ if value.is_nan() => write!(out, ",")?,
+                    Column::Drop(input, _) if input.is_angle() => write!(out, ",{}", digits(value.to_degrees()))?,
                     _ => write!(out, ",{}", digits(*value))?,
                 }
             }

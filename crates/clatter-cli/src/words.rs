@@ -69,7 +69,8 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
         Axis::Any => ", along the blow".to_owned(),
         axis => format!(", along {}", axis.name()),
     });
-    let spin = worst.spin_rad_s().map_or(String::new(), |spin| format!(", turning at {} rad/s", four(spin)));
+    let optional = worst.optional().map(|(row, optional, x)| format!(", {} {} {}", optional.phrase, four(x), row.unit));
+    let optional: String = optional.collect();
     let own = worst.drop.own_contacts.told(worst.drop.restitution, worst.drop.contact_time_s);
     let one = |(at, e, time_s): (&str, f64, Option<f64>)| {
         format!(", at {at} e {} and {} ms", four(e), four(1e3 * time_s.unwrap_or(0.0)))
@@ -77,7 +78,7 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     let own: String = own.map(one).collect();
     let number = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!("drop {n}, "));
     format!(
-        "{number}{lands}, {} m/s{spin}, e {}{contact}{own}{gyration}; at {place} mm{axis}{part}",
+        "{number}{lands}, {} m/s{optional}, e {}{contact}{own}{gyration}; at {place} mm{axis}{part}",
         four(worst.drop.speed_m_s),
         four(worst.drop.restitution),
     )

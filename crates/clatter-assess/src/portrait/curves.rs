@@ -3,10 +3,10 @@
 use clatter::End;
 
 use super::Point;
-use super::drops::{Drops, Inputs, Places, Tilt, along, corners, parts};
+use super::drops::{Drops, Places, Tilt, along, corners, held, parts, with};
 use crate::search::Ranges;
 use crate::{Component, Limit, LimitAssessment, WorstCase};
-use clatter_flight::{Drop, Until};
+use clatter_flight::Until;
 
 /// A curve for each end that may touch first: at each tilt the drop that asks most of those followed. These are the `shared` ones, at
 /// the ends of the ranges, and those with the speed, spin, restitution and contact time of the worst case; the worst case is one of the
@@ -21,8 +21,7 @@ pub(super) fn over_tilt(
     let Some(asked) = Limit::of(component).into_iter().find(|l| l.kind == limit.limit) else { return Vec::new() };
     let Some(worst) = &limit.worst_case else { return Vec::new() };
     let corners = corners(ranges);
-    let Drop { speed_m_s, spin_rad_s, restitution, contact_time_s, .. } = worst.drop;
-    let own: Inputs = (speed_m_s, spin_rad_s, restitution, contact_time_s);
+    let own = with(ranges, held().filter_map(|row| Some((row, row.input.value(&worst.drop)?))));
     // At the tilt of the worst case all of them, at the others what is not shared.
     let here = if worst.drop.is_flat { Vec::new() } else { vec![(worst.drop.tilt_rad, true)] };
     let at_worst = Drops::new(ranges, &here, &corners, until);

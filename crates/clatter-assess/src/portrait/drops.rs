@@ -6,6 +6,7 @@ use clatter_shock::{DampingRatio, Suspension};
 
 use crate::Model;
 use crate::engine::PlaceHistory;
+use crate::inputs::{Input, Row, searched};
 use crate::model::follow;
 use crate::search::Ranges;
 use crate::{Component, Limit, Mount, Part, WorstCase};
@@ -17,9 +18,6 @@ const STEPS: u32 = 40;
 /// A tilt in rad, and whether places count with it: of the tilts of a range every second one, and of one stated tilt, whose
 /// neighbors the curves show as well, itself.
 pub(super) type Tilt = (f64, bool);
-
-/// Speed, spin, restitution and, where it is known, contact time of a drop.
-pub(super) type Inputs = (f64, f64, f64, Option<f64>);
 
 /// Drops, followed as they are asked for.
 pub(super) struct Drops {
@@ -48,7 +46,7 @@ pub(super) struct View {
 
 impl Drops {
     /// Drops at these tilts with either end first, of each of these inputs, by the contact law of the ranges.
-    pub(super) fn new(ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Inputs], until: Until) -> Self {
+    pub(super) fn new(ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Drop], until: Until) -> Self {
         let Ranges { model, tolerance, .. } = *ranges;
         let mut drops = Self { model, tolerance: tolerance.max(0.02), until, all: Vec::new() };
         drops.extend(0, ranges, tilts, inputs);
@@ -68,20 +66,12 @@ impl Drops {
         Some(drops)
     }
 
-    fn extend(&mut self, listed: usize, ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Inputs]) {
+    fn extend(&mut self, listed: usize, ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Drop]) {
         let turns = ranges.turns();
         for &first in ranges.firsts() {
             for &tilt in tilts {
-                for &(speed_m_s, spin_rad_s, restitution, contact_time_s) in inputs {
-                    let drop = Drop {
-                        direction_rad: Drop::towards(first),
-                        spin_rad_s,
-                        gravity_m_s2: ranges.drop.gravity_m_s2,
-                        contact_time_s,
-                        contact_law: ranges.law,
-                        own_contacts: ranges.product.own_contacts,
-                        ..Drop::new(ranges.product.body, speed_m_s, tilt.0, restitution)
-                    };
+                for inputs in inputs {
+                    let drop = Drop { direction_rad: Drop::towards(first), tilt_rad: tilt.0, ..*inputs };
                     let drop = Drop { is_flat: drop.lands_as_one(ranges.merge_s), ..drop };
                     self.all.push(Kept { drop, listed, turns, tilt, followed: OnceLock::new() });
                 }
@@ -232,17 +222,41 @@ pub(super) fn along(component: &Component) -> Vec<f64> {
     component.places_m().into_iter().map(|[x, _]| x).collect()
 }
 
-/// The highest speed with the ends of the ranges of spin, restitution and contact time.
-pub(super) fn corners(ranges: &Ranges<'_>) -> Vec<Inputs> {
+/// A drop of the ranges with these inputs, lying, of the product's own body.
+pub(super) fn with(ranges: &Ranges<'_>, inputs: impl IntoIterator<Item = (&'static Row, f64)>) -> Drop {
+    let mut drop = Drop {
+        gravity_m_s2: ranges.drop.gravity_m_s2,
+        contact_law: ranges.law,
+        own_contacts: ranges.product.own_contacts,
+        ..Drop::new(ranges.product.body, 0.0, 0.0, 0.0)
+    };
+    for (row, value) in inputs {
+        if let Some(set) = row.set {
+            set(&mut drop, value);
+        }
+    }
+    drop
+}
+
+/// Inputs that curves hold, besides the tilt.
+pub(super) fn held() -> impl Iterator<Item = &'static Row> {
+    searched().map(|(row, _)| row).filter(|row| !matches!(row.input, Input::Tilt | Input::Gyration))
+}
+
+/// The highest speed with the ends of the ranges of all that lines of drops go through.
+pub(super) fn corners(ranges: &Ranges<'_>) -> Vec<Drop> {
     let [_, fast] = ranges.drop.speeds_m_s();
-    let ends =
-        |spread: &crate::Spread| if spread.is_value() { vec![spread.lo()] } else { vec![spread.hi(), spread.lo()] };
-    let times: Vec<Option<f64>> =
-        ranges.product.contact_time_s.as_ref().map_or(vec![None], |time| ends(time).into_iter().map(Some).collect());
-    let of = |(spin, e)| times.iter().map(move |time| (fast, spin, e, *time));
-    let restitutions = ends(&ranges.product.restitution);
-    let spins = ends(&ranges.drop.spin_rad_s);
-    spins.into_iter().flat_map(|spin| restitutions.iter().map(move |e| (spin, *e))).flat_map(of).collect()
+    let mut all = vec![vec![(Input::Speed.row(), fast)]];
+    for row in held().filter(|row| row.input != Input::Speed) {
+        let Some([lo, hi]) = row.input.range(ranges.product, ranges.drop) else { continue };
+        let ends = if lo < hi { vec![hi, lo] } else { vec![lo] };
+        let with = |one: &Vec<(&'static Row, f64)>| {
+            let one = one.clone();
+            ends.clone().into_iter().map(move |end| one.iter().copied().chain([(row, end)]).collect())
+        };
+        all = all.iter().flat_map(with).collect();
+    }
+    all.into_iter().map(|inputs| with(ranges, inputs)).collect()
 }
 
 /// The parts that a limit is asked of: of a response those at the ends of the range of natural frequencies with the least damping, and

@@ -6,6 +6,7 @@ use clatter_flight::Feet;
 use super::{Reader, Section, shown};
 use crate::check::{FLAT, STEEPEST_RAD, spin_down};
 use crate::data_fault::out_of_range;
+use crate::inputs::optional_inputs;
 use crate::keys;
 use crate::standard;
 use crate::{Attitude, DataFault, DropName, DropRanges, Fall, First, Landing, Law, Product, Spread};
@@ -188,7 +189,9 @@ impl Reader {
             let message = out_of_range("tilt", format!("{degrees} deg"));
             self.fault(tilt.span.clone(), message, keys::allowed(FLAT), help);
         }
-        let spin = self.spread(section, "spin");
+        let optional: Vec<_> = optional_inputs()
+            .filter_map(|(row, optional)| Some((optional.put, self.spread(section, row.key.1)?)))
+            .collect();
         let first = self.choice(section, "first");
         if let (true, false, Some((key, _))) =
             (self.is_box, section.table.contains_key("tilt"), section.table.get_key_value("direction"))
@@ -235,7 +238,11 @@ impl Reader {
             (None, speed) => Fall::SpeedMS(speed?.value),
         };
         let tilt_rad = if self.is_box { Spread::finite(0.0) } else { tilt?.value };
-        let spin_rad_s = spin.map_or(Spread::finite(0.0), |spin| spin.value);
-        Some(DropRanges { fall, tilt_rad, spin_rad_s, first, direction_rad: direction.map(|d| d.value), gravity_m_s2 })
+        let direction_rad = direction.map(|direction| direction.value);
+        let mut drop = DropRanges { first, direction_rad, gravity_m_s2, ..DropRanges::new(fall, tilt_rad) };
+        for (put, given) in optional {
+            put(&mut drop, given.value);
+        }
+        Some(drop)
     }
 }

@@ -9,6 +9,7 @@ use super::full::{self, FollowedDrops, LEAST};
 use super::philox::Stream;
 use super::sample::{PartSample, Sample};
 use super::{Error, SampleDemand, cheap};
+use crate::inputs::{Input, searched};
 use crate::verdict::MERGE_S;
 use crate::{Component, Drop, Limit, Model, Mount, ProductFile, Spread};
 
@@ -156,30 +157,39 @@ impl Corners {
             of_one
         };
         let of_each: Vec<Vec<PartSample>> = parts.iter().map(each).collect();
-        let times =
-            product.contact_time_s.as_ref().map_or(vec![None], |time| two(time).into_iter().map(Some).collect());
         let mut drops = Vec::new();
         for drop in file.drops() {
             let [slowest, fastest] = drop.speeds_m_s();
             let speeds = if slow && slowest < fastest { vec![fastest, slowest] } else { vec![fastest] };
-            let spins = two(&drop.spin_rad_s);
             let steps = if drop.tilt_rad.is_value() { 0 } else { tilts - 1 };
+            // At the ends of the ranges of all that lines of drops go through, but for what is given.
+            let mut ends = vec![Drop {
+                gravity_m_s2: drop.gravity_m_s2,
+                contact_law: product.law(),
+                own_contacts: product.own_contacts,
+                ..Drop::new(product.body, fastest, 0.0, 0.0)
+            }];
+            for (row, _) in searched().filter(|(_, search)| search.line.is_some()) {
+                let (Some(given), Some(set)) = (row.input.given(product, &drop), row.set) else { continue };
+                if matches!(row.input, Input::Restitution | Input::Gyration) {
+                    continue;
+                }
+                let with = |one: &Drop| {
+                    let one = *one;
+                    two(&given).into_iter().map(move |end| {
+                        let mut with = one;
+                        set(&mut with, end);
+                        with
+                    })
+                };
+                ends = ends.iter().flat_map(with).collect();
+            }
             for &first in if turns { &[End::A][..] } else { drop.first_ends() } {
                 for &speed_m_s in &speeds {
-                    for (&contact_time_s, &spin_rad_s) in
-                        times.iter().flat_map(|time| spins.iter().map(move |spin| (time, spin)))
-                    {
+                    for one in &ends {
                         drops.extend((0..=steps).map(|k| {
                             let tilt_rad = drop.tilt_rad.at(f64::from(k) / f64::from(steps.max(1)));
-                            Drop {
-                                direction_rad: Drop::towards(first),
-                                spin_rad_s,
-                                gravity_m_s2: drop.gravity_m_s2,
-                                contact_time_s,
-                                contact_law: product.law(),
-                                own_contacts: product.own_contacts,
-                                ..Drop::new(product.body, speed_m_s, tilt_rad, 0.0)
-                            }
+                            Drop { direction_rad: Drop::towards(first), tilt_rad, speed_m_s, ..*one }
                         }));
                         let least = drops.len() - 1 - steps as usize;
                         let flat: Option<Drop> = drops.get(least).filter(|drop| drop.lands_as_one(MERGE_S)).copied();

@@ -32,36 +32,6 @@ pub struct LandingComponent {
     pub largest_utilization: Option<f64>,
 }
 
-/// What is drawn anew for each drop of a list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OfLanding {
-    /// Its height.
-    Height,
-    /// Its speed at the first touch.
-    Speed,
-    /// Its tilt; how far a box is turned off what it lands on: every attitude within the tolerance is as likely.
-    Tilt,
-    /// Towards where it is turned.
-    Direction,
-    /// How fast it turns as it touches.
-    Spin,
-    /// Which end of a bar is first.
-    First,
-}
-
-impl OfLanding {
-    /// Height and speed are one number, as of any drop.
-    pub(super) fn number(self) -> u32 {
-        match self {
-            Self::Height | Self::Speed => 0,
-            Self::Tilt => 1,
-            Self::Direction => 2,
-            Self::Spin => 3,
-            Self::First => 4,
-        }
-    }
-}
-
 /// What a sequence of drops asks of a part, and a drop of all parts together: as much as the one that asks most. Where one of them is not
 /// answered, neither are all, unless another has failed for sure.
 pub(super) fn sequence<'a>(each: impl IntoIterator<Item = &'a OfPart>) -> OfPart {

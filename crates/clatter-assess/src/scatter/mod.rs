@@ -47,7 +47,7 @@ mod tally;
 
 use rayon::prelude::*;
 
-use crate::{Component, DropName, LimitKind, Model, ProductFile};
+use crate::{Component, DropName, Input, LimitKind, Model, ProductFile};
 use landing::sequence;
 use sample::{Inputs, Sample};
 use tally::Block;
@@ -55,9 +55,9 @@ use tally::Block;
 pub use binomial::{Probability, clopper_pearson};
 pub use drivers::Share;
 pub use extremes::{Extremes, extremes};
-pub use landing::{LandingComponent, LandingScatter, OfLanding};
+pub use landing::{LandingComponent, LandingScatter};
 pub use rows::{PartRow, Recount};
-pub use sample::Input;
+pub use sample::Varied;
 
 /// Why nothing can be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -120,9 +120,9 @@ pub struct Scatter {
     /// How a plate is followed; none of a bar, and of a box that lands on anything.
     pub plate: Option<PlateAs>,
     /// The inputs that vary; without any, all samples are one.
-    pub inputs: Vec<Input>,
+    pub inputs: Vec<Varied>,
     /// Inputs given as a range with no distribution, taken as equally likely all over it.
-    pub assumed_even: Vec<Input>,
+    pub assumed_even: Vec<Varied>,
     /// Probability that every component survives; `at_least` is what a target is held against.
     pub survival: Probability,
     /// Samples in which a component was not answered. They count as failures, except for the upper ends of intervals.
@@ -184,7 +184,7 @@ pub struct ComponentScatter {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Driver {
     /// Which.
-    pub input: Input,
+    pub input: Varied,
     /// Its share of the variance and its trend.
     pub share: Share,
 }
@@ -202,22 +202,9 @@ pub struct Progress<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Column {
-    /// 0: end a touches first; 1: end b.
-    First,
-    /// Where a plate rises to from its lowest corner, in degrees from its length towards its width.
-    DirectionDeg,
-    /// Speed at the first touch, in m/s.
-    SpeedMS,
-    /// Tilt in degrees.
-    TiltDeg,
-    /// Angular velocity at the first touch, in rad/s, of a drop that may turn.
-    SpinRadS,
-    /// Coefficient of restitution.
-    Restitution,
-    /// Contact time in s, of a product that has one.
-    ContactTimeS,
-    /// Radius of gyration of the product, in m.
-    GyrationM,
+    /// An input of the drop in SI, an end that touches first as 0 for a and 1 for b; where each of several drops has its own, that of this
+    /// one by its order in the file.
+    Drop(Input, Option<usize>),
     /// Natural frequency of a part on a suspension, in Hz.
     FrequencyHz(usize),
     /// Damping ratio of a part, where it varies.
@@ -226,16 +213,6 @@ pub enum Column {
     PositionM(usize),
     /// Where it is across a plate, in m, where it varies.
     AcrossM(usize),
-    /// In one of several drops, which end touches first, as [`First`](Self::First); drops by their order in the file.
-    LandingFirst(usize),
-    /// Speed at the first touch there, in m/s.
-    LandingSpeedMS(usize),
-    /// Its tilt there, in degrees; how far a box is turned off what it lands on.
-    LandingTiltDeg(usize),
-    /// Towards where, in degrees.
-    LandingDirectionDeg(usize),
-    /// Angular velocity at the first touch there, in rad/s, of a drop that may turn.
-    LandingSpinRadS(usize),
     /// A limit of a part in the unit of its kind, where it varies.
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part in m/s², where it varies.

@@ -48,7 +48,7 @@ impl Sampler {
     /// Whether it differs from sample to sample.
     #[must_use]
     pub fn varies(&self, column: Column) -> bool {
-        self.inputs.varied.iter().any(|input| input.is_in(column))
+        self.inputs.varied.iter().any(|input| input.column() == column)
     }
 
     /// These quantities of a sample in SI, angles in rad too.
@@ -56,7 +56,7 @@ impl Sampler {
     pub fn drawn(&self, sample: u64, columns: &[Column]) -> Vec<f64> {
         let mut drawn = self.inputs.blank();
         let _ = self.inputs.draw(self.settings.seed, sample, &mut drawn); // what it may not draw has no value
-        columns.iter().map(|column| in_si(&drawn, *column)).collect()
+        columns.iter().map(|column| drawn.value(*column)).collect()
     }
 
     /// Draws samples on the threads of the current pool, and gives these quantities of each in SI, angles in rad too,
@@ -81,7 +81,7 @@ impl Sampler {
                     sample = self.inputs.blank();
                     let _ = self.inputs.draw(self.settings.seed, k, &mut sample);
                 }
-                let values = columns.iter().map(|column| in_si(&sample, *column)).collect();
+                let values = columns.iter().map(|column| sample.value(*column)).collect();
                 let asked = answers.parts.iter().chain(answers.landings.iter().flatten());
                 (values, asked.map(|asked| asked.as_ref().ok().map(PartRow::new)).collect())
             };
@@ -90,17 +90,6 @@ impl Sampler {
             rows
         };
         (0..pieces).into_par_iter().flat_map_iter(piece).collect()
-    }
-}
-
-/// A quantity of a sample in SI.
-fn in_si(sample: &Sample, column: Column) -> f64 {
-    match column {
-        Column::TiltDeg => sample.drops[0].tilt_rad,
-        Column::DirectionDeg => sample.drops[0].direction_rad,
-        Column::LandingTiltDeg(n) => sample.drops[n].tilt_rad,
-        Column::LandingDirectionDeg(n) => sample.drops[n].direction_rad,
-        other => sample.value(other),
     }
 }
 

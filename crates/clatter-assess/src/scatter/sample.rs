@@ -7,37 +7,21 @@ use clatter_flight::{Drop, Place};
 use clatter_shock::Suspension;
 
 use super::draw::Quantile;
-use super::landing::OfLanding;
 use super::philox::Stream;
 use super::{Column, Error, PlateAs};
 use crate::assess::Listed;
 use crate::attitude::Base;
 use crate::component::places;
+use crate::inputs::INPUTS;
 use crate::quantity::Source;
-use crate::{Component, Damping, Fall, Inside, Law, Limit, LimitKind, Mount, ProductFile, Spread};
+use crate::{Component, Damping, Input, Inside, Law, Limit, LimitKind, Mount, Product, ProductFile, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Input {
-    /// Which end touches first: either is as likely.
-    First,
-    /// Where a plate rises to from its lowest corner: every direction is as likely unless the file has some.
-    Direction,
-    /// Height of the drop.
-    Height,
-    /// Speed at the first touch.
-    Speed,
-    /// Tilt at the first touch.
-    Tilt,
-    /// Angular velocity at the first touch.
-    Spin,
-    /// Coefficient of restitution.
-    Restitution,
-    /// How long a lone contact takes.
-    ContactTime,
-    /// Radius of gyration of the product.
-    Gyration,
+pub enum Varied {
+    /// An input of the drop; where each of several drops has its own, that of this one by its order in the file.
+    Drop(Input, Option<usize>),
     /// Natural frequency of a part.
     Frequency(usize),
     /// Damping ratio or quality factor of a part, whichever the file gives.
@@ -50,25 +34,15 @@ pub enum Input {
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part.
     CriticalAcceleration(usize),
-    /// What one of several drops has of its own; drops by their order in the file.
-    Landing(usize, OfLanding),
 }
 
-impl Input {
-    /// `first`, `direction`, `height`, `speed`, `tilt`, `spin`, `restitution`, `contact-time`, `radius-of-gyration`, `natural-frequency`, `damping`,
-    /// `position`, `position-across`, `limit` or `critical-acceleration`.
+impl Varied {
+    /// The name of the input of the drop, or `natural-frequency`, `damping`, `position`, `position-across`, `limit` or
+    /// `critical-acceleration`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            Self::First | Self::Landing(_, OfLanding::First) => "first",
-            Self::Direction | Self::Landing(_, OfLanding::Direction) => "direction",
-            Self::Height | Self::Landing(_, OfLanding::Height) => "height",
-            Self::Speed | Self::Landing(_, OfLanding::Speed) => "speed",
-            Self::Tilt | Self::Landing(_, OfLanding::Tilt) => "tilt",
-            Self::Spin | Self::Landing(_, OfLanding::Spin) => "spin",
-            Self::Restitution => "restitution",
-            Self::ContactTime => "contact-time",
-            Self::Gyration => "radius-of-gyration",
+            Self::Drop(input, _) => input.row().name,
             Self::Frequency(_) => "natural-frequency",
             Self::Damping(_) => "damping",
             Self::Position(_) => "position",
@@ -80,7 +54,7 @@ impl Input {
     /// The drop of several that it belongs to, by its order in the file; none of what all drops share.
     #[must_use]
     pub fn landing(&self) -> Option<usize> {
-        if let Self::Landing(n, _) = self { Some(*n) } else { None }
+        if let Self::Drop(_, landing) = self { *landing } else { None }
     }
     /// The part that it belongs to, by its index in the file; none of what all parts share.
     #[must_use]
@@ -92,33 +66,19 @@ impl Input {
             | Self::Across(i)
             | Self::Limit(i, _)
             | Self::CriticalAcceleration(i) => Some(*i),
-            _ => None,
+            Self::Drop(..) => None,
         }
     }
-    /// Whether it is what a column holds.
-    pub(super) fn is_in(self, column: Column) -> bool {
+    /// The column that holds it.
+    pub(super) fn column(self) -> Column {
         match self {
-            Self::First => column == Column::First,
-            Self::Direction => column == Column::DirectionDeg,
-            Self::Height | Self::Speed => column == Column::SpeedMS,
-            Self::Tilt => column == Column::TiltDeg,
-            Self::Spin => column == Column::SpinRadS,
-            Self::Restitution => column == Column::Restitution,
-            Self::ContactTime => column == Column::ContactTimeS,
-            Self::Gyration => column == Column::GyrationM,
-            Self::Frequency(i) => column == Column::FrequencyHz(i),
-            Self::Damping(i) => column == Column::DampingRatio(i),
-            Self::Position(i) => column == Column::PositionM(i),
-            Self::Across(i) => column == Column::AcrossM(i),
-            Self::Limit(i, kind) => column == Column::Limit(i, kind),
-            Self::CriticalAcceleration(i) => column == Column::CriticalAccelerationMS2(i),
-            Self::Landing(n, of) => match of {
-                OfLanding::First => column == Column::LandingFirst(n),
-                OfLanding::Height | OfLanding::Speed => column == Column::LandingSpeedMS(n),
-                OfLanding::Tilt => column == Column::LandingTiltDeg(n),
-                OfLanding::Spin => column == Column::LandingSpinRadS(n),
-                OfLanding::Direction => column == Column::LandingDirectionDeg(n),
-            },
+            Self::Drop(input, landing) => Column::Drop(input.told(), landing),
+            Self::Frequency(i) => Column::FrequencyHz(i),
+            Self::Damping(i) => Column::DampingRatio(i),
+            Self::Position(i) => Column::PositionM(i),
+            Self::Across(i) => Column::AcrossM(i),
+            Self::Limit(i, kind) => Column::Limit(i, kind),
+            Self::CriticalAcceleration(i) => Column::CriticalAccelerationMS2(i),
         }
     }
     /// Which of the uniform numbers of a sample it is drawn from, whatever else is drawn. There is room for other inputs and kinds of
@@ -130,22 +90,15 @@ impl Input {
         const LANDINGS: u32 = 1 << 20;
         const OF_LANDING: u32 = 8;
         let own = match self {
-            Self::First => return 0,
-            Self::Height | Self::Speed => return 1,
-            Self::Tilt => return 2,
-            Self::Restitution => return 3,
-            Self::ContactTime => return 4,
-            Self::Gyration => return 5,
-            Self::Direction => return 6,
-            Self::Spin => return 7,
+            #[expect(clippy::cast_possible_truncation, reason = "a list has some tens of drops")]
+            Self::Drop(input, Some(n)) => return LANDINGS + OF_LANDING * n as u32 + input.number(true),
+            Self::Drop(input, None) => return input.number(false),
             Self::Frequency(_) => 0,
             Self::Damping(_) => 1,
             Self::Position(_) => 2,
             Self::CriticalAcceleration(_) => 3,
             Self::Across(_) => 4,
             Self::Limit(_, kind) => 8 + kind as u32,
-            #[expect(clippy::cast_possible_truncation, reason = "a list has some tens of drops")]
-            Self::Landing(n, of) => return LANDINGS + OF_LANDING * n as u32 + of.number(),
         };
         #[expect(clippy::cast_possible_truncation, reason = "a file has at most 1000 parts")]
         let component = self.component().unwrap_or_default() as u32;
@@ -171,9 +124,9 @@ impl Drawn {
 pub(super) struct Inputs {
     merge_s: f64,
     /// Those that vary.
-    pub(super) varied: Vec<Input>,
+    pub(super) varied: Vec<Varied>,
     /// Those of them that are given as a range without a distribution.
-    pub(super) assumed_even: Vec<Input>,
+    pub(super) assumed_even: Vec<Varied>,
     /// Of each part, which of those that vary act on it.
     pub(super) of_part: Vec<Vec<usize>>,
     /// How a plate is followed; none of a bar, and of a box that lands on anything.
@@ -182,9 +135,8 @@ pub(super) struct Inputs {
     drop: Drop,
     /// Whether a sample goes through the drops of a list.
     has_list: bool,
-    restitution: Drawn,
-    contact_time: Option<Drawn>,
-    gyration: Option<Drawn>,
+    /// Inputs that all drops share.
+    shared: Vec<(Input, Drawn)>,
     /// One, or those that it goes through.
     drops: Vec<DropInputs>,
     parts: Vec<PartInputs>,
@@ -198,13 +150,10 @@ struct DropInputs {
     /// Ends that may be first, and what either of them is drawn from.
     firsts: &'static [End],
     first: Option<usize>,
-    fall: Drawn,
-    is_height: bool,
-    tilt: Drawn,
+    /// Its own inputs.
+    own: Vec<(Input, Drawn)>,
     /// Of a plate and of a box.
     direction: Option<Drawn>,
-    /// None of one that does not turn.
-    spin: Option<Drawn>,
 }
 
 #[derive(Debug)]
@@ -239,6 +188,18 @@ pub(super) struct PartSample {
     pub(super) limits: Vec<Limit>,
 }
 
+impl DropInputs {
+    /// Whether it is tilted by a range of angles, or turns.
+    fn turns(&self) -> bool {
+        let varies = |(input, drawn): &(Input, Drawn)| match input {
+            Input::Tilt => drawn.input.is_some(),
+            Input::Spin => true,
+            _ => false,
+        };
+        self.own.iter().any(varies)
+    }
+}
+
 impl PartSample {
     /// Both ends along the product, or the point.
     pub(super) fn ends(&self) -> &[f64] {
@@ -255,12 +216,12 @@ impl PartSample {
 /// The inputs that vary, as they are found.
 #[derive(Debug, Default)]
 struct Finder {
-    varied: Vec<Input>,
-    assumed_even: Vec<Input>,
+    varied: Vec<Varied>,
+    assumed_even: Vec<Varied>,
 }
 
 impl Finder {
-    fn drawn(&mut self, input: Input, spread: &Spread, of: &str) -> Result<Drawn, Error> {
+    fn drawn(&mut self, input: Varied, spread: &Spread, of: &str) -> Result<Drawn, Error> {
         if spread.law() == Law::Range {
             self.assumed_even.push(input);
         }
@@ -284,48 +245,47 @@ impl Finder {
                 {
                     Suspension::from_hz(hz, damping.ratio(given)?).map_err(crate::Error::from)?;
                 }
-                let frequency = self.drawn(Input::Frequency(i), &frequency_hz, &of)?;
-                Some((frequency, self.drawn(Input::Damping(i), damping.spread(), &of)?, damping))
+                let frequency = self.drawn(Varied::Frequency(i), &frequency_hz, &of)?;
+                Some((frequency, self.drawn(Varied::Damping(i), damping.spread(), &of)?, damping))
             }
         };
-        let along = self.drawn(Input::Position(i), &component.position_m, &of)?;
-        let position = [along, self.drawn(Input::Across(i), &component.across_m, &of)?];
+        let along = self.drawn(Varied::Position(i), &component.position_m, &of)?;
+        let position = [along, self.drawn(Varied::Across(i), &component.across_m, &of)?];
         let mut limits = Vec::new();
         for kind in component.limits.kinds() {
             let Some(spread) = component.limits.get(kind) else { continue };
-            let allowed = self.drawn(Input::Limit(i, kind), spread, &of)?;
+            let allowed = self.drawn(Varied::Limit(i, kind), spread, &of)?;
             let critical = component.limits.critical_acceleration_m_s2().filter(|_| kind.source() == Source::Boundary);
             let critical =
-                critical.map(|spread| self.drawn(Input::CriticalAcceleration(i), spread, &of)).transpose()?;
+                critical.map(|spread| self.drawn(Varied::CriticalAcceleration(i), spread, &of)).transpose()?;
             limits.push((kind, allowed, critical));
         }
         let extent_m = [component.extent_m, component.extent_across_m];
         Ok(PartInputs { position, extent_m, inside: component.inside, mount, limits })
     }
 
-    /// Which end is first, height or speed, tilt and spin of a drop, where it is one of several of that.
-    fn drop(&mut self, listed: &Listed, landing: Option<usize>, is_bar: bool) -> Result<DropInputs, Error> {
+    /// Which end is first, and the inputs of a drop; of one of several, which it is.
+    fn drop(&mut self, product: &Product, listed: &Listed, landing: Option<usize>) -> Result<DropInputs, Error> {
         let Listed { drop, base } = listed;
-        let own = |of: OfLanding, other: Input| landing.map_or(other, |n| Input::Landing(n, of));
-        let firsts = drop.first_ends();
+        let (firsts, is_bar) = (drop.first_ends(), !product.body.is_wide());
         let first = (is_bar && firsts.len() > 1).then(|| {
-            self.varied.push(own(OfLanding::First, Input::First));
+            self.varied.push(Varied::Drop(Input::First, landing));
             self.varied.len() - 1
         });
-        let (fall, is_height) = match &drop.fall {
-            Fall::HeightM(height) => (self.drawn(own(OfLanding::Height, Input::Height), height, "")?, true),
-            Fall::SpeedMS(speed) => (self.drawn(own(OfLanding::Speed, Input::Speed), speed, "")?, false),
-        };
-        let mut tilt_rad = drop.tilt_rad;
-        if base.is_some() && !tilt_rad.is_value() {
-            // All attitudes within the tolerance: rings of them grow with the angle.
-            self.assumed_even.push(own(OfLanding::Tilt, Input::Tilt));
-            tilt_rad = Spread::new(tilt_rad.lo(), tilt_rad.hi(), Law::Triangular { mode: tilt_rad.hi() })?;
+        let mut own = Vec::new();
+        for row in INPUTS.iter().filter(|row| row.input.is_of_drop() && row.set.is_some()) {
+            let Some(mut given) = row.input.given(product, drop).filter(|_| row.input.is_there(product, drop)) else {
+                continue;
+            };
+            let input = Varied::Drop(row.input, landing);
+            if row.input == Input::Tilt && base.is_some() && !given.is_value() {
+                // All attitudes within the tolerance: rings of them grow with the angle.
+                self.assumed_even.push(input);
+                given = Spread::new(given.lo(), given.hi(), Law::Triangular { mode: given.hi() })?;
+            }
+            own.push((row.input, self.drawn(input, &given, "")?));
         }
-        let tilt = self.drawn(own(OfLanding::Tilt, Input::Tilt), &tilt_rad, "")?;
-        let spins = drop.may_spin();
-        let spin = spins.then(|| self.drawn(own(OfLanding::Spin, Input::Spin), &drop.spin_rad_s, "")).transpose()?;
-        Ok(DropInputs { base: *base, firsts, first, fall, is_height, tilt, direction: None, spin })
+        Ok(DropInputs { base: *base, firsts, first, own, direction: None })
     }
 }
 
@@ -342,33 +302,31 @@ impl Inputs {
         let number = |n: usize| has_list.then_some(n);
         let mut drops = Vec::with_capacity(listed.len());
         for (n, one) in listed.iter().enumerate() {
-            drops.push(finder.drop(one, number(n), is_bar)?);
+            drops.push(finder.drop(product, one, number(n))?);
         }
-        let restitution = finder.drawn(Input::Restitution, &product.restitution, "")?;
-        let contact_time =
-            product.contact_time_s.map(|time| finder.drawn(Input::ContactTime, &time, "")).transpose()?;
-        let gyration = (!product.gyration_m.is_value())
-            .then(|| finder.drawn(Input::Gyration, &product.gyration_m, ""))
-            .transpose()?;
+        let mut shared = Vec::new();
+        for row in INPUTS.iter().filter(|row| !row.input.is_of_drop()) {
+            let given = row.input.given(product, drop);
+            // The body has its own radius of gyration.
+            let varies = |given: &Spread| row.input != Input::Gyration || !given.is_value();
+            if let Some(given) = given.filter(varies) {
+                shared.push((row.input, finder.drawn(Varied::Drop(row.input, None), &given, "")?));
+            }
+        }
         let any = Spread::new(0.0, TAU, Law::Uniform)?;
         for (n, one) in drops.iter_mut().enumerate().filter(|_| !is_bar) {
-            let input = number(n).map_or(Input::Direction, |n| Input::Landing(n, OfLanding::Direction));
+            let input = Varied::Drop(Input::Direction, number(n));
             // A box that is turned off nothing, and does not turn, is turned towards nothing.
-            let any = if one.base.is_some() && one.tilt.input.is_none() && one.spin.is_none() {
-                Spread::finite(0.0)
-            } else {
-                any
-            };
+            let any = if one.base.is_some() && !one.turns() { Spread::finite(0.0) } else { any };
             one.direction = Some(finder.drawn(input, listed[n].drop.direction_rad.as_ref().unwrap_or(&any), "")?);
         }
-        let shared = finder.varied.len();
+        let of_all = finder.varied.len();
         let (mut parts, mut of_part) = (Vec::new(), Vec::new());
         for (i, component) in file.components.iter().enumerate() {
             let own = finder.varied.len();
             parts.push(finder.part(i, component)?);
-            of_part.push((0..shared).chain(own..finder.varied.len()).collect());
+            of_part.push((0..of_all).chain(own..finder.varied.len()).collect());
         }
-        let (speed_m_s, restitution_least) = (listed[0].drop.speeds_m_s()[0], product.restitution.lo());
         let same = Drop {
             is_level: listed[0].base.is_none(),
             direction_rad: Drop::towards(drop.first_ends()[0]),
@@ -376,7 +334,7 @@ impl Inputs {
             contact_time_s: product.contact_time_s.map(|time| time.lo()),
             contact_law: product.law(),
             own_contacts: product.own_contacts,
-            ..Drop::new(product.body, speed_m_s, drop.tilt_rad.lo(), restitution_least)
+            ..Drop::new(product.body, listed[0].drop.speeds_m_s()[0], drop.tilt_rad.lo(), product.restitution.lo())
         };
         let plate = (!is_bar && same.is_level).then(|| {
             same.boxed().map_or(PlateAs::Level, |boxed| PlateAs::Box {
@@ -385,20 +343,7 @@ impl Inputs {
             })
         });
         let Finder { varied, assumed_even } = finder;
-        Ok(Self {
-            merge_s,
-            varied,
-            assumed_even,
-            of_part,
-            plate,
-            drop: same,
-            has_list,
-            restitution,
-            contact_time,
-            gyration,
-            drops,
-            parts,
-        })
+        Ok(Self { merge_s, varied, assumed_even, of_part, plate, drop: same, has_list, shared, drops, parts })
     }
 
     /// A sample to draw into.
@@ -420,7 +365,7 @@ impl Inputs {
             *uniform = stream.at(input.number());
         }
         let Sample { uniforms, drops, parts } = sample;
-        self.product(uniforms, drops)?;
+        self.product(uniforms, drops);
         for (inputs, part) in self.parts.iter().zip(parts) {
             part.at_m = inputs.position.map(|position| position.at(uniforms));
             part.reaches_m = [0, 1].map(|side| {
@@ -440,7 +385,7 @@ impl Inputs {
     }
 
     /// The drops that these uniform numbers give, all of one product.
-    fn product(&self, uniforms: &[f64], drops: &mut [Drop]) -> Result<(), crate::Error> {
+    fn product(&self, uniforms: &[f64], drops: &mut [Drop]) {
         for (inputs, drop) in self.drops.iter().zip(drops) {
             if let Some(base) = &inputs.base {
                 (drop.base, drop.spin_axis) = (base.up, base.spin_axis);
@@ -450,27 +395,22 @@ impl Inputs {
                 (None, None) => Drop::towards(inputs.firsts[0]),
                 (None, Some(first)) => Drop::towards(if uniforms[first] < 0.5 { End::A } else { End::B }),
             };
-            let fall = inputs.fall.at(uniforms);
-            drop.speed_m_s = if inputs.is_height { (2.0 * drop.gravity_m_s2 * fall).sqrt() } else { fall };
-            drop.tilt_rad = inputs.tilt.at(uniforms);
-            drop.spin_rad_s = inputs.spin.as_ref().map_or(0.0, |spin| spin.at(uniforms));
-            drop.restitution = self.restitution.at(uniforms);
-            drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
-            if let Some(gyration) = &self.gyration {
-                drop.body = drop.body.with_gyration_m(gyration.at(uniforms))?;
+            for (input, drawn) in inputs.own.iter().chain(&self.shared) {
+                if let Some(set) = input.row().set {
+                    set(drop, drawn.at(uniforms));
+                }
             }
             drop.is_flat = drop.lands_as_one(self.merge_s);
         }
-        Ok(())
     }
 
     /// What a sample may be described by: all that the product has, whether it varies or not.
     pub(super) fn quantities(&self) -> Vec<Column> {
         let is_plate = self.drops[0].direction.is_some();
         let mut all = self.falls();
-        all.push(Column::Restitution);
-        all.extend(self.contact_time.map(|_| Column::ContactTimeS));
-        all.push(Column::GyrationM);
+        let has = |input: Input| input.value(&self.drop).is_some();
+        let shared = INPUTS.iter().map(|row| row.input).filter(|input| !input.is_of_drop() && has(*input));
+        all.extend(shared.map(|input| Column::Drop(input, None)));
         for (i, part) in self.parts.iter().enumerate() {
             all.extend(part.mount.map(|_| [Column::FrequencyHz(i), Column::DampingRatio(i)]).into_iter().flatten());
             all.push(Column::PositionM(i));
@@ -489,36 +429,37 @@ impl Inputs {
 
     /// How a sample falls.
     fn falls(&self) -> Vec<Column> {
+        let is_wide = self.drop.body.is_wide();
         if self.has_list {
             let of = |n: usize| {
-                let falls = [Column::LandingSpeedMS(n), Column::LandingTiltDeg(n)];
-                let towards = self.drops[n].direction.map(|_| Column::LandingDirectionDeg(n));
-                let first = self.drops[n].first.map(|_| Column::LandingFirst(n));
-                let spin = self.drops[n].spin.map(|_| Column::LandingSpinRadS(n));
-                first.into_iter().chain(falls).chain(towards).chain(spin)
+                let one = &self.drops[n];
+                let has = move |input: Input| match input {
+                    Input::First => one.first.is_some(),
+                    Input::Direction => one.direction.is_some(),
+                    _ => one.own.iter().any(|(own, _)| own.told() == input),
+                };
+                let own = INPUTS.iter().map(|row| row.input).filter(move |input| has(*input));
+                own.map(move |input| Column::Drop(input, Some(n)))
             };
             return (0..self.drops.len()).flat_map(of).collect();
         }
-        let falls = if self.drop.body.is_wide() { Column::DirectionDeg } else { Column::First };
-        let mut all = vec![falls, Column::SpeedMS, Column::TiltDeg];
-        all.extend(self.drops[0].spin.map(|_| Column::SpinRadS));
-        all
+        let first = if is_wide { Input::Direction } else { Input::First };
+        let own = self.drops[0].own.iter().map(|(input, _)| input.told());
+        [first].into_iter().chain(own).map(|input| Column::Drop(input, None)).collect()
     }
 
     /// What a row of values holds.
     pub(super) fn columns(&self) -> Vec<Column> {
         let mut columns = self.falls();
-        columns.push(Column::Restitution);
-        columns.extend(self.contact_time.map(|_| Column::ContactTimeS));
-        columns.extend(self.gyration.map(|_| Column::GyrationM));
+        columns.extend(self.shared.iter().map(|(input, _)| Column::Drop(*input, None)));
         for (i, part) in self.parts.iter().enumerate() {
             columns.extend(part.mount.map(|_| Column::FrequencyHz(i)));
             columns.extend(self.varied.iter().filter_map(|input| match *input {
-                Input::Damping(of) if of == i => Some(Column::DampingRatio(i)),
-                Input::Position(of) if of == i => Some(Column::PositionM(i)),
-                Input::Across(of) if of == i => Some(Column::AcrossM(i)),
-                Input::Limit(of, kind) if of == i => Some(Column::Limit(i, kind)),
-                Input::CriticalAcceleration(of) if of == i => Some(Column::CriticalAccelerationMS2(i)),
+                Varied::Damping(of) if of == i => Some(Column::DampingRatio(i)),
+                Varied::Position(of) if of == i => Some(Column::PositionM(i)),
+                Varied::Across(of) if of == i => Some(Column::AcrossM(i)),
+                Varied::Limit(of, kind) if of == i => Some(Column::Limit(i, kind)),
+                Varied::CriticalAcceleration(of) if of == i => Some(Column::CriticalAccelerationMS2(i)),
                 _ => None,
             }));
         }
@@ -532,28 +473,13 @@ impl Inputs {
 }
 
 impl Sample {
-    /// The value of a column of what was drawn.
+    /// The value of a column of what was drawn, in SI.
     pub(super) fn value(&self, column: Column) -> f64 {
         let suspension = |i: usize| self.parts[i].suspension.as_ref();
         let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
-        // What the product has is the same in all of its drops.
-        let drop = &self.drops[0];
-        let first = |drop: &Drop| if drop.first() == End::A { 0.0 } else { 1.0 };
-        let direction = |drop: &Drop| drop.body.is_wide().then(|| drop.direction_rad.to_degrees());
         let value = match column {
-            Column::First => Some(first(drop)),
-            Column::LandingFirst(n) => Some(first(&self.drops[n])),
-            Column::DirectionDeg => direction(drop),
-            Column::SpeedMS => Some(drop.speed_m_s),
-            Column::TiltDeg => Some(drop.tilt_rad.to_degrees()),
-            Column::SpinRadS => Some(drop.spin_rad_s),
-            Column::LandingSpinRadS(n) => Some(self.drops[n].spin_rad_s),
-            Column::LandingDirectionDeg(n) => direction(&self.drops[n]),
-            Column::LandingSpeedMS(n) => Some(self.drops[n].speed_m_s),
-            Column::LandingTiltDeg(n) => Some(self.drops[n].tilt_rad.to_degrees()),
-            Column::Restitution => Some(drop.restitution),
-            Column::ContactTimeS => drop.contact_time_s,
-            Column::GyrationM => Some(drop.body.gyration_m()),
+            // What the product has is the same in all of its drops.
+            Column::Drop(input, landing) => input.value(&self.drops[landing.unwrap_or(0)]),
             Column::FrequencyHz(i) => suspension(i).map(|part| part.omega() / TAU),
             Column::DampingRatio(i) => suspension(i).map(|part| part.damping().get()),
             Column::PositionM(i) => Some(self.parts[i].at_m[0]),

@@ -61,7 +61,9 @@ impl Ranges<'_> {
         let (until, fastest) = (Until::Lands, rough_to_rad_s(task.component));
         let free = self.free_at(task, &start.place);
         let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
-        let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5, 0.25, DIRECTION_STEP, 0.25];
+        let mut steps = [0.25; AXES];
+        (steps[TILT], steps[DIRECTION]) = (tilt_step, DIRECTION_STEP);
+        (steps[FREQUENCY], steps[DAMPING]) = (frequency_step, 0.5);
         let mut shrink = [0.5; AXES];
         shrink[DIRECTION] = self.shrinking(&start.place);
         let mut best = start;

@@ -3,19 +3,19 @@
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
 use super::ranges::{
-    AXES, CONTACT, Coordinates, DAMPING, DIRECTION, FREQUENCY, GYRATION, RESTITUTION, Ranges, SPEED, SPIN, TILT,
+    AXES, CONTACT, Coordinates, DAMPING, DIRECTION, FREQUENCY, RESTITUTION, Ranges, SPEED, SPIN, TILT,
 };
 use clatter::End;
 
 use super::{GOLDEN, Task};
-use crate::{Mount, Product, Spread};
+use crate::Mount;
+use crate::inputs::searched;
 
 /// Tilts of the grid at least and at most.
 const TILTS: [f64; 2] = [12.0, 128.0];
 /// Phase by which the stiffest part turns between the first strikes of neighboring tilts, in rad.
 const PHASE: f64 = 0.8;
 const SQRT_3: f64 = 1.732_050_807_568_877;
-const SQRT_5: f64 = 2.236_067_977_499_79;
 const SQRT_7: f64 = 2.645_751_311_064_59;
 const SQRT_11: f64 = 3.316_624_790_355_4;
 const SQRT_13: f64 = 3.605_551_275_463_989;
@@ -47,8 +47,16 @@ enum Level {
     Spread(f64),
 }
 
+/// Levels along all axes.
+type Line = [Level; AXES];
+
+/// Where drop k of a line is along all axes.
+fn shares(line: &Line, k: usize) -> [f64; AXES] {
+    line.map(|level| level.of(k))
+}
+
 impl Level {
-    pub(super) fn of(&self, k: usize) -> f64 {
+    fn of(&self, k: usize) -> f64 {
         match self {
             Self::At(share) => *share,
             #[expect(clippy::cast_precision_loss, reason = "thousands")]
@@ -99,9 +107,9 @@ impl Ranges<'_> {
         };
         let tilted = !self.drop.tilt_rad.is_value();
         let mut grid = Vec::new();
-        let of = |first, [tilt, speed]: [f64; 2], line: &[Level; 4], direction: f64, k: usize| {
-            let [restitution, contact, gyration, spin] = line.each_ref().map(|level| level.of(k));
-            let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction, spin];
+        let of = |first, [tilt, speed]: [f64; 2], line: &Line, direction: f64, k: usize| {
+            let mut shares = shares(line, k);
+            (shares[TILT], shares[SPEED], shares[DIRECTION]) = (tilt, speed, direction);
             Coordinates { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
         };
         for &first in self.firsts() {
@@ -147,7 +155,8 @@ impl Ranges<'_> {
             let levels = [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)];
             let speeds = if slow < fast { &[1.0, 0.0, 0.5][..] } else { &[1.0] };
             for (restitution, &speed) in levels.iter().flat_map(|e| speeds.iter().map(move |speed| (e, speed))) {
-                let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+                let mut shares = [0.0; AXES];
+                (shares[SPEED], shares[RESTITUTION]) = (speed, restitution.of(grid.len()));
                 grid.push(Coordinates { first, flat: true, mirrored: [false; 2], at_m: [0.0; 2], shares });
             }
         }
@@ -169,9 +178,9 @@ impl Ranges<'_> {
         let all = [(0.0, 0.0)].into_iter().chain(off).enumerate();
         let of = |spin: usize, k: usize, (tilt, direction): (f64, f64)| {
             let level = levels[spin * of_spin + k % of_spin];
-            let [restitution, contact, gyration, spin] = level.map(|level| level.of(k));
+            let mut shares = shares(&level, k);
             let speed = if k % 4 == 3 { (SQRT_7 * f64::from(u32::try_from(k).unwrap_or(0))).fract() } else { 1.0 };
-            let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction, spin];
+            (shares[TILT], shares[SPEED], shares[DIRECTION]) = (tilt, speed, direction);
             Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
         };
         let all: Vec<_> = all.collect();
@@ -191,25 +200,28 @@ impl Ranges<'_> {
         }
     }
 
-    /// Restitution, contact time, radius of gyration and spin of lines of drops: each at both ends of its range and spread over it, each with
-    /// each; those that bounce most and press shortest first.
-    fn levels(&self) -> Vec<[Level; 4]> {
-        let Product { restitution, contact_time_s, gyration_m, .. } = self.product;
-        let of = |range: Option<&Spread>, levels: [Level; 3]| {
-            let free = range.is_some_and(|range| !range.is_value());
-            levels[..if free { 3 } else { 1 }].to_vec()
-        };
-        let restitutions = of(Some(restitution), [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)]);
-        let contacts = of(contact_time_s.as_ref(), [Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_3)]);
-        let gyrations = of(Some(gyration_m), [Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_5)]);
-        let spins = self.spins();
-        let mut all = Vec::with_capacity(restitutions.len() * contacts.len() * gyrations.len() * spins.len());
-        for &spin in &spins {
-            for &e in &restitutions {
-                for &contact in &contacts {
-                    all.extend(gyrations.iter().map(|&gyration| [e, contact, gyration, spin]));
-                }
-            }
+    /// Lines of drops: each input at both ends of its range and spread over it, each with each; those that bounce most and press shortest
+    /// first, and of the spin, which takes turns last, the faster one.
+    fn levels(&self) -> Vec<Line> {
+        let free = self.free_in_drops();
+        let lines = searched().filter_map(|(_, search)| search.line.map(|line| (search.axis, line)));
+        let mut all: Vec<Line> = vec![[Level::At(0.0); AXES]];
+        let (spin, others): (Vec<_>, Vec<_>) = lines.partition(|(axis, _)| *axis == SPIN);
+        for (axis, (first, by)) in spin.into_iter().chain(others) {
+            let levels = match axis {
+                SPIN => self.spins(),
+                _ if free[axis] => vec![Level::At(first), Level::At(1.0 - first), Level::Spread(by)],
+                _ => vec![Level::At(first)],
+            };
+            let with = |line: &Line| {
+                let line = *line;
+                levels.clone().into_iter().map(move |level| {
+                    let mut with = line;
+                    with[axis] = level;
+                    with
+                })
+            };
+            all = all.iter().flat_map(with).collect();
         }
         all
     }
@@ -236,7 +248,7 @@ impl Ranges<'_> {
 
     /// Lines of drops over the tilt: of a bar one at each of these levels; of a plate at directions that spread evenly, its edges among
     /// them, and at the levels in turn.
-    fn lines(&self) -> Vec<([Level; 4], f64)> {
+    fn lines(&self) -> Vec<(Line, f64)> {
         let levels = self.levels();
         if self.quarters() == 0 {
             return levels.into_iter().map(|line| (line, 0.0)).collect();
@@ -245,7 +257,7 @@ impl Ranges<'_> {
         let edges = self.on_edges().into_iter();
         let between = (1..=LINES + LINES_A_QUARTER * quarters).map(|k| (GOLDEN * f64::from(k)).fract());
         // The ends of all ranges, and one that spreads over them.
-        let is_end = |line: &&[Level; 4]| line.iter().all(|level| matches!(level, Level::At(_)));
+        let is_end = |line: &&Line| line.iter().all(|level| matches!(level, Level::At(_)));
         let lines: Vec<_> = levels.iter().filter(is_end).chain(levels.last().filter(|line| !is_end(line))).collect();
         edges.chain(between).zip(lines.iter().cycle()).map(|(direction, line)| (**line, direction)).collect()
     }
@@ -273,9 +285,13 @@ impl Ranges<'_> {
         let of = |first, k: u32, [restitution, n]: [f64; 2]| {
             let direction = (spread(k, SQRT_11) + n).fract();
             let contact = (spread(k, SQRT_3) + GOLDEN * n).fract();
-            let tilt = share(lo + f64::from(k) * step);
-            let spin = self.spin_share((spread(k, SQRT_13) + GOLDEN * n).fract());
-            let shares = [tilt, 1.0, restitution, contact, 0.0, 0.0, spread(k, SQRT_5), direction, spin];
+            let mut shares = [0.0; AXES];
+            for (_, search) in searched() {
+                shares[search.axis] = search.line.map_or(0.0, |(_, by)| spread(k, by));
+            }
+            (shares[TILT], shares[SPEED], shares[DIRECTION]) = (share(lo + f64::from(k) * step), 1.0, direction);
+            (shares[RESTITUTION], shares[CONTACT]) = (restitution, contact);
+            shares[SPIN] = self.spin_share((spread(k, SQRT_13) + GOLDEN * n).fract());
             (k, Coordinates { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares })
         };
         let directions = (OVERLAPS_A_QUARTER * self.quarters()).max(1);
@@ -295,8 +311,9 @@ impl Ranges<'_> {
         let mut shares = [0.0; AXES];
         let free = self.free_in_drops();
         // Few digits for those over which what is asked changes most.
-        let order = [TILT, DIRECTION, SPEED, RESTITUTION, CONTACT, GYRATION, SPIN, DAMPING, FREQUENCY];
-        for (n, axis) in order.into_iter().filter(|axis| free[*axis]).enumerate() {
+        let others = searched().map(|(_, search)| search.axis).filter(|axis| *axis != TILT && *axis != SPEED);
+        let order = [TILT, DIRECTION, SPEED].into_iter().chain(others).chain([DAMPING, FREQUENCY]);
+        for (n, axis) in order.filter(|axis| free[*axis]).enumerate() {
             let share = radical_inverse(PRIMES[n], k);
             // Directions have no ends, and a box that is turned off nothing balances for long.
             let has_ends = axis != DIRECTION && (axis != TILT || self.base.is_none());

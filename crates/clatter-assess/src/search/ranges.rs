@@ -6,6 +6,7 @@ use clatter::End;
 
 use crate::Model;
 use crate::attitude::Base;
+use crate::inputs::searched;
 use crate::search::{Candidate, Task};
 use crate::{Component, ContactLaw, DropRanges, Mount, Product, Spread, WorstCase};
 use clatter_flight::Drop;
@@ -23,17 +24,16 @@ pub(crate) struct Coordinates {
     pub(crate) shares: [f64; AXES],
 }
 
-/// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio, radius of gyration, direction, spin.
-pub(super) const AXES: usize = 9;
+/// Those of the inputs of a drop that are searched, the natural frequency and the damping ratio of the part, and the direction.
+pub(crate) const AXES: usize = 9;
 pub(super) const TILT: usize = 0;
 pub(super) const SPEED: usize = 1;
 pub(super) const RESTITUTION: usize = 2;
 pub(super) const CONTACT: usize = 3;
 /// Those of the part.
-pub(super) const FREQUENCY: usize = 4;
-pub(super) const DAMPING: usize = 5;
-pub(super) const GYRATION: usize = 6;
-pub(super) const DIRECTION: usize = 7;
+pub(crate) const FREQUENCY: usize = 4;
+pub(crate) const DAMPING: usize = 5;
+pub(crate) const DIRECTION: usize = 7;
 pub(super) const SPIN: usize = 8;
 
 /// The ranges of a product's drops, and how they are followed.
@@ -55,33 +55,32 @@ pub(crate) struct Ranges<'a> {
 impl Ranges<'_> {
     /// The drop at a place.
     pub(crate) fn single(&self, place: &Coordinates) -> Drop {
-        let [slow, fast] = self.drop.speeds_m_s();
-        let tilt = &self.drop.tilt_rad;
-        let [lo, hi] = [tilt.lo().sqrt(), tilt.hi().sqrt()];
-        let [share, speed, restitution, contact, ..] = place.shares;
-        let root = lo + share * (hi - lo);
         let direction_rad = if self.product.body.is_wide() {
             let [from, to] = self.directions();
             image(from + place.shares[DIRECTION] * (to - from), place.mirrored)
         } else {
             Drop::towards(place.first)
         };
-        Drop {
-            body: self.product.body_at(place.shares[GYRATION]),
+        let mut drop = Drop {
             is_level: self.base.is_none(),
             base: self.base.map_or([0.0, 0.0, 1.0], |base| base.up),
-            tilt_rad: if place.flat { 0.0 } else { (root * root).clamp(tilt.lo(), tilt.hi()) },
             direction_rad,
             is_flat: place.flat,
-            speed_m_s: (slow + speed * (fast - slow)).clamp(slow, fast),
-            spin_rad_s: if place.flat { 0.0 } else { self.drop.spin_rad_s.at(place.shares[SPIN]) },
             spin_axis: self.base.and_then(|base| base.spin_axis),
             gravity_m_s2: self.drop.gravity_m_s2,
-            restitution: self.product.restitution.at(restitution),
-            contact_time_s: self.product.contact_time_s.map(|time| time.at(contact)),
             contact_law: self.law,
             own_contacts: self.product.own_contacts,
+            ..Drop::new(self.product.body, 0.0, 0.0, 0.0)
+        };
+        for (row, search) in searched() {
+            if let (Some(range), Some(set)) = (row.input.range(self.product, self.drop), row.set) {
+                set(&mut drop, search.at(range, place.shares[search.axis]));
+            }
         }
+        if place.flat {
+            (drop.tilt_rad, drop.spin_rad_s) = (0.0, 0.0);
+        }
+        drop
     }
 
     /// Where in the ranges a worst case is.
@@ -89,8 +88,6 @@ impl Ranges<'_> {
         let share = |[lo, hi]: [f64; 2], x: f64| if hi > lo { ((x - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
         let of = |spread: &Spread, x: f64| share([spread.lo(), spread.hi()], x);
         let drop = &worst.drop;
-        let contact = self.product.contact_time_s.zip(drop.contact_time_s).map_or(0.0, |(time, t)| of(&time, t));
-        let tilt = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()].map(f64::sqrt);
         let part = match (component.mount, worst.part.suspension) {
             (Mount::Suspended { frequency_hz, damping }, Some(part)) => {
                 [of(&frequency_hz, part.omega() / TAU), share(damping.ratios(), part.damping().get())]
@@ -106,17 +103,14 @@ impl Ranges<'_> {
             turned.into_iter().map(|x| (off(x), share([lo, hi], x), mirrored)).min_by(|a, b| a.0.total_cmp(&b.0))
         });
         let (_, direction, mirrored) = images.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
-        let shares = [
-            share(tilt, drop.tilt_rad.sqrt()),
-            share(self.drop.speeds_m_s(), drop.speed_m_s),
-            of(&self.product.restitution, drop.restitution),
-            contact,
-            part[0],
-            part[1],
-            worst.gyration_m().map_or(0.0, |rho| of(&self.product.gyration_m, rho)),
-            direction,
-            of(&self.drop.spin_rad_s, drop.spin_rad_s),
-        ];
+        let mut shares = [0.0; AXES];
+        for (row, search) in searched() {
+            if let (Some(range), Some(x)) = (row.input.range(self.product, self.drop), row.input.value(drop)) {
+                shares[search.axis] = search.share(range, x);
+            }
+        }
+        [shares[FREQUENCY], shares[DAMPING]] = part;
+        shares[DIRECTION] = direction;
         Coordinates { first: drop.first(), flat: drop.is_flat, mirrored, at_m: worst.part.at_m(), shares }
     }
 
@@ -150,13 +144,13 @@ impl Ranges<'_> {
 
     /// Which axes of a drop have a range, and those of a part, which any may have.
     pub(super) fn free_in_drops(&self) -> [bool; AXES] {
-        let [slow, fast] = self.drop.speeds_m_s();
-        let contact = self.product.contact_time_s.is_some_and(|time| !time.is_value());
-        let varies = |spread: &Spread| !spread.is_value();
-        let of = [&self.drop.tilt_rad, &self.product.restitution, &self.product.gyration_m, &self.drop.spin_rad_s];
-        let [tilt, restitution, gyration, spin] = of.map(varies);
+        let mut free = [false; AXES];
+        for (row, search) in searched() {
+            free[search.axis] = row.input.range(self.product, self.drop).is_some_and(|[lo, hi]| lo < hi);
+        }
         let [from, to] = self.directions();
-        [tilt, slow < fast, restitution, contact, true, true, gyration, from < to, spin]
+        (free[FREQUENCY], free[DAMPING], free[DIRECTION]) = (true, true, from < to);
+        free
     }
 
     /// Which axes have a range.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clatter_answer::assess::Answer;
 use clatter_assess::{
-    Accuracy, Assessment, Assumed, Component, ComponentAssessment, LandingAssessment, LimitAssessment, ProductFile,
-    Verdict, repeat,
+    Accuracy, Assessment, Assumed, Component, ComponentAssessment, Input, LandingAssessment, LimitAssessment,
+    ProductFile, Verdict, repeat,
 };
 
 use crate::columns::{Table, sentence};
@@ -131,7 +131,8 @@ fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) ->
     let heads = ["drop", tilt, "verdict", "tightest", "limit", "demand", "margin"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     let speeds = |landing: &LandingAssessment| {
-        (landing.speed_m_s.map(f64::to_bits), landing.spin_rad_s.map(|spins| spins.map(f64::to_bits)))
+        let optional = landing.optional.iter().map(|(_, range)| range.map(f64::to_bits));
+        (landing.speed_m_s.map(f64::to_bits), optional.collect::<Vec<_>>())
     };
     let alike = assessment.landings.windows(2).all(|two| speeds(&two[0]) == speeds(&two[1]));
     for landing in &assessment.landings {
@@ -141,15 +142,19 @@ fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) ->
         let unit = tightest.limit.unit();
         let of = |value: f64| in_words(unit, component.limits.unit(tightest.limit, unit), value);
         let [slow, fast] = landing.speed_m_s.map(four);
-        let spin = landing.spin_rad_s.map_or(String::new(), |spins| match spins.map(four) {
-            [least, most] if least == most => format!(", turning at {least} rad/s"),
-            [least, most] => format!(", turning at {least} to {most} rad/s"),
-        });
+        let optional = |(input, range): &(Input, [f64; 2])| {
+            let (phrase, unit) = (input.row().optional.map_or("", |optional| optional.phrase), input.row().unit);
+            match range.map(four) {
+                [least, most] if least == most => format!(", {phrase} {least} {unit}"),
+                [least, most] => format!(", {phrase} {least} to {most} {unit}"),
+            }
+        };
+        let optional: String = landing.optional.iter().map(optional).collect();
         rows.push(vec![
             match &landing.landing {
                 on if alike => on.to_string(),
-                on if slow == fast => format!("{on}, {slow} m/s{spin}"),
-                on => format!("{on}, {slow} to {fast} m/s{spin}"),
+                on if slow == fast => format!("{on}, {slow} m/s{optional}"),
+                on => format!("{on}, {slow} to {fast} m/s{optional}"),
             },
             match (landing.tilt_deg.map(|tilts| tilts.map(neat)), landing.tolerance_deg) {
                 (Some([least, most]), _) if least < most => format!("{} to {}", given(least), given(most)),

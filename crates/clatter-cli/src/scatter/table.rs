@@ -3,10 +3,10 @@
 use std::io::{self, Write};
 
 use clatter_answer::scatter::Answer;
-use clatter_assess::ProductFile;
 use clatter_assess::scatter::{
-    ComponentScatter, Driver, Input, LandingComponent, OfLanding, PlateAs, Probability, Scatter, Settings,
+    ComponentScatter, Driver, LandingComponent, PlateAs, Probability, Scatter, Settings, Varied,
 };
+use clatter_assess::{Input, ProductFile};
 
 use super::name_of;
 use crate::columns::{Table, sentence};
@@ -19,23 +19,21 @@ const NAMED: f64 = 0.01;
 const NOISE: f64 = 7.9;
 
 /// How an input is called in a table: its name; what a part alone has is the part's own.
-fn called(input: &Input) -> &'static str {
+fn called(input: &Varied) -> &'static str {
     match input {
-        Input::Frequency(_) => "own frequency",
-        Input::Damping(_) => "own damping",
-        Input::Position(_) => "own place",
-        Input::Across(_) => "own place across",
-        Input::Limit(..) => "own limit",
-        Input::CriticalAcceleration(_) => "own critical acceleration",
-        Input::First | Input::Landing(_, OfLanding::First) => "first end",
-        Input::ContactTime => "contact time",
-        Input::Gyration => "radius of gyration",
+        Varied::Drop(input, _) => input.row().words,
+        Varied::Frequency(_) => "own frequency",
+        Varied::Damping(_) => "own damping",
+        Varied::Position(_) => "own place",
+        Varied::Across(_) => "own place across",
+        Varied::Limit(..) => "own limit",
+        Varied::CriticalAcceleration(_) => "own critical acceleration",
         other => other.name(),
     }
 }
 
 /// The same, with the drop of several that it belongs to.
-fn of_drop(file: &ProductFile, input: &Input) -> String {
+fn of_drop(file: &ProductFile, input: &Varied) -> String {
     let name = called(input);
     input.landing().map_or_else(|| name.to_owned(), |n| format!("{name} {}", file.drop_names()[n].there()))
 }
@@ -45,8 +43,8 @@ fn way(driver: &Driver) -> &'static str {
     let share = driver.share;
     match (&driver.input, share.trend * share.trend >= 0.5 * share.variance, share.trend > 0.0) {
         // two values have no way in between
-        (Input::First | Input::Landing(_, OfLanding::First), _, true) => " (b)",
-        (Input::First | Input::Landing(_, OfLanding::First), _, false) => " (a)",
+        (Varied::Drop(Input::First, _), _, true) => " (b)",
+        (Varied::Drop(Input::First, _), _, false) => " (a)",
         (_, false, _) => "~",
         (_, true, true) => "+",
         (_, true, false) => "-",
@@ -173,10 +171,10 @@ pub(crate) fn model(scatter: &Scatter) -> String {
 }
 
 /// An input with the part that it belongs to.
-fn in_full(file: &ProductFile, input: &Input) -> String {
+fn in_full(file: &ProductFile, input: &Varied) -> String {
     let name = input.name().replace('-', " ");
     match input.component() {
-        _ if file.is_box() && matches!(input, Input::Landing(_, OfLanding::Tilt)) => {
+        _ if file.is_box() && matches!(input, Varied::Drop(Input::Tilt, Some(_))) => {
             "attitude within its tolerance".to_owned()
         }
         Some(i) => format!("{name} of {}", shown(name_of(file, i), 24)),

@@ -2,6 +2,7 @@
 
 use clatter_assess::{
     Assessment, Axis, Component, Damping, DropRanges, Fall, First, Mount, OwnContact, ProductFile, Side, Spread,
+    optional_inputs,
 };
 use clatter_figures::{model_words as model, three};
 
@@ -56,17 +57,19 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
         let of = if listed < file.landings.len() { format!(", {listed} of them of") } else { ":".to_owned() };
         add("Lands on", source.map_or(drops.clone(), |source| format!("{drops}{of} {source}")));
     }
-    if file.landings.is_empty() && file.drop.may_spin() {
-        let spin = range(&file.drop.spin_rad_s, 1.0, "rad/s");
-        add("Spin", format!("{spin} at the first touch about the axis of the tilt, which grows where positive"));
-    }
-    if let Some((name, landing)) =
-        file.drop_names().iter().zip(&file.landings).find(|(_, landing)| landing.drop.may_spin())
-    {
-        let spin = range(&landing.drop.spin_rad_s, 1.0, "rad/s");
-        let alike = file.landings.iter().all(|other| other.drop.spin_rad_s == landing.drop.spin_rad_s);
-        let of = if alike { String::new() } else { format!(" {}; others otherwise", name.there()) };
-        add("Spin", format!("{spin} at the first touch{of}"));
+    for (row, optional) in optional_inputs() {
+        let given = |drop: &DropRanges| row.input.given(product, drop).filter(|_| row.input.is_there(product, drop));
+        let name = format!("{}{}", row.words[..1].to_uppercase(), &row.words[1..]);
+        if let (true, Some(own)) = (file.landings.is_empty(), given(&file.drop)) {
+            add(&name, format!("{} {}", range(&own, 1.0, row.unit), optional.report));
+        }
+        let each = file.drop_names().into_iter().zip(&file.landings);
+        let mut there = each.filter_map(|(name, landing)| Some((name, given(&landing.drop)?)));
+        if let Some((drop, first)) = there.next() {
+            let alike = file.landings.iter().all(|other| given(&other.drop) == Some(first));
+            let of = if alike { String::new() } else { format!(" {}; others otherwise", drop.there()) };
+            add(&name, format!("{} at the first touch{of}", range(&first, 1.0, row.unit)));
+        }
     }
     let gravity = file.drop.gravity_m_s2;
     add(

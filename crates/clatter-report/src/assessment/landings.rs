@@ -33,7 +33,8 @@ pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
 /// Of several drops, a row for each: what it is called, its tilt or how far off a box may be, verdict, and the limit that it leaves least room.
 pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
     let speeds = |landing: &LandingAssessment| {
-        (landing.speed_m_s.map(f64::to_bits), landing.spin_rad_s.map(|spins| spins.map(f64::to_bits)))
+        let optional = landing.optional.iter().map(|(_, range)| range.map(f64::to_bits));
+        (landing.speed_m_s.map(f64::to_bits), optional.collect::<Vec<_>>())
     };
     let alike = assessment.landings.windows(2).all(|two| speeds(&two[0]) == speeds(&two[1]));
     let is_plate = file.product.body.is_wide();
@@ -46,7 +47,10 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
         called.extend(listed.attitude.is_none().then(|| first(&listed.drop, is_plate)));
         if !alike {
             called.push(span(landing.speed_m_s, 1.0, "m/s"));
-            called.extend(landing.spin_rad_s.map(|spins| format!("turning at {}", span(spins, 1.0, "rad/s"))));
+            called.extend(landing.optional.iter().map(|(input, range)| {
+                let row = input.row();
+                format!("{} {}", row.optional.map_or("", |optional| optional.phrase), span(*range, 1.0, row.unit))
+            }));
         }
         Some(json!([
             called.join(", "),

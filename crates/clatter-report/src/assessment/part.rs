@@ -50,7 +50,7 @@ fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     [
         worst.landing.and_then(DropName::number).map_or(first.clone(), |n| format!("drop {n}: {first}")),
         if worst.drop.is_flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg())) },
-        format!("{} m/s{}", three(worst.drop.speed_m_s), turning(worst)),
+        format!("{} m/s{}", three(worst.drop.speed_m_s), optional(worst)),
         three(worst.drop.restitution),
         contact.map_or("–".to_owned(), |time| format!("{} ms", three(1e3 * time))),
         worst.frequency_hz().map_or("–".to_owned(), |hz| format!("{} Hz", three(hz))),
@@ -129,7 +129,7 @@ fn drop(worst: &WorstCase) -> String {
         let (off, speed, e) = (three(worst.tilt_deg()), three(worst.drop.speed_m_s), three(worst.drop.restitution));
         return format!(
             "That drop lands on the {landing}, {off}° off, at {speed} m/s{}, with e = {e}{frequency}; {peak}.",
-            turning(worst),
+            optional(worst),
         );
     } else if let Some(direction) = worst.direction_deg() {
         format!("on {}, rising to {}°,", plate::lowest(direction), three(direction))
@@ -140,14 +140,15 @@ fn drop(worst: &WorstCase) -> String {
     };
     let tilted = if worst.drop.is_flat { String::new() } else { format!(", tilted by {}°", three(worst.tilt_deg())) };
     let (speed, e) = (three(worst.drop.speed_m_s), three(worst.drop.restitution));
-    let turning = turning(worst);
+    let optional = optional(worst);
     let which = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!(", drop {n} of the file,"));
-    format!("That drop{which} lands {lands} at {speed} m/s{tilted}{turning}, with e = {e}{frequency}; {peak}.")
+    format!("That drop{which} lands {lands} at {speed} m/s{tilted}{optional}, with e = {e}{frequency}; {peak}.")
 }
 
-/// How fast it turns as it lands, where it does.
-fn turning(worst: &WorstCase) -> String {
-    worst.spin_rad_s().map_or_else(String::new, |spin| format!(", turning at {}", span([spin; 2], 1.0, "rad/s")))
+/// Inputs that a file may leave out, where they count.
+fn optional(worst: &WorstCase) -> String {
+    let each = worst.optional();
+    each.map(|(row, optional, x)| format!(", {} {}", optional.phrase, span([x; 2], 1.0, row.unit))).collect()
 }
 
 /// Up to which tilt both ends land as one.
