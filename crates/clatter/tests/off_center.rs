@@ -29,8 +29,8 @@ fn plain(arms: [f64; 2], rho: f64, e: f64, start: &Start, most: usize) -> Vec<Im
     list
 }
 
-/// A rigid body of unit mass that falls with velocity v and turns with ω: an impulse p at distance x from its center of
-/// mass changes them by p and p x/ρ², and is as large as −e times the approach velocity asks for.
+/// Returns the impacts of a rigid body of unit mass that falls with velocity v and turns with ω. An impulse p at
+/// distance x from its center of mass changes v and ω by p and p x/ρ²; it reverses the approach velocity to −e times it.
 fn by_impulses([a, b]: [f64; 2], rho: f64, e: f64, motion: [f64; 2], gap: f64, most: usize) -> Vec<Impact> {
     let ends = [-a, b];
     let at = |[v, w]: [f64; 2]| ends.map(|x| v + w * x);
@@ -228,7 +228,7 @@ fn the_safest_place_moves_with_the_mass() {
     let bar = Bar::from_center_of_mass(0.4, 0.5, 0.3).unwrap();
     let safest = bar.shocks_either(&start).safest();
     assert!(safest.s > 0.25 && safest.s < 0.35, "{safest:?}");
-    // Where end b never strikes, the center of percussion feels nothing at all.
+    // Where end b never strikes, the center of percussion gets no shock at all.
     let spun = Start::new([-1.0, 2.5], 1.0).unwrap();
     let shocks = bar.shocks(&spun, End::A);
     assert_eq!(bar.count(&spun), Count::Finite(1));

@@ -1,4 +1,4 @@
-//! Where plain floats go wrong: one test a trap, expected values derived on the spot in integers.
+//! Traps for plain floats: one test a trap, expected values derived on the spot in integers.
 #![expect(clippy::float_cmp, reason = "exact answers are compared exactly")]
 #![expect(clippy::cast_precision_loss, reason = "counts that are compared with floats")]
 
@@ -18,7 +18,7 @@ fn close(got: f64, want: f64, error: f64) -> bool {
     (got - want).abs() <= error * want.abs()
 }
 
-/// (m, x) with v = m 2^−x, x ≥ 0.
+/// Returns (m, x) with v = m 2^−x, x ≥ 0.
 fn dyadic(v: f64) -> (BigInt, u64) {
     let bits = v.abs().to_bits();
     let (m, biased) = (bits & ((1 << 52) - 1), bits >> 52);
@@ -27,7 +27,7 @@ fn dyadic(v: f64) -> (BigInt, u64) {
     (if v < 0.0 { -m } else { m }, x)
 }
 
-/// n/d to the nearest float or its neighbor; within the range of floats.
+/// Returns n/d to the nearest float or its neighbor; within the range of floats.
 fn ratio(n: &BigInt, d: &BigInt) -> f64 {
     let shift = 70 + i64::try_from(d.bits()).unwrap() - i64::try_from(n.bits()).unwrap();
     let whole = if shift >= 0 { (n << shift) / d } else { n / (d << -shift) };
@@ -58,7 +58,7 @@ impl Whole {
         let q = me << (2 * r - y);
         Self { p, q, r, s, a: [va, next], b: [0.into(), 1.into()], n: 0 }
     }
-    /// On to strike n + 2.
+    /// Goes on to strike n + 2.
     fn step(&mut self) {
         for pair in [&mut self.a, &mut self.b] {
             let next = &self.p * &pair[1] - &self.q * &pair[0];
@@ -70,11 +70,11 @@ impl Whole {
     fn ended(&self) -> bool {
         self.a[0].sign() != Sign::Minus
     }
-    /// Approach velocity of strike n + 1.
+    /// Returns the approach velocity of strike n + 1.
     fn approach(&self) -> f64 {
         ratio(&self.a[0], &(BigInt::from(1) << (self.r * self.n + self.s)))
     }
-    /// Its time at h0 = 1.
+    /// Returns the time of strike n + 1 at h0 = 1.
     fn time(&self) -> f64 {
         if self.n == 0 { 0.0 } else { ratio(&(&self.b[0] << (self.r + self.s)), &-&self.a[0]) }
     }
@@ -92,7 +92,7 @@ fn times(a: &BigInt, b: &BigInt) -> BigInt {
     (a * b) >> POINT
 }
 
-/// atan(y/x) by its series, for 0 < y ≤ x/2.
+/// Returns atan(y/x) by its series, for 0 < y ≤ x/2.
 fn atan(y: &BigInt, x: &BigInt) -> BigInt {
     let t = (y << POINT) / x;
     let square = times(&t, &t);
@@ -120,7 +120,7 @@ fn count_by_angles(q: f64, e: f64) -> u64 {
     u64::try_from(whole).unwrap()
 }
 
-/// The count of a loop in plain floats, cut off after `limit`.
+/// Returns the count of a loop in plain floats, cut off after `limit`.
 fn naive_count(q: f64, e: f64, limit: u64) -> Option<u64> {
     let (t, mut a, mut next) = (q * (1.0 + e), -1.0, -(q * (1.0 + e)) - 1.0);
     for n in 1..limit {
