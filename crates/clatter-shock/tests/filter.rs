@@ -47,7 +47,7 @@ fn compare(samples: &[f64], dt: f64, hz: &[f64], zeta: f64) {
     }
 }
 
-/// A burst: a growing and fading oscillation with an offset that keeps all signs in play.
+/// Returns a burst: a growing and fading oscillation with an offset that keeps all signs in play.
 fn burst(n: u32) -> Vec<f64> {
     (0..n).map(|i| f64::from(i) / f64::from(n)).map(|t| (40.0 * t).sin() * (-8.0 * t).exp() * 100.0 + 3.0 * t).collect()
 }

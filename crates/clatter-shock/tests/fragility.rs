@@ -91,7 +91,7 @@ fn an_equivalent_half_sine_or_none() {
     );
 }
 
-/// What a half-sine does, the acceleration first.
+/// Returns the peaks by a half-sine, the acceleration first.
 fn done(component: &Suspension, amplitude: f64, duration: f64) -> [f64; 2] {
     let pulse = Pulse { shape: Shape::HalfSine, amplitude, duration, start: 0.0 };
     let response = Pulses::new(&[pulse]).expect("pulse").respond(component);
@@ -163,7 +163,7 @@ fn an_equivalent_half_sine_between_the_durations_of_a_grid() {
             assert!(found.amplitude <= pulse.amplitude * (1.0 + 1e-8), "damping {zeta}: {found:?}, not {pulse:?}");
         }
     }
-    // Of many periods, of which 1/48 of an octave is most of one.
+    // The durations span many periods, of which 1/48 of an octave is most of one.
     let (component, table) = (mount(2e-3), ShockTable { shortest: 0.59, longest: 0.62, ..table });
     for i in 0..21 {
         let duration = 0.592 + 0.0013 * f64::from(i);

@@ -5,7 +5,7 @@ use clatter_shock::{
 };
 use proptest::prelude::*;
 
-/// Both are worked out along the same way, and differ by the scale of what is asked alone.
+/// Compares two peaks. Both are computed in the same way, and differ by the scale of the wanted one alone.
 fn same(response: &Response, ask: impl Fn(Peaked, f64) -> Option<Extreme>) -> Result<(), TestCaseError> {
     for peaked in [Peaked::PseudoVelocity, Peaked::AccelerationOverOmega] {
         let whole = match peaked {

@@ -44,13 +44,13 @@ fn maximax_of_the_reference_trains() {
     }
 }
 
-/// Amplification A/a at f·D = `fd` and 1 Hz.
+/// Returns the amplification A/a at f·D = `fd` and 1 Hz.
 fn amplification(shape: Shape, damping: f64, fd: f64) -> f64 {
     let pulses = Pulses::new(&[Pulse { shape, amplitude: 1.0, duration: fd, start: 0.0 }]).expect("value");
     pulses.respond(&Suspension::from_hz(1.0, zeta(damping)).expect("value")).absolute_acceleration.magnitude()
 }
 
-/// Largest amplification for f·D in [lo, hi] by a golden section, and where.
+/// Returns the largest amplification for f·D in [lo, hi] by a golden section, and where.
 fn largest(shape: Shape, damping: f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
     let ratio = 0.5 * (5_f64.sqrt() - 1.0);
     for _ in 0..60 {
