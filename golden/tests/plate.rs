@@ -1,4 +1,4 @@
-//! What a plate does beyond a bar: claims, numbers and the page.
+//! Effects of a plate beyond a bar: claims, numbers and the page.
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
@@ -34,7 +34,7 @@ fn the_numbers_of_the_page() {
     golden("plate-numbers", &text);
 }
 
-/// What the page says besides its numbers: headings, alternative texts, how its parts begin.
+/// The text of the page besides its numbers: headings, alternative texts, the begins of its parts.
 #[test]
 fn the_page() {
     let openings =

@@ -1,13 +1,13 @@
-//! What a place of the bar and a suspended part there go through.
+//! The load of a place on the bar, and the response of a suspended part there.
 
 use crate::flight::{Flight, Step};
 
-/// A largest value and when it came.
+/// A largest value and its time.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Peak {
     /// Its magnitude.
     pub value: f64,
-    /// When.
+    /// Its time.
     pub time: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct Response {
 /// One shock.
 #[derive(Debug, Clone, Copy)]
 pub struct Shock {
-    /// When it is largest.
+    /// Time of its peak.
     pub time: f64,
     /// Change of velocity, or of angular velocity.
     pub change: f64,
@@ -39,7 +39,7 @@ pub struct Shock {
     pub acceleration: f64,
 }
 
-/// What changes in a shock.
+/// The motion that changes in a shock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Motion {
     /// The velocity of the place.
@@ -48,10 +48,10 @@ pub enum Motion {
     Turning,
 }
 
-/// Steps of time of a part, in its radians.
+/// Angle of the part's oscillation per step of time, in radians.
 const FINE: f64 = 0.25;
-/// Strikes that come closer than this are one: longer than an end that hops in place of resting is off the ground when the
-/// other lands.
+/// Strikes that come closer than this are one: longer than an end that hops in place of resting is off the ground when
+/// the other lands.
 pub const INSTANT: f64 = 2e-8;
 
 /// A mass on spring and dashpot.
@@ -67,7 +67,7 @@ struct Suspended {
 }
 
 impl Suspended {
-    /// Absolute acceleration.
+    /// Returns the absolute acceleration.
     fn acceleration(&self, z: f64, v: f64) -> f64 {
         -self.omega * (2.0 * self.zeta * v + self.omega * z)
     }
@@ -77,7 +77,7 @@ impl Suspended {
         self.peaks.acceleration.see(self.acceleration(self.z, self.v), self.time);
     }
 
-    /// A step under a felt acceleration that is a parabola through three values.
+    /// Makes a step under an acceleration of the place that is a parabola through three values.
     fn push(&mut self, h: f64, felt: [f64; 3]) {
         let parts = (self.omega * (1.0 + 2.0 * self.zeta) * h / FINE).ceil().max(1.0);
         let (from, h) = (self.time, h / parts);
@@ -110,7 +110,7 @@ impl Suspended {
         self.time = from + parts * h;
     }
 
-    /// Rings for a time with a constant felt acceleration.
+    /// Follows the part for a time under a constant acceleration of the place.
     fn ring(&mut self, h: f64, felt: f64) {
         let w = self.omega;
         let rest = -felt / (w * w);
@@ -140,7 +140,7 @@ impl Suspended {
     }
 }
 
-/// Largest value of the cubic with these values and slopes, where it turns within; else 0.
+/// Returns the largest value of the cubic with these values and slopes, where it turns within; else 0.
 fn turning(h: f64, [u, ut]: [f64; 2], [w, wt]: [f64; 2]) -> f64 {
     if ut * wt >= 0.0 {
         return 0.0;
@@ -151,7 +151,7 @@ fn turning(h: f64, [u, ut]: [f64; 2], [w, wt]: [f64; 2]) -> f64 {
     u * r * r * (1.0 + 2.0 * t) + a * t * r * r + w * t * t * (3.0 - 2.0 * t) - b * t * t * r
 }
 
-/// Free motion of a part after a time.
+/// Returns the free motion of a part after a time.
 fn free(omega: f64, zeta: f64, z: f64, v: f64, t: f64) -> (f64, f64) {
     let (a, d) = (omega * zeta, omega * omega * (1.0 - zeta * zeta));
     let (c, s) = if d.abs() * t * t < 1e-12 {
@@ -167,7 +167,7 @@ fn free(omega: f64, zeta: f64, z: f64, v: f64, t: f64) -> (f64, f64) {
     (z * c + (v + a * z) * s, v * c - (a * v + omega * omega * z) * s)
 }
 
-/// Times from one turning point of a free motion to the next, two of them.
+/// Returns the times from one turning point of a free motion to the next, two of them.
 fn turns(omega: f64, zeta: f64, z: f64, v: f64) -> [f64; 2] {
     let (a, d) = (omega * zeta, omega * omega * (1.0 - zeta * zeta));
     let pull = a * v + omega * omega * z;
@@ -185,8 +185,8 @@ fn turns(omega: f64, zeta: f64, z: f64, v: f64) -> [f64; 2] {
     }
 }
 
-/// Answers a part at `place` from the center of mass; it is followed until a time, or for two of its periods after the
-/// drop was left.
+/// Returns the response of a part at `place` from the center of mass; it is followed until a time, or for two of its
+/// periods after the end of the drop.
 #[must_use]
 pub fn respond(flight: &Flight, place: f64, omega: f64, zeta: f64, until: Option<f64>) -> Response {
     let mut part = Suspended { omega, zeta, z: 0.0, v: 0.0, time: 0.0, peaks: Response::default() };
@@ -216,7 +216,8 @@ pub fn respond(flight: &Flight, place: f64, omega: f64, zeta: f64, until: Option
     part.peaks
 }
 
-/// The largest felt acceleration of a place from the center of mass; 0 for instant impacts, which have none.
+/// Returns the largest acceleration above free fall of a place from the center of mass; 0 for instant impacts, which
+/// have none.
 #[must_use]
 pub fn felt(flight: &Flight, place: f64) -> Peak {
     let mut peak = Peak::default();
@@ -226,7 +227,7 @@ pub fn felt(flight: &Flight, place: f64) -> Peak {
     peak
 }
 
-/// The shocks of a place from the center of mass, from the largest peak down.
+/// Returns the shocks of a place from the center of mass, from the largest peak down.
 #[must_use]
 pub fn shocks(flight: &Flight, place: f64, motion: Motion) -> Vec<Shock> {
     let is_velocity = motion == Motion::Velocity;
@@ -242,8 +243,8 @@ pub fn shocks(flight: &Flight, place: f64, motion: Motion) -> Vec<Shock> {
     pulses(&pushes, 2.0 * flight.gravity / least)
 }
 
-/// A step in which something presses: what is felt at its begin, middle and end, and by what the velocity changes, along one axis or
-/// along three.
+/// A step with contact: the acceleration above free fall at its begin, middle and end, and the velocity change, along
+/// one axis or along three.
 pub(crate) struct Push {
     pub(crate) time: f64,
     pub(crate) length: f64,
@@ -252,7 +253,7 @@ pub(crate) struct Push {
 }
 
 impl Push {
-    /// The change of velocity from its begin to a share of it: the integral of a parabola.
+    /// Returns the change of velocity from its begin to a share of it: the integral of a parabola.
     fn moved_by(&self, u: f64) -> [f64; 3] {
         self.moved.map(|[p, q, r]| {
             self.length * u * (p + u * ((4.0 * q - 3.0 * p - r) / 2.0 + u * 2.0 * (p + r - 2.0 * q) / 3.0))
@@ -260,7 +261,7 @@ impl Push {
     }
 }
 
-/// The largest change of all shocks.
+/// Returns the largest change of all shocks.
 #[must_use]
 pub fn largest(shocks: &[Shock]) -> Peak {
     let mut peak = Peak::default();
@@ -270,7 +271,7 @@ pub fn largest(shocks: &[Shock]) -> Peak {
     peak
 }
 
-/// Changes by instant impacts; those at one instant add up.
+/// Returns the changes by instant impacts; those at one instant add up.
 fn strikes(pushes: &[Push]) -> Vec<Shock> {
     let mut list: Vec<Shock> = Vec::with_capacity(pushes.len());
     for &Push { time, felt: [jump, ..], .. } in pushes {
@@ -285,7 +286,7 @@ fn strikes(pushes: &[Push]) -> Vec<Shock> {
     list
 }
 
-/// The largest magnitude of a parabola through three values over its step.
+/// Returns the largest magnitude of a parabola through three values over its step.
 fn crest([p, q, r]: [f64; 3]) -> f64 {
     let (bend, slope) = (p + r - 2.0 * q, (r - p) / 2.0);
     let ends = if p.abs() > r.abs() { p } else { r };
@@ -299,16 +300,16 @@ fn crest([p, q, r]: [f64; 3]) -> f64 {
     most
 }
 
-/// A moment of a history: when, what is felt, and the velocity gained by then.
+/// A moment of a history: its time, the acceleration, and the velocity gained by then.
 struct Point {
     time: f64,
     felt: f64,
     gained: [f64; 3],
 }
 
-/// Shocks of a history: they are taken from the largest peak down; each reaches on both sides as
-/// long as the sign is kept and a tenth of its peak, at least `least`, is exceeded, and from there as long as it goes on falling,
-/// never into an earlier one, nor beyond what presses without a gap. Peaks below `least` are none beside others above it.
+/// Returns the shocks of a history, from the largest peak down. Each reaches on both sides as long as the sign is kept
+/// and a tenth of its peak, at least `least`, is exceeded, and from there as long as it goes on falling, never into an
+/// earlier one, nor beyond a contact without a gap. Peaks below `least` do not count beside others above it.
 pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
     let mut points: Vec<Point> = Vec::with_capacity(3 * pushes.len() + 2);
     let mut gained = [0.0; 3];
@@ -325,7 +326,7 @@ pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
         points.push(at(0.0, p));
         for (from, to, half) in [(p, q, 0.5), (q, r, 1.0)] {
             if from * to < 0.0 {
-                // Where the sign changes.
+                // This is the change of sign.
                 points.push(at(half - 0.5 * to / (to - from), 0.0));
             }
             points.push(at(half, to));

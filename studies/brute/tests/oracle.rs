@@ -1,4 +1,4 @@
-//! Drops that were integrated elsewhere.
+//! Drops that were integrated by another program.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use clatter_brute::flight::{Drop, Law, Own, Until, follow};
@@ -31,13 +31,13 @@ fn drop_of(case: &Value) -> Drop {
     }
 }
 
-/// A place given in half-lengths from the middle, from the center of mass.
+/// Returns a place from the center of mass, given in half-lengths from the middle.
 fn place(drop: &Drop, at: f64) -> f64 {
     at * drop.length / 2.0 - drop.center
 }
 
-/// Touches but those below a thousandth of the first speed, and the peaks of a part. The peaks there are samples, up to
-/// 2.5e-3 below the highest of the stiffest parts.
+/// Touches above a thousandth of the first speed are compared, and the peaks of a part. The peaks of the oracle are
+/// samples, up to 2.5e-3 below the highest of the stiffest parts.
 #[test]
 fn contacts_and_parts_are_those_of_another_integration() {
     let cases = cases(include_str!("data/contact-bar.json"));

@@ -1,4 +1,4 @@
-//! A few numbers in full: exact, ours, and what plain f64 makes of a formula as it is printed.
+//! A few numbers in full: exact, ours, and the result of plain f64 by a formula as it is printed.
 
 use clatter::{Bar, Start};
 use clatter_figures::raised;
@@ -17,7 +17,7 @@ pub(super) enum Value {
     Word(&'static str),
 }
 
-/// One line: what is computed, by which plain formula, and the three values.
+/// One line: the quantity, its plain formula, and the three values.
 #[derive(Debug)]
 pub(super) struct Line {
     pub(super) what: &'static str,
@@ -45,7 +45,7 @@ fn found(found: Found) -> Value {
     }
 }
 
-/// The words for a case.
+/// Returns the text for a case.
 pub(super) fn inputs(case: &Case) -> String {
     let given = match case.given {
         Given::Q(q) => format!("q = {}", short(q)),
@@ -54,7 +54,7 @@ pub(super) fn inputs(case: &Case) -> String {
     format!("{given}, e = {}", short(case.e))
 }
 
-/// A float in as few signs as tell it: next to 1 by its distance, else as it reads back.
+/// Returns a float in as few characters as define it: next to 1 by its distance, else in its shortest form.
 fn short(v: f64) -> String {
     let off = 1.0 - v;
     if off > 0.0 && off <= 4.0 * f64::EPSILON {
@@ -73,7 +73,7 @@ fn short(v: f64) -> String {
     v.to_string().replace('-', "−")
 }
 
-/// The words for a case with its start.
+/// Returns the text for a case with its start.
 fn told(case: &Case) -> String {
     let [a, b] = case.velocity;
     #[expect(clippy::float_cmp, reason = "the default, to the bit")]
@@ -82,7 +82,7 @@ fn told(case: &Case) -> String {
     inputs(case) + &start
 }
 
-/// The lines about trains.
+/// Returns the lines about trains.
 fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     const RECURRENCE: &str = "aₙ₊₁ = T aₙ − e aₙ₋₁";
     const CLOSED: &str = "⌈(π − φ)/acos(T/2√e)⌉";
@@ -153,7 +153,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     Ok(lines)
 }
 
-/// The lines about a suspended part.
+/// Returns the lines about a suspended part.
 fn parts() -> Result<Vec<Line>, Error> {
     let mut lines = Vec::new();
     let mut free = |what, zeta: f64, name: &str, (at, omega, t): (&str, f64, f64), formula| {

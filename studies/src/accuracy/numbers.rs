@@ -11,7 +11,7 @@ use crate::files::decimals;
 use part::Cell;
 
 impl Data {
-    /// Each allowance, and the extreme that comes nearest to it.
+    /// Returns each allowance, and the extreme that comes nearest to it.
     fn allowances(&self) -> Vec<Value> {
         let told = |a: Allowance, worst: Option<(f64, String)>| {
             let (error, at) = worst.unwrap_or((f64::NAN, String::new()));
@@ -26,7 +26,7 @@ impl Data {
             let errors = judged.filter(|(_, j)| j.allowed == Some(a));
             errors.filter_map(|(row, j)| Some((j.error?, row.case.name.to_owned()))).reduce(larger)
         };
-        // What is allowed more at one extreme than at others is taken off.
+        // An allowance that is larger at one extreme is divided out.
         let of_part = |a: Allowance, axis: &str, at: &[&str], lines: &[part::Line]| {
             let cells = lines.iter().flat_map(|line| {
                 line.cells.iter().zip(at).filter_map(move |(cell, at)| Some((line.zeta, cell.as_ref()?, at)))
@@ -50,7 +50,7 @@ impl Data {
             .collect()
     }
 
-    /// Every number that the page says.
+    /// Returns every number on the page.
     pub(super) fn numbers(&self) -> Value {
         let allowances = self.allowances();
         let orders = self.flights.orders.iter().map(|o| {

@@ -2,7 +2,7 @@
 
 use super::train::{Answer, Case, Found, Given, LONG};
 
-/// T as f64 has it: from k through a rounded q.
+/// Returns T in f64: from k through a rounded q.
 fn plain_t(case: &Case) -> f64 {
     let q = match case.given {
         Given::Q(q) => q,
@@ -11,7 +11,7 @@ fn plain_t(case: &Case) -> f64 {
     q * (1.0 + case.e)
 }
 
-/// The recurrence as it stands, for a million steps.
+/// Runs the recurrence as it is printed, for a million steps.
 pub(super) fn recurrence(case: &Case, list: &[u64]) -> Answer {
     let (t, e) = (plain_t(case), case.e);
     let [mut a, vb] = case.velocity;
@@ -38,7 +38,7 @@ pub(super) fn recurrence(case: &Case, list: &[u64]) -> Answer {
     answer
 }
 
-/// The closed form as it is printed: acos of T/(2√e), π − φ, plain powers.
+/// Returns the closed form as it is printed: acos of T/(2√e), π − φ, plain powers.
 pub(super) fn closed(case: &Case, list: &[u64]) -> Answer {
     use libm::{acos, atan2, ceil, exp, floor, log, pow, sin, sqrt};
     let (t, e, [va, vb]) = (plain_t(case), case.e, case.velocity);

@@ -1,4 +1,4 @@
-//! How errors, counts and digits are told on the page.
+//! Formats of errors, counts and digits on the page.
 
 use clatter::accuracy::{DURATION_LONG, NEAR_ENDLESS};
 use clatter_figures::raised;
@@ -11,7 +11,7 @@ use super::part::Cell;
 use super::train::{Case, Found, Judged, Way};
 use crate::files::decimals;
 
-/// A number with one digit and its power of ten, rounded by `round`.
+/// Returns a number with one digit and its power of ten, rounded by `round`.
 fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> String {
     let mut exponent = value.abs().log10().floor();
     // Read back from its decimals, so that 1e−10 is 1 and not 1.000…1.
@@ -29,12 +29,12 @@ fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> String {
     if (first - 1.0).abs() < 0.5 { power } else { format!("{first}·{power}") }
 }
 
-/// A number as one digit and a power of ten.
+/// Returns a number as one digit and a power of ten.
 pub(super) fn power(value: f64) -> String {
     one_digit(value, f64::round)
 }
 
-/// An error from above: `ε` for a rounding or less, else one digit that it stays below.
+/// Returns an upper bound of an error as text: `ε` for a rounding or less, else one digit and a power of ten.
 pub(super) fn upper(error: f64) -> String {
     match error {
         x if !x.is_finite() => "∞".into(),
@@ -43,7 +43,7 @@ pub(super) fn upper(error: f64) -> String {
     }
 }
 
-/// What an error looks like on the page: within what is allowed, or not; nothing promised.
+/// Returns the state of an error on the page: within the allowed one, or beyond; free where nothing is promised.
 fn state(allowed: Option<f64>, error: f64) -> &'static str {
     match allowed {
         None => "free",
@@ -85,7 +85,7 @@ pub(super) fn count(found: Found) -> String {
     }
 }
 
-/// What is not pure translation from h0.
+/// Returns the start, unless it is pure translation from h0.
 pub(super) fn start(case: &Case) -> String {
     let [va, vb] = case.velocity;
     #[expect(clippy::float_cmp, reason = "the default, to the bit")]
@@ -102,10 +102,10 @@ pub(super) fn pair(cell: &Cell) -> Value {
     json!({ "ours": told(cell.ours), "plain": cell.plain.map(told) })
 }
 
-/// Digits that are shown of a number.
+/// Number of digits that are shown of a number.
 const DIGITS: u32 = 16;
 
-/// A value as its digits: those that it shares with the exact one, the others, the power of ten.
+/// Returns a value as its digits: those that it shares with the exact one, the others, the power of ten.
 pub(super) fn written(exact: &digits::Value, value: &digits::Value) -> Value {
     let digits = |value: &digits::Value| match value {
         digits::Value::Number(x) => Ok(number(x)),
@@ -126,7 +126,7 @@ pub(super) fn written(exact: &digits::Value, value: &digits::Value) -> Value {
     }
 }
 
-/// Sign and digits with a point after the first, and the power of ten if it is not 0.
+/// Returns the sign and digits with a point after the first, and the power of ten if it is not 0.
 fn number(x: &Big) -> (String, String) {
     let (digits, power) = x.decimal(DIGITS);
     let (first, rest) = digits.split_at(1);

@@ -1,4 +1,4 @@
-//! What the page says of the tosses, as numbers and a figure.
+//! The numbers and the figure of the page on the tosses.
 
 use clatter_report::File;
 use serde_json::{Value, json};
@@ -13,10 +13,10 @@ use crate::Error;
 use crate::figures::{OverTime, tosses as figure};
 use crate::files::{decimals, pretty};
 
-/// Samples before the first touch at which the flight that foretells it ends: 34 ms of the cube.
+/// Number of samples before the first touch at which the flight that predicts it ends: 34 ms of the cube.
 const EARLIER: usize = 5;
 
-/// `cube.json` and `cube.svg`.
+/// Returns `cube.json` and `cube.svg`.
 pub(crate) fn files() -> Result<Vec<File>, Error> {
     let cube = Page::new(TOSSES, &CUBE, true)?;
     let square = Page::new(SQUARES, &SQUARE, false)?;
@@ -24,16 +24,16 @@ pub(crate) fn files() -> Result<Vec<File>, Error> {
     Ok(vec![("cube.json", pretty(&numbers)?), ("cube.svg", cube.figure()?)])
 }
 
-/// Every number that the section on tosses says, as it is printed: the file `cube.json`.
+/// Returns every number of the section on tosses, as it is printed: the file `cube.json`.
 ///
 /// # Errors
-/// [`Error::Data`] if the tosses or what other tools made of them are torn; others if a model or the figure fails.
+/// [`Error::Data`] if the tosses or the results of other tools are torn; others if a model or the figure fails.
 pub fn numbers() -> Result<String, Error> {
     let numbers = files()?.into_iter().find(|(name, _)| *name == "cube.json");
     Ok(numbers.map(|(_, text)| text).unwrap_or_default())
 }
 
-/// Tosses, and the models beside them: the box, rigid impacts without and with friction, other tools.
+/// Tosses, and the models for them: the box, rigid impacts without and with friction, other tools.
 struct Page {
     study: Study,
     models: Vec<Model>,
@@ -74,7 +74,8 @@ impl Page {
         })
     }
 
-    /// Strikes that stand alone: what was measured in both halves, and an impact at one point beside those of the other half.
+    /// Returns the isolated strikes: measurements of both halves, and an impact at one point compared with those of the
+    /// other half.
     fn strikes(&self) -> Value {
         let strikes: Vec<Strike> = self.study.strikes.iter().map(|(_, strike)| *strike).collect();
         let sliding: Vec<Strike> =
@@ -101,8 +102,8 @@ impl Page {
         })
     }
 
-    /// Tosses whose next corner to come down is the same with friction and without, by rigid impacts: how many, and in how many of these, and of
-    /// the rest, the box has the one that was measured.
+    /// Returns the number of tosses whose next corner to come down is the same with friction and without, by rigid
+    /// impacts, and for how many of these, and of the rest, the box has the measured one.
     fn decided(&self) -> Value {
         let next = |downs: &[(usize, f64)]| downs.first().map(|down| down.0);
         let [own, with, without] = [0, 1, 2].map(|i| &self.models[i].downs);
@@ -138,7 +139,7 @@ fn over_time(model: &Model) -> OverTime<'_> {
     OverTime { name: &model.name, friction: model.friction, corners_mm }
 }
 
-/// A model as the table has it.
+/// Returns a model as a row of the table.
 fn row(model: &Model) -> Value {
     let errors = &model.errors;
     let mm = |quartiles: Quartiles, digits| spread(quartiles.map(|length| 1e3 * length), digits);
@@ -150,7 +151,7 @@ fn row(model: &Model) -> Value {
     })
 }
 
-/// A median with its quartiles.
+/// Returns a median with its quartiles.
 fn spread([low, median, high]: Quartiles, digits: usize) -> String {
     let [low, median, high] = [low, median, high].map(|value| decimals(value, digits));
     format!("{median} ({low}–{high})")

@@ -1,4 +1,4 @@
-//! Corners that land at one instant, or nearly: what rigid impacts and contacts that take time make of it.
+//! Corners that land at one instant, or nearly, by rigid impacts and by contacts that take time.
 
 use clatter::{Bar, Corner, End, Plate, PlateStart, Start};
 use clatter_assess::{Limit, LimitKind, Model, Part, SingleDrop, answer};
@@ -9,13 +9,14 @@ use super::E;
 use super::bars::STRIKES;
 use crate::Error;
 
-/// Contact time in s, on a plate of 2 m by 2 m that falls at 1 m/s without gravity: at small tilt no other length or speed counts.
+/// Contact time in s, on a plate of 2 m by 2 m that falls at 1 m/s without gravity: at small tilt no other length or
+/// speed counts.
 const CONTACT_S: f64 = 1e-4;
-/// How exactly each drop is answered.
+/// Tolerance of the answer for each drop.
 const TOLERANCE: f64 = 1e-3;
 
-/// A drop of a uniform plate onto contacts that take time: the heights of b and d together over what it falls in one contact time,
-/// and the direction r of its tilt.
+/// Returns the shocks of a drop of a uniform plate onto contacts that take time: `gap` is the heights of b and d
+/// together over the fall in one contact time, `r` the direction of its tilt.
 fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Shocks, Error> {
     let plate = clatter_flight::Plate::new([1.0; 4], [(1.0_f64 / 3.0).sqrt(); 2])?;
     let height = gap * CONTACT_S;
@@ -32,11 +33,11 @@ fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Shocks, Error> {
     Ok(felt)
 }
 
-/// What the corners of a plate feel.
+/// The shocks of the corners of a plate.
 struct Shocks {
-    /// Largest velocity shock of each, in v0.
+    /// Largest velocity shock of each corner, in v0.
     shocks: [f64; 4],
-    /// Largest acceleration of any, as the shock of a lone contact that has it.
+    /// Largest acceleration of any corner, as the shock of a lone contact with that peak.
     peak: f64,
 }
 
@@ -51,24 +52,24 @@ impl Shocks {
 pub(crate) struct Ties {
     /// Rigid: directions from r = 0 to ½ with one shock each, (from, to, shock).
     pub(crate) rigid: Vec<[f64; 3]>,
-    /// Of each law over r, at [`GAP`].
+    /// Largest shocks by each law over r, at [`GAP`].
     pub(crate) over_direction: [Vec<(f64, f64)>; 2],
-    /// Of each law over the gap, the worst of all directions.
+    /// Largest shocks by each law over the gap, the worst of all directions.
     pub(crate) over_gap: [Vec<(f64, f64)>; 2],
-    /// Of each law the largest acceleration over all gaps and directions, as the shock of a lone contact that has it.
+    /// Largest acceleration by each law over all gaps and directions, as the shock of a lone contact with that peak.
     pub(crate) peaks: [f64; 2],
-    /// What each corner feels of a landing on the edge from a to d, by way of treating it.
+    /// Shocks of each corner in a landing on the edge from a to d, by method.
     pub(crate) edge: [(&'static str, [f64; 4]); 5],
 }
 
-/// Heights of b and d together, over what the plate falls in one contact time, where the direction varies.
+/// Heights of b and d together, over the fall in one contact time, for the curve over the direction.
 pub(crate) const GAP: f64 = 10.0;
-/// Directions of a curve, up to the diagonal, and those among which the worst is looked for.
+/// Directions of a curve, up to the diagonal, and those among which the worst is searched.
 const CURVE: u16 = 100;
 const SEARCH: u16 = 50;
 /// Gaps of a curve: from 10⁻¹ to 10²·⁵.
 const GAPS: u16 = 28;
-/// Of a landing on an edge: the far edge is so high that nothing overlaps with it.
+/// Gap of a landing on an edge: the far edge is so high that nothing overlaps with it.
 const FAR: f64 = 100.0;
 
 impl Ties {
@@ -108,7 +109,7 @@ impl Ties {
         })
     }
 
-    /// The largest shock of all gaps and directions by a law, and the gap that has it.
+    /// Returns the largest shock of all gaps and directions by a law, and the gap that has it.
     pub(crate) fn worst(&self, law: usize) -> (f64, f64) {
         self.over_gap[law]
             .iter()
@@ -116,7 +117,7 @@ impl Ties {
     }
 }
 
-/// A landing on the edge from a to d: what corners a, b, c and d feel.
+/// Returns the shocks of corners a, b, c and d in a landing on the edge from a to d.
 fn edge(plate: &Plate) -> Result<[(&'static str, [f64; 4]); 5], Error> {
     let start = PlateStart::level([1.0, 0.0])?;
     let shocks = plate.shocks(&start, STRIKES as u64);
@@ -126,7 +127,7 @@ fn edge(plate: &Plate) -> Result<[(&'static str, [f64; 4]); 5], Error> {
     let [hysteretic, dashpot] = ContactLaw::ALL;
     Ok([
         ("rigid, a just before d", [a, b, c, d]),
-        // The same in a mirror.
+        // This is the same in a mirror.
         ("rigid, d just before a", [d, c, b, a]),
         ("rigid, both at once: the paper's bar", [near, far, far, near]),
         ("contacts, hysteretic", felt(hysteretic, FAR, 0.0)?.shocks),
@@ -139,8 +140,8 @@ mod tests {
     use super::*;
     use crate::paper::claims::turn;
 
-    /// An edge that lands whole is the paper's bar, whose hysteretic contacts tend to instant impacts; either corner a moment before
-    /// the other shakes one far corner more and the other less.
+    /// An edge that lands whole is the paper's bar, whose hysteretic contacts tend to instant impacts. If one corner
+    /// lands a moment before the other, one far corner gets a larger shock and the other a smaller one.
     #[test]
     fn contacts_make_one_answer_of_a_tie() {
         let [(_, first), (_, second), (_, both), (_, hysteretic), (_, dashpot)] =
@@ -166,8 +167,8 @@ mod tests {
         }
     }
 
-    /// Each of four contacts then carries a quarter of the mass, a lone one a seventh: the hysteretic law gives back as much, the dashpot
-    /// as it does where its damping ratio is √(4/7) of that.
+    /// Each of four contacts then carries a quarter of the mass, a lone one a seventh: the hysteretic law keeps its
+    /// restitution, the dashpot has that of a damping ratio √(4/7) as large.
     #[test]
     fn a_flat_landing_is_one_shock_by_the_law_of_more_mass() {
         let ratio = |e: f64| Contact::new(ContactLaw::Dashpot, e, CONTACT_S).unwrap().damping_ratio();
