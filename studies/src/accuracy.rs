@@ -4,11 +4,11 @@
 
 mod big;
 mod digits;
+mod display;
 mod flight;
 mod numbers;
 mod part;
 mod plain;
-mod told;
 mod train;
 
 use crate::figures::{OrderPanel as Panel, orders as figure};
@@ -118,7 +118,7 @@ impl Data {
                 plain: [recurrence, closed],
             });
             for (k, quantity) in COLUMNS.into_iter().enumerate() {
-                let [ours, recurrence, closed] = ways.map(|way| way.judged[k]);
+                let [ours, recurrence, closed] = ways.map(|way| way.compared[k]);
                 rows.push(Measured {
                     subject: "train",
                     extreme: extreme.clone(),

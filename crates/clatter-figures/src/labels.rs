@@ -8,7 +8,7 @@ const LINE: f64 = 8.5;
 
 /// A label that has to stand near a point.
 #[derive(Debug)]
-pub(super) struct Wanted<'a> {
+pub(super) struct LabelRequest<'a> {
     pub(super) at: Pt,
     /// Radius of the mark at the point.
     pub(super) radius: f64,
@@ -41,7 +41,7 @@ impl Placed {
         (near, (near[0] - p[0]).hypot(near[1] - p[1]))
     }
     /// Returns the begin of a line to the mark, if that is too far to be recognized as its own.
-    pub(super) fn leader(&self, of: &Wanted<'_>) -> Option<Pt> {
+    pub(super) fn leader(&self, of: &LabelRequest<'_>) -> Option<Pt> {
         let (near, far) = self.nearest(of.at);
         (far > of.radius + 5.0).then_some(near)
     }
@@ -59,7 +59,7 @@ impl Placed {
 
 /// Returns boxes for all labels: apart from one another, from all marks and within the frame. Each is as near to its
 /// point as the ones before it leave, and clear of the lines where possible.
-pub(super) fn arrange(wanted: &[Wanted<'_>], [from, to]: [Pt; 2], lines: &[[Pt; 2]]) -> Vec<Placed> {
+pub(super) fn arrange(wanted: &[LabelRequest<'_>], [from, to]: [Pt; 2], lines: &[[Pt; 2]]) -> Vec<Placed> {
     let around = |p: Pt, r: f64| Placed { corner: [p[0] - r, p[1] - r], size: [2.0 * r, 2.0 * r] };
     let marks: Vec<Placed> = wanted.iter().map(|w| around(w.at, w.radius + 1.2)).collect();
     let (mut placed, mut leaders) = (Vec::<Placed>::new(), Vec::<[Pt; 2]>::new());
@@ -117,8 +117,8 @@ mod tests {
             let (heap, i) = (f64::from(k / 4), f64::from(k % 4));
             [40.0 + 70.0 * heap + 5.0 * i, 60.0 + 30.0 * heap + 4.0 * (i * 7.0 % 3.0)]
         };
-        let wanted: Vec<Wanted<'_>> =
-            (0..18).map(|k| Wanted { at: at(k), radius: MARK, text: "finite tilt, largest shock" }).collect();
+        let wanted: Vec<LabelRequest<'_>> =
+            (0..18).map(|k| LabelRequest { at: at(k), radius: MARK, text: "finite tilt, largest shock" }).collect();
         let labels = arrange(&wanted, [[0.0, 0.0], FRAME], &[]);
         for (i, a) in labels.iter().enumerate() {
             assert!(a.size[0] > 50.0, "label {i} has found a place");
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_frame_without_room_leaves_words_out() {
-        let wanted = [Wanted { at: [5.0, 5.0], radius: MARK, text: "closed form, net change" }];
+        let wanted = [LabelRequest { at: [5.0, 5.0], radius: MARK, text: "closed form, net change" }];
         let [label] = arrange(&wanted, [[0.0, 0.0], [10.0, 10.0]], &[])[..] else { panic!("one label") };
         assert!(label.size[0].abs() < f64::EPSILON, "{label:?}");
     }

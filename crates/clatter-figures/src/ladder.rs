@@ -7,7 +7,7 @@ use clatter_assess::ladder::{Ladder, Measured, Rung};
 use crate::FigureError;
 use crate::axis::{Axis, step_up, tick};
 use crate::chart::Axes;
-use crate::labels::{SIZE, Wanted, arrange};
+use crate::labels::{LabelRequest, SIZE, arrange};
 use crate::paper::{Paper, SMALL};
 use crate::product::fit;
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND};
@@ -73,7 +73,7 @@ pub fn words(model: Model) -> &'static str {
 }
 
 /// Returns the words for a rung of the ladder.
-fn of_rung(rung: Rung) -> &'static str {
+fn rung_words(rung: Rung) -> &'static str {
     match rung {
         Rung::Model(model) => words(model),
         Rung::Bar => "bar along the length",
@@ -119,9 +119,13 @@ fn panel(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     let mut shown: Vec<&Measured> = of.ladder.models.iter().filter(|m| m.error <= MOST).collect();
     // The most important label finds its place first.
     shown.sort_by_key(|m| !is_cheapest(m));
-    let wanted: Vec<Wanted<'_>> = shown
+    let wanted: Vec<LabelRequest<'_>> = shown
         .iter()
-        .map(|m| Wanted { at: place(m), radius: if is_cheapest(m) { RING } else { MARK }, text: of_rung(m.model) })
+        .map(|m| LabelRequest {
+            at: place(m),
+            radius: if is_cheapest(m) { RING } else { MARK },
+            text: rung_words(m.model),
+        })
         .collect();
     let lines = [100.0 * of.tolerance, 100.0 * strip].map(|y| {
         let y = axes.at(axes.x.low, y)[1];
@@ -149,8 +153,8 @@ fn panel(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
 /// Draws the quantity, the drop, the cheapest model, and the reason against cheaper ones.
 fn head(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     let room = LEFT + FRAME[0] - 4.0;
-    let cheapest = format!("Cheapest within {} %: {}", tick(100.0 * of.tolerance), of_rung(of.ladder.cheapest));
-    let useless = of.ladder.models.iter().filter(|m| m.error > MOST).map(|m| of_rung(m.model)).collect::<Vec<_>>();
+    let cheapest = format!("Cheapest within {} %: {}", tick(100.0 * of.tolerance), rung_words(of.ladder.cheapest));
+    let useless = of.ladder.models.iter().filter(|m| m.error > MOST).map(|m| rung_words(m.model)).collect::<Vec<_>>();
     let cheapest = match &useless[..] {
         [] => cheapest,
         names => format!("{cheapest}; off the scale: {}", names.join(", ")),

@@ -228,7 +228,7 @@ pub struct Landing<'a> {
 /// Room of the pictures of a part, below one another as wide as its curves.
 const PAGE: Pt = [226.0, 122.0];
 /// The most strikes listed at a corner, and the distance from line to line.
-const TOLD: usize = 3;
+const SHOWN: usize = 3;
 const LINE: f64 = 9.5;
 
 /// Draws the plate as it lands: at each corner its strikes by number, time and change of velocity.
@@ -246,9 +246,9 @@ pub fn landing(of: &Landing<'_>) -> Result<String, FigureError> {
         let (right, upper) = (corner == 1 || corner == 2, corner >= 2);
         let own: Vec<usize> = (0..of.strikes.len()).filter(|i| of.strikes[*i].corner == corner).collect();
         let (x, anchor) = if right { (PAGE[0] - 2.0, Anchor::End) } else { (2.0, Anchor::Start) };
-        let rows = own.len().min(TOLD);
-        for (k, &i) in own.iter().take(TOLD).enumerate() {
-            let more = if k + 1 == TOLD && own.len() > TOLD { " …" } else { "" };
+        let rows = own.len().min(SHOWN);
+        for (k, &i) in own.iter().take(SHOWN).enumerate() {
+            let more = if k + 1 == SHOWN && own.len() > SHOWN { " …" } else { "" };
             let (line, color) = (words(i + 1, &of.strikes[i]) + more, if i + 1 == of.impact { RUST } else { INK });
             let y = if upper { head - LINE * count(rows - 1 - k) } else { foot + LINE * count(k) };
             paper.text([x, y], &line, Label { anchor, color, ..SMALL });

@@ -308,11 +308,11 @@ fn contacts(drop: &Drop, until: Until) -> Flight {
 fn record(bar: &Bar, time: f64, h: f64, s: &State, next: &State) -> Step {
     let (from, to) = (bar.rate(s), bar.rate(next));
     let middle: State = std::array::from_fn(|i| f64::midpoint(s[i], next[i]) + h / 8.0 * (from[i] - to[i]));
-    let felt = [s, &middle, next].map(|s| {
+    let values = [s, &middle, next].map(|s| {
         let (push, turn) = bar.accelerations(s);
         [push, turn * s[1].cos() - s[3] * s[3] * s[1].sin(), turn]
     });
-    let [push, lift, turn] = [0, 1, 2].map(|what| felt.map(|felt| felt[what]));
+    let [push, lift, turn] = [0, 1, 2].map(|what| values.map(|values| values[what]));
     let flying = bar.contacts.iter().all(|c| c.phase == Phase::Free);
     Step { time, length: h, flying, push, lift, turn }
 }

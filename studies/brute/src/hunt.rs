@@ -1,7 +1,7 @@
 //! The worst drop of each limit by sampling and climbing.
 
 use crate::flight::{Drop, Flight, Until, flat, follow};
-use crate::part::{INSTANT, Motion, Peak, felt, largest, respond, shocks};
+use crate::part::{INSTANT, Motion, Peak, largest, largest_acceleration, respond, shocks};
 use crate::product::{Kind, Part, Product, Sample};
 use crate::random::Random;
 
@@ -44,7 +44,7 @@ pub struct Worst {
 pub fn values(kinds: &[Kind], flight: &Flight, place: f64, suspension: Option<(f64, f64)>) -> Vec<Peak> {
     let response = suspension.map(|(omega, zeta)| respond(flight, place, omega, zeta, None));
     let value = |kind: &Kind| match (*kind, response) {
-        (Kind::Acceleration, None) => felt(flight, place),
+        (Kind::Acceleration, None) => largest_acceleration(flight, place),
         (Kind::Acceleration, Some(response)) => response.acceleration,
         (Kind::RattleSpace, response) => response.unwrap_or_default().displacement,
         (Kind::VelocityChange, _) => largest(&shocks(flight, place, Motion::Velocity)),
@@ -82,7 +82,7 @@ fn high(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> f64 {
 }
 
 /// Follows a sample to its full end.
-fn told(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> Worst {
+fn evaluate(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> Worst {
     let drop = product.drop(sample);
     let (place, suspension) = part.at(sample);
     let (mut flight, flat, peak) = flights(&drop, WHOLE)
@@ -142,7 +142,7 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
             .collect();
         tops.sort_by(|a, b| b.0.total_cmp(&a.0));
         let top = climb(tops[0], 2 * tries, spins, &mut random, |sample| high(part, kind, product, sample));
-        told(part, kind, product, &top.1)
+        evaluate(part, kind, product, &top.1)
     });
     climbed.collect()
 }

@@ -78,12 +78,12 @@ impl Suspended {
     }
 
     /// Makes a step under an acceleration of the place that is a parabola through three values.
-    fn push(&mut self, h: f64, felt: [f64; 3]) {
+    fn push(&mut self, h: f64, acceleration: [f64; 3]) {
         let parts = (self.omega * (1.0 + 2.0 * self.zeta) * h / FINE).ceil().max(1.0);
         let (from, h) = (self.time, h / parts);
         for i in 0..parts as u64 {
             let at = |u: f64| {
-                let [p, q, r] = felt;
+                let [p, q, r] = acceleration;
                 p + u * (4.0 * q - 3.0 * p - r + u * 2.0 * (p + r - 2.0 * q))
             };
             let [f0, f1, f2] = [0.0, 0.5, 1.0].map(|j| at((i as f64 + j) / parts));
@@ -111,9 +111,9 @@ impl Suspended {
     }
 
     /// Follows the part for a time under a constant acceleration of the place.
-    fn ring(&mut self, h: f64, felt: f64) {
+    fn ring(&mut self, h: f64, acceleration: f64) {
         let w = self.omega;
-        let rest = -felt / (w * w);
+        let rest = -acceleration / (w * w);
         let (z, v) = (self.z - rest, self.v);
         // The turning points: of the displacement, and of the acceleration, which obeys the same equation.
         let (u, ut) = (self.acceleration(z, v), self.acceleration(v, self.acceleration(z, v)));
@@ -129,7 +129,7 @@ impl Suspended {
                 if displacement {
                     peaks.displacement.see(rest + at, self.time + from);
                 } else {
-                    peaks.acceleration.see(felt + at, self.time + from);
+                    peaks.acceleration.see(acceleration + at, self.time + from);
                 }
             }
         }
@@ -195,23 +195,23 @@ pub fn respond(flight: &Flight, place: f64, omega: f64, zeta: f64, until: Option
             part.ring(step.time - part.time, 0.0);
             part.time = step.time;
         }
-        let felt: [f64; 3] = std::array::from_fn(|i| step.push[i] + place * step.lift[i]);
+        let acceleration: [f64; 3] = std::array::from_fn(|i| step.push[i] + place * step.lift[i]);
         if step.length == 0.0 {
-            part.v -= felt[0];
+            part.v -= acceleration[0];
             part.see();
         } else if step.flying && omega * step.length > 5.0 {
-            part.ring(step.length, felt[1]); // so slow for the part that steps do not shake it
+            part.ring(step.length, acceleration[1]); // so slow for the part that steps do not shake it
         } else {
-            part.push(step.length, felt);
+            part.push(step.length, acceleration);
         }
     }
     if flight.end > part.time {
         part.ring(flight.end - part.time, 0.0);
     }
-    let felt = if flight.at_rest { flight.gravity } else { 0.0 };
+    let acceleration = if flight.at_rest { flight.gravity } else { 0.0 };
     let until = until.unwrap_or(flight.end + 2.0 * std::f64::consts::TAU / omega * (1.0 + zeta));
     if until > part.time {
-        part.ring(until - part.time, felt);
+        part.ring(until - part.time, acceleration);
     }
     part.peaks
 }
@@ -219,7 +219,7 @@ pub fn respond(flight: &Flight, place: f64, omega: f64, zeta: f64, until: Option
 /// Returns the largest acceleration above free fall of a place from the center of mass; 0 for instant impacts, which
 /// have none.
 #[must_use]
-pub fn felt(flight: &Flight, place: f64) -> Peak {
+pub fn largest_acceleration(flight: &Flight, place: f64) -> Peak {
     let mut peak = Peak::default();
     for step in flight.steps.iter().filter(|step| !step.flying && step.length > 0.0) {
         peak.see(crest([0, 1, 2].map(|j| step.push[j] + place * step.lift[j])), step.time);
@@ -233,8 +233,14 @@ pub fn shocks(flight: &Flight, place: f64, motion: Motion) -> Vec<Shock> {
     let is_velocity = motion == Motion::Velocity;
     let (fall, least) = if is_velocity { (flight.gravity, 1.0) } else { (0.0, flight.gyration) };
     let push = |step: &Step| {
-        let felt = [0, 1, 2].map(|j| if is_velocity { step.push[j] + place * step.lift[j] } else { step.turn[j] });
-        Push { time: step.time, length: step.length, felt, moved: [felt.map(|felt| felt - fall), [0.0; 3], [0.0; 3]] }
+        let acceleration =
+            [0, 1, 2].map(|j| if is_velocity { step.push[j] + place * step.lift[j] } else { step.turn[j] });
+        Push {
+            time: step.time,
+            length: step.length,
+            acceleration,
+            moved: [acceleration.map(|acceleration| acceleration - fall), [0.0; 3], [0.0; 3]],
+        }
     };
     let pushes: Vec<Push> = flight.steps.iter().filter(|step| !step.flying).map(push).collect();
     if pushes.iter().any(|push| push.length == 0.0) {
@@ -248,7 +254,7 @@ pub fn shocks(flight: &Flight, place: f64, motion: Motion) -> Vec<Shock> {
 pub(crate) struct Push {
     pub(crate) time: f64,
     pub(crate) length: f64,
-    pub(crate) felt: [f64; 3],
+    pub(crate) acceleration: [f64; 3],
     pub(crate) moved: [[f64; 3]; 3],
 }
 
@@ -274,7 +280,7 @@ pub fn largest(shocks: &[Shock]) -> Peak {
 /// Returns the changes by instant impacts; those at one instant add up.
 fn strikes(pushes: &[Push]) -> Vec<Shock> {
     let mut list: Vec<Shock> = Vec::with_capacity(pushes.len());
-    for &Push { time, felt: [jump, ..], .. } in pushes {
+    for &Push { time, acceleration: [jump, ..], .. } in pushes {
         match list.last_mut() {
             Some(last) if time - last.time < INSTANT => {
                 last.change += jump;
@@ -303,7 +309,7 @@ fn crest([p, q, r]: [f64; 3]) -> f64 {
 /// A moment of a history: its time, the acceleration, and the velocity gained by then.
 struct Point {
     time: f64,
-    felt: f64,
+    acceleration: f64,
     gained: [f64; 3],
 }
 
@@ -314,14 +320,14 @@ pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
     let mut points: Vec<Point> = Vec::with_capacity(3 * pushes.len() + 2);
     let mut gained = [0.0; 3];
     for push in pushes {
-        let (h, t, [p, q, r]) = (push.length, push.time, push.felt);
+        let (h, t, [p, q, r]) = (push.length, push.time, push.acceleration);
         let before = points.last().map_or(t, |point| point.time);
         if t > before + 1e-12 {
-            points.extend([before, t].map(|time| Point { time, felt: 0.0, gained }));
+            points.extend([before, t].map(|time| Point { time, acceleration: 0.0, gained }));
         }
-        let at = |u: f64, felt: f64| {
+        let at = |u: f64, acceleration: f64| {
             let moved = push.moved_by(u);
-            Point { time: t + u * h, felt, gained: std::array::from_fn(|i| gained[i] + moved[i]) }
+            Point { time: t + u * h, acceleration, gained: std::array::from_fn(|i| gained[i] + moved[i]) }
         };
         points.push(at(0.0, p));
         for (from, to, half) in [(p, q, 0.5), (q, r, 1.0)] {
@@ -333,7 +339,7 @@ pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
         }
         gained = at(1.0, r).gained;
     }
-    let size = |i: usize| points[i].felt.abs();
+    let size = |i: usize| points[i].acceleration.abs();
     let mut crests: Vec<usize> = (0..points.len())
         .filter(|&i| {
             size(i) > 0.0 && (i == 0 || size(i) >= size(i - 1)) && (i + 1 == points.len() || size(i) >= size(i + 1))
@@ -351,7 +357,7 @@ pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
         }
         let down_to = least.max(0.1 * size(top));
         let goes_on = |from: usize, to: usize| {
-            let kept = !taken[to] && size(from) > 0.0 && points[to].felt * points[top].felt >= 0.0;
+            let kept = !taken[to] && size(from) > 0.0 && points[to].acceleration * points[top].acceleration >= 0.0;
             kept && (size(from) > down_to && size(to) > down_to || size(to) <= size(from))
         };
         let (mut low, mut high) = (top, top);

@@ -43,7 +43,7 @@ struct Moment {
     time: f64,
     length: f64,
     flying: bool,
-    felt: [(Vector, Matrix); 3],
+    accelerations: [(Vector, Matrix); 3],
     /// Vertical in axes of the box.
     up: [Vector; 3],
 }
@@ -239,7 +239,7 @@ impl Body {
 
     /// Returns the acceleration above free fall: of the center of mass, and its increase per meter along each axis of
     /// the box (its columns).
-    fn felt(&self, s: &State) -> (Vector, Matrix) {
+    fn accelerations(&self, s: &State) -> (Vector, Matrix) {
         let ((r, w), (push, torque)) = (self.turning(s), self.pushed(s));
         let spun = cross(w, [s[11], s[12], s[13]]);
         let bend = self.turned(&r, std::array::from_fn(|i| torque[i] - spun[i]));
@@ -336,9 +336,9 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
             let (from, to) = (body.rate(&s), body.rate(&next));
             let middle: State = std::array::from_fn(|i| f64::midpoint(s[i], next[i]) + h / 8.0 * (from[i] - to[i]));
             let all = [&s, &middle, &next];
-            let (felt, up) = (all.map(|s| body.felt(s)), all.map(|s| Body::attitude(s)[2]));
+            let (accelerations, up) = (all.map(|s| body.accelerations(s)), all.map(|s| Body::attitude(s)[2]));
             let flying = body.contacts.iter().all(|contact| contact.phase == Phase::Free);
-            moments.push(Moment { time, length: h, flying, felt, up });
+            moments.push(Moment { time, length: h, flying, accelerations, up });
         }
         (s, time) = (next, time + h);
         for k in (0..8).filter(|&k| over[k]) {
@@ -365,12 +365,12 @@ impl Course {
     /// Returns the history of a place from the center of mass along an axis of the box, or of its magnitude.
     #[must_use]
     pub fn at(&self, place: Vector, axis: Option<usize>) -> Flight {
-        let seen = |felt: &(Vector, Matrix)| size(there(felt, place), axis);
+        let seen = |acceleration: &(Vector, Matrix)| size(there(acceleration, place), axis);
         let step = |moment: &Moment| Step {
             time: moment.time,
             length: moment.length,
             flying: moment.flying,
-            push: [0, 1, 2].map(|j| seen(&moment.felt[j])),
+            push: [0, 1, 2].map(|j| seen(&moment.accelerations[j])),
             lift: [0.0; 3],
             turn: [0.0; 3],
         };
@@ -389,12 +389,17 @@ impl Course {
     #[must_use]
     pub fn shocks(&self, place: Vector, axis: Option<usize>) -> Vec<Shock> {
         let push = |moment: &Moment| {
-            let felt: [Vector; 3] = [0, 1, 2].map(|j| there(&moment.felt[j], place));
+            let acceleration: [Vector; 3] = [0, 1, 2].map(|j| there(&moment.accelerations[j], place));
             let moved = [0, 1, 2].map(|i| {
                 let counts = axis.is_none_or(|axis| axis == i);
-                [0, 1, 2].map(|j| if counts { felt[j][i] - self.gravity * moment.up[j][i] } else { 0.0 })
+                [0, 1, 2].map(|j| if counts { acceleration[j][i] - self.gravity * moment.up[j][i] } else { 0.0 })
             });
-            Push { time: moment.time, length: moment.length, felt: felt.map(|felt| size(felt, axis)), moved }
+            Push {
+                time: moment.time,
+                length: moment.length,
+                acceleration: acceleration.map(|acceleration| size(acceleration, axis)),
+                moved,
+            }
         };
         let pushes: Vec<Push> = self.moments.iter().filter(|moment| !moment.flying).map(push).collect();
         pulses(&pushes, 2.0 * self.gravity)
@@ -407,6 +412,6 @@ fn there((center, lift): &(Vector, Matrix), place: Vector) -> Vector {
 }
 
 /// Returns the component along an axis, or the magnitude.
-fn size(felt: Vector, axis: Option<usize>) -> f64 {
-    axis.map_or_else(|| dot(felt, felt).sqrt(), |axis| felt[axis])
+fn size(acceleration: Vector, axis: Option<usize>) -> f64 {
+    axis.map_or_else(|| dot(acceleration, acceleration).sqrt(), |axis| acceleration[axis])
 }

@@ -306,12 +306,12 @@ fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f6
         }
         let course = follow(&product.drop(&sample), UNTIL);
         for (n, part) in product.parts.iter().enumerate() {
-            let felt = course.at(part.place, part.axis);
+            let history = course.at(part.place, part.axis);
             let suspension = part.suspension.map(|(omega, zeta)| (at(omega, sample[5]), at(zeta, sample[6])));
             let (shocks, kinds): (Vec<Kind>, Vec<Kind>) =
                 part.kinds.iter().partition(|&&kind| kind == Kind::VelocityChange);
             let shocks = shocks.into_iter().map(|kind| (kind, largest(&course.shocks(part.place, part.axis))));
-            for (kind, peak) in kinds.iter().copied().zip(values(&kinds, &felt, 0.0, suspension)).chain(shocks) {
+            for (kind, peak) in kinds.iter().copied().zip(values(&kinds, &history, 0.0, suspension)).chain(shocks) {
                 let of = best.iter_mut().find(|of| of.0 == n && of.1 == kind);
                 if let Some(of) = of.filter(|of| peak.value > of.2) {
                     (of.2, of.3) = (peak.value, sample);

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use clatter_brute::flight::{Drop, Law, Own, Until, flat, follow};
-use clatter_brute::part::{Motion, felt, largest, respond, shocks};
+use clatter_brute::part::{Motion, largest, largest_acceleration, respond, shocks};
 use clatter_brute::random::Random;
 
 /// Returns a drop of a body too slow to turn, on one end: a lone contact.
@@ -48,7 +48,7 @@ fn a_lone_contact_is_as_stated() {
                 Law::Dashpot if e < 0.2 => 2.0 * 3.0 * (1.0 / e).ln() / 4e-4,
                 _ => PI / 2.0 * (1.0 + e) * 3.0 / 4e-4,
             };
-            let peak = felt(&flight, 0.0).value;
+            let peak = largest_acceleration(&flight, 0.0).value;
             assert!((peak / want - 1.0).abs() < 1e-5, "{law:?} {e}: peak {peak}, not {want}");
         }
     }

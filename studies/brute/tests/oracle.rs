@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use clatter_brute::flight::{Drop, Law, Own, Until, follow};
-use clatter_brute::part::{Motion, felt, largest, respond, shocks};
+use clatter_brute::part::{Motion, largest, largest_acceleration, respond, shocks};
 use serde_json::Value;
 
 fn cases(text: &str) -> Vec<Value> {
@@ -47,8 +47,8 @@ fn contacts_and_parts_are_those_of_another_integration() {
         let flight = follow(&drop, Until { time: until, quiet: 0.0 });
         let micro = 1e-3 * drop.speed;
         let got: Vec<_> = flight.touches.iter().filter(|touch| touch.velocity.abs() > micro).collect();
-        let told = case["touches"].as_array().unwrap();
-        let want: Vec<_> = told.iter().filter(|touch| number(touch, "approach_m_s").abs() > micro).collect();
+        let touches = case["touches"].as_array().unwrap();
+        let want: Vec<_> = touches.iter().filter(|touch| number(touch, "approach_m_s").abs() > micro).collect();
         assert_eq!(got.len(), want.len(), "case {i}: touches");
         for (got, want) in got.iter().zip(&want) {
             assert_eq!(["a", "b"][got.end], want["end"], "case {i}");
@@ -80,7 +80,7 @@ fn shocks_are_those_of_another_integration() {
         let velocity = largest(&shocks(&flight, place, Motion::Velocity)).value;
         let off = velocity / number(case, "velocity_change_m_s") - 1.0;
         assert!(off.abs() < 5e-5, "case {i}: velocity change off by {off:e}");
-        let off = felt(&flight, place).value / number(case, "acceleration_m_s2") - 1.0;
+        let off = largest_acceleration(&flight, place).value / number(case, "acceleration_m_s2") - 1.0;
         assert!(off.abs() < 5e-5, "case {i}: acceleration off by {off:e}");
     }
 }

@@ -46,8 +46,8 @@ fn a_box_on_its_corner_is_one_mass() {
     let size = corner.iter().map(|x| x * x).sum::<f64>().sqrt();
     let along: Vec<f64> = (0..3)
         .map(|axis| {
-            let felt = course.at([0.01, 0.02, -0.003], Some(axis));
-            felt.steps.iter().map(|s| s.length / 6.0 * (s.push[0] + 4.0 * s.push[1] + s.push[2])).sum()
+            let history = course.at([0.01, 0.02, -0.003], Some(axis));
+            history.steps.iter().map(|s| s.length / 6.0 * (s.push[0] + 4.0 * s.push[1] + s.push[2])).sum()
         })
         .collect();
     for (axis, change) in along.iter().enumerate() {

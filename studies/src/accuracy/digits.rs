@@ -6,7 +6,7 @@ use clatter_figures::raised;
 use super::big::Big;
 use super::part::{self, START};
 use super::plain::{closed, recurrence};
-use super::train::{Case, Exact, Found, Given, Row};
+use super::train::{Case, Exact, Found, Inertia, Row};
 use crate::Error;
 
 /// A number or a word.
@@ -48,8 +48,8 @@ fn found(found: Found) -> Value {
 /// Returns the text for a case.
 pub(super) fn inputs(case: &Case) -> String {
     let given = match case.given {
-        Given::Q(q) => format!("q = {}", short(q)),
-        Given::K(k) => format!("k = {}", short(k)),
+        Inertia::Q(q) => format!("q = {}", short(q)),
+        Inertia::K(k) => format!("k = {}", short(k)),
     };
     format!("{given}, e = {}", short(case.e))
 }
@@ -74,7 +74,7 @@ fn short(v: f64) -> String {
 }
 
 /// Returns the text for a case with its start.
-fn told(case: &Case) -> String {
+fn inputs_with_start(case: &Case) -> String {
     let [a, b] = case.velocity;
     #[expect(clippy::float_cmp, reason = "the default, to the bit")]
     let plain = a == -1.0 && b == -1.0;
@@ -93,7 +93,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
             let plain = if by_recurrence { &row.recurrence } else { &row.closed };
             lines.push(Line {
                 what: "number of impacts",
-                at: told(&row.case),
+                at: inputs_with_start(&row.case),
                 formula,
                 exact: found(row.exact),
                 ours: found(row.ours.found),
@@ -107,7 +107,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     count("beyond 2⁵³", CLOSED, false);
     count("tie of a start", CLOSED, false);
     if let Some(row) = of("q → 1, given k")
-        && let Given::K(k) = row.case.given
+        && let Inertia::K(k) = row.case.given
     {
         let peak = Bar::from_gyration_ratio(k, row.case.e)?.summary(&Start::default()).peak;
         let square = &Big::from(k) * &Big::from(k);
@@ -125,7 +125,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     if let Some(row) = of("thousands")
         && let Found::Impacts(n) = row.exact
     {
-        let Given::Q(q) = row.case.given else { return Ok(lines) };
+        let Inertia::Q(q) = row.case.given else { return Ok(lines) };
         let time = Bar::new(q, row.case.e)?.summary(&Start::default()).duration;
         lines.push(Line {
             what: "time of the last impact",
@@ -139,11 +139,11 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     if let Some(row) = of("one float spun out")
         && let Found::Impacts(n) = row.exact
     {
-        let Given::Q(q) = row.case.given else { return Ok(lines) };
+        let Inertia::Q(q) = row.case.given else { return Ok(lines) };
         let start = Start::new(row.case.velocity, row.case.gap)?;
         lines.push(Line {
             what: "time of the last impact",
-            at: told(&row.case),
+            at: inputs_with_start(&row.case),
             formula: "h₀ bₙ/|A λ₊ⁿ + B λ₋ⁿ|",
             exact: Value::Number(Exact::new(&row.case).time(n - 1)),
             ours: number(Bar::new(q, row.case.e)?.summary(&start).duration),

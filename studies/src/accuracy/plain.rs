@@ -1,12 +1,12 @@
 //! The train in plain f64: the recurrence as a loop, and the closed form as it is printed.
 
-use super::train::{Answer, Case, Found, Given, LONG};
+use super::train::{Answer, Case, Found, Inertia, LONG};
 
 /// Returns T in f64: from k through a rounded q.
 fn plain_t(case: &Case) -> f64 {
     let q = match case.given {
-        Given::Q(q) => q,
-        Given::K(k) => (1.0 - k * k) / (1.0 + k * k),
+        Inertia::Q(q) => q,
+        Inertia::K(k) => (1.0 - k * k) / (1.0 + k * k),
     };
     q * (1.0 + case.e)
 }

@@ -9,7 +9,7 @@ use crate::Error;
 
 /// The inertia of a bar, by one of two ratios.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Given {
+pub(super) enum Inertia {
     /// Inertia ratio q.
     Q(f64),
     /// Gyration ratio k = ρ/L.
@@ -20,7 +20,7 @@ pub(super) enum Given {
 #[derive(Debug, Clone)]
 pub(super) struct Case {
     pub(super) name: &'static str,
-    pub(super) given: Given,
+    pub(super) given: Inertia,
     pub(super) e: f64,
     pub(super) velocity: [f64; 2],
     pub(super) gap: f64,
@@ -57,7 +57,7 @@ pub(super) const QUANTITIES: usize = 6;
 
 /// An allowance if there is one, and the largest error, if it was measured.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Judged {
+pub(super) struct Comparison {
     pub(super) allowed: Option<Allowance>,
     pub(super) error: Option<f64>,
 }
@@ -66,7 +66,7 @@ pub(super) struct Judged {
 #[derive(Debug, Clone)]
 pub(super) struct Way {
     pub(super) found: Found,
-    pub(super) judged: [Judged; QUANTITIES],
+    pub(super) compared: [Comparison; QUANTITIES],
 }
 
 /// One case: the exact count, and the three methods.
@@ -86,8 +86,8 @@ const FAR: u64 = 1000;
 
 pub(super) fn cases() -> Vec<Case> {
     let at = |name, given, e| Case { name, given, e, velocity: [-1.0, -1.0], gap: 1.0, edge: false };
-    let q = |name, q, e| at(name, Given::Q(q), e);
-    let k = |name, k, e| at(name, Given::K(k), e);
+    let q = |name, q, e| at(name, Inertia::Q(q), e);
+    let k = |name, k, e| at(name, Inertia::K(k), e);
     vec![
         q("ordinary", 0.5, 0.3),
         q("q → 1, endless", 1.0 - f64::EPSILON / 2.0, 0.5),
@@ -123,8 +123,8 @@ impl Exact {
     pub(super) fn new(case: &Case) -> Self {
         let one = Big::from(1.0);
         let q = match case.given {
-            Given::Q(q) => Big::from(q),
-            Given::K(k) => {
+            Inertia::Q(q) => Big::from(q),
+            Inertia::K(k) => {
                 let square = &Big::from(k) * &Big::from(k);
                 &(&one - &square) / &(&one + &square)
             }
@@ -228,7 +228,7 @@ fn first_from(low: u64, high: u64, is: impl Fn(u64) -> bool) -> u64 {
 }
 
 /// Returns the strikes that are compared: the first ten, the last ten, some between.
-fn looked_at(count: Found) -> Vec<u64> {
+fn compared_strikes(count: Found) -> Vec<u64> {
     let end = if let Found::Impacts(n) = count { n } else { FAR };
     let mut list: Vec<u64> = (0..end.min(10)).chain(end.saturating_sub(10)..end).collect();
     let mut n = 10;
@@ -243,8 +243,8 @@ fn looked_at(count: Found) -> Vec<u64> {
 
 fn ours(case: &Case, list: &[u64]) -> Result<Answer, Error> {
     let bar = match case.given {
-        Given::Q(q) => Bar::new(q, case.e)?,
-        Given::K(k) => Bar::from_gyration_ratio(k, case.e)?,
+        Inertia::Q(q) => Bar::new(q, case.e)?,
+        Inertia::K(k) => Bar::from_gyration_ratio(k, case.e)?,
     };
     let start = Start::new(case.velocity, case.gap)?;
     let s = bar.summary(&start);
@@ -270,7 +270,7 @@ fn largest(errors: impl Iterator<Item = f64>) -> Option<f64> {
     errors.map(|x| if x.is_nan() { f64::INFINITY } else { x }).reduce(f64::max)
 }
 
-fn judge(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer) -> Way {
+fn compare(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer) -> Way {
     let first = &exact.v[0].abs();
     let unit = &exact.gap / first;
     let long = matches!(count, Found::Impacts(n) if n > SHORT);
@@ -305,10 +305,10 @@ fn judge(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer
     let of_peak = (answer.found != Found::Open || count == Found::Endless).then(|| off(answer.peak, &peak, &peak));
     let of_duration = (answer.found != Found::Open).then(|| off(answer.duration, &duration, &duration.max(&unit)));
     let [approach, jump, time] = errors.map(|list| largest(list.into_iter()));
-    let row = |allowed, error| Judged { allowed, error };
+    let row = |allowed, error| Comparison { allowed, error };
     Way {
         found: answer.found,
-        judged: [
+        compared: [
             row(Some(PEAK), of_peak),
             row(Some(APPROACH), approach),
             row(Some(JUMP), jump),
@@ -323,8 +323,8 @@ impl Row {
     pub(super) fn new(case: &Case) -> Result<Self, Error> {
         let exact = Exact::new(case);
         let count = exact.count();
-        let list = looked_at(count);
-        let way = |answer: &Answer| judge(case, &exact, count, &list, answer);
+        let list = compared_strikes(count);
+        let way = |answer: &Answer| compare(case, &exact, count, &list, answer);
         Ok(Self {
             case: case.clone(),
             exact: count,
@@ -350,7 +350,7 @@ mod tests {
         for c in cases {
             let name = c["case"].as_str().unwrap();
             let number = |key: &str| c[key].as_f64().unwrap();
-            let given = c["q"].as_f64().map_or_else(|| Given::K(number("k")), Given::Q);
+            let given = c["q"].as_f64().map_or_else(|| Inertia::K(number("k")), Inertia::Q);
             let (e, velocity) = (number("e"), [number("va"), number("vb")]);
             if name == "all-mass-at-center-5" {
                 continue; // (1, 1): an infinite peak

@@ -74,16 +74,16 @@ impl Middle {
 }
 
 /// Returns the corners that come down after the first touch, with their times, in order.
-pub(super) fn downs(case: &Case, path: &[Pose], cube: &Cube) -> Vec<(usize, f64)> {
+pub(super) fn touchdowns(case: &Case, path: &[Pose], cube: &Cube) -> Vec<(usize, f64)> {
     let (mut last, mut time) = (case.touch_pose(cube).heights_m(cube), 0.0);
     let mut armed = last.map(|height| height > DOWN_M);
-    let mut downs = Vec::new();
+    let mut touchdowns = Vec::new();
     for (pose, next) in path.iter().zip(&case.times_s) {
         let heights = pose.heights_m(cube);
         for i in (0..8).filter(|i| !cube.is_planar || i & 2 == 0) {
             if armed[i] && heights[i] < DOWN_M {
                 let share = ((last[i] - DOWN_M) / (last[i] - heights[i])).clamp(0.0, 1.0);
-                downs.push((i, time + share * (next - time)));
+                touchdowns.push((i, time + share * (next - time)));
                 armed[i] = false;
             } else if heights[i] > UP_M {
                 armed[i] = true;
@@ -91,8 +91,8 @@ pub(super) fn downs(case: &Case, path: &[Pose], cube: &Cube) -> Vec<(usize, f64)
         }
         (last, time) = (heights, *next);
     }
-    downs.sort_by(|a, b| a.1.total_cmp(&b.1));
-    downs
+    touchdowns.sort_by(|a, b| a.1.total_cmp(&b.1));
+    touchdowns
 }
 
 impl Errors {
@@ -109,8 +109,8 @@ impl Errors {
             |error: &dyn Fn(&Middle, &Middle) -> f64| middles.iter().map(|(a, b)| error(a, b)).collect::<Vec<_>>();
         let (mut next, mut next_two) = ([0; 2], [0; 2]);
         for (case, path) in pairs {
-            let [measured, foretold] = [&case.measured, path].map(|path| downs(case, path, cube));
-            let same = |i: usize| measured.get(i).zip(foretold.get(i)).filter(|(a, b)| a.0 == b.0);
+            let [measured, predicted] = [&case.measured, path].map(|path| touchdowns(case, path, cube));
+            let same = |i: usize| measured.get(i).zip(predicted.get(i)).filter(|(a, b)| a.0 == b.0);
             next[0] += usize::from(same(0).is_some());
             next[1] += usize::from(!measured.is_empty());
             next_two[0] += usize::from(same(0).and(same(1)).is_some());

@@ -42,7 +42,7 @@ struct Page {
 impl Page {
     fn new(text: &str, published: &Cube, peers: bool) -> Result<Self, Error> {
         let study = Study::new(tosses::read(text)?, published);
-        let mut models = vec![study.of_box()?, study.rigid(true)?, study.rigid(false)?];
+        let mut models = vec![study.box_model()?, study.rigid(true)?, study.rigid(false)?];
         if peers {
             models.extend(study.peers()?);
         }
@@ -54,8 +54,8 @@ impl Page {
         let cube = &study.cube;
         let others = study.half(false);
         let misfits = study.tosses.iter().map(|toss| 1e3 * toss.first_flight(cube).misfit_m);
-        let foretold = study.foretold(EARLIER);
-        let late: Vec<f64> = foretold.iter().map(|(_, late)| 1e3 * late.abs()).collect();
+        let predicted = study.predicted(EARLIER);
+        let late: Vec<f64> = predicted.iter().map(|(_, late)| 1e3 * late.abs()).collect();
         json!({
             "tosses": study.tosses.len(), "followed": study.cases.len(), "others": others.len(),
             "flown": others.iter().filter(|case| case.middle.is_some()).count(),
@@ -64,7 +64,7 @@ impl Page {
             "gravity_m_s2": decimals(cube.gravity_m_s2, 2), "rate_hz": decimals(cube.rate_hz, 0),
             "misfit_mm": spread(quartiles(&misfits.collect::<Vec<_>>()), 2),
             "first_touch": {
-                "of": foretold.len(), "right": foretold.iter().filter(|(right, _)| *right).count(),
+                "of": predicted.len(), "right": predicted.iter().filter(|(right, _)| *right).count(),
                 "late_ms": spread(quartiles(&late), 2),
                 "earlier_ms": decimals(1e3 * cube.time_s(EARLIER), 0),
             },
@@ -105,11 +105,11 @@ impl Page {
     /// Returns the number of tosses whose next corner to come down is the same with friction and without, by rigid
     /// impacts, and for how many of these, and of the rest, the box has the measured one.
     fn decided(&self) -> Value {
-        let next = |downs: &[(usize, f64)]| downs.first().map(|down| down.0);
-        let [own, with, without] = [0, 1, 2].map(|i| &self.models[i].downs);
+        let next = |touchdowns: &[(usize, f64)]| touchdowns.first().map(|down| down.0);
+        let [own, with, without] = [0, 1, 2].map(|i| &self.models[i].touchdowns);
         let (mut counts, mut right) = ([0; 2], [0; 2]);
         for (i, case) in self.study.half(false).into_iter().enumerate() {
-            let measured = next(&super::compare::downs(case, &case.measured, &self.study.cube));
+            let measured = next(&super::compare::touchdowns(case, &case.measured, &self.study.cube));
             let other = usize::from(next(&with[i]) != next(&without[i]));
             counts[other] += usize::from(measured.is_some());
             right[other] += usize::from(measured.is_some() && next(&own[i]) == measured);
@@ -122,9 +122,9 @@ impl Page {
         let velocities = |model: &Model| -> Vec<(f64, f64)> {
             let cases = self.study.half(false);
             let pairs = cases.into_iter().zip(&model.paths).filter_map(|(case, path)| {
-                let [measured, foretold] =
+                let [measured, predicted] =
                     [&case.measured, path].map(|path| Some(Middle::of(path, case.middle?, &self.study.cube).speed_m_s));
-                measured.zip(foretold)
+                measured.zip(predicted)
             });
             pairs.collect()
         };

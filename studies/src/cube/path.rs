@@ -86,7 +86,7 @@ impl Case {
     }
 
     /// Returns the path by the box of the product: contacts that take time, no friction.
-    pub(super) fn of_box(&self, e: f64, contact_s: f64, cube: &Cube) -> Result<Vec<Pose>, Error> {
+    pub(super) fn box_path(&self, e: f64, contact_s: f64, cube: &Cube) -> Result<Vec<Pose>, Error> {
         let block = Block::new([2.0 * cube.half_m; 3], [0.0; 3], [cube.gyration_m; 3])?;
         let [w, i, j, k] = [self.touch.turned.w, self.touch.turned.i, self.touch.turned.j, self.touch.turned.k];
         let spin = self.touch.turned.inverse() * self.touch.spin;
@@ -130,7 +130,7 @@ mod tests {
         let lowest = |pose: &super::Pose| pose.heights_m(&study.cube).into_iter().fold(f64::INFINITY, f64::min);
         let mut compared = 0;
         for case in &study.cases {
-            let own = case.of_box(0.3, 5e-5, &study.cube).unwrap();
+            let own = case.box_path(0.3, 5e-5, &study.cube).unwrap();
             let rigid = Rigid { e: 0.3, friction: 0.0 }.path(case, &study.cube);
             let mut last = 0.0;
             for (a, b) in own.iter().zip(&rigid) {

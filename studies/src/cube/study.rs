@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::body::Cube;
-use super::compare::{Errors, FITTED, Quartiles, downs, quartiles, score_m};
+use super::compare::{Errors, FITTED, Quartiles, quartiles, score_m, touchdowns};
 use super::flight::Flight;
 use super::median;
 use super::path::{Case, Pose};
@@ -64,9 +64,9 @@ impl Study {
     }
 
     /// Returns the model of the box of the product, by restitution and contact time.
-    pub(super) fn of_box(&self) -> Result<Model, Error> {
+    pub(super) fn box_model(&self) -> Result<Model, Error> {
         let settings: Vec<_> = RESTITUTIONS.iter().flat_map(|e| self.cube.contacts_s.map(|time| (*e, time))).collect();
-        let path = |case: &Case, (e, contact_s): (f64, f64)| case.of_box(e, contact_s, &self.cube);
+        let path = |case: &Case, (e, contact_s): (f64, f64)| case.box_path(e, contact_s, &self.cube);
         let best @ (e, time) = self.fitted(&settings, path)?;
         let setting = format!("e = {e}, contacts of {} ms", 1e3 * time);
         self.model("clatter, box", false, setting, |case| path(case, best))
@@ -119,14 +119,14 @@ impl Study {
         let paths = cases.iter().map(|case| path(case)).collect::<Result<Vec<_>, _>>()?;
         let pairs: Vec<_> = cases.into_iter().zip(paths).collect();
         let errors = Errors::of(&pairs, &self.cube);
-        let downs = pairs.iter().map(|(case, path)| downs(case, path, &self.cube)).collect();
+        let touchdowns = pairs.iter().map(|(case, path)| touchdowns(case, path, &self.cube)).collect();
         let paths = pairs.into_iter().map(|(_, path)| path).collect();
-        Ok(Model { name: name.to_owned(), friction, setting, errors, paths, downs })
+        Ok(Model { name: name.to_owned(), friction, setting, errors, paths, touchdowns })
     }
 
     /// Returns the predictions of the first touch from flights that end some samples before it: whether the corner is
     /// right, and its delay.
-    pub(super) fn foretold(&self, earlier: usize) -> Vec<(bool, f64)> {
+    pub(super) fn predicted(&self, earlier: usize) -> Vec<(bool, f64)> {
         let cube = &self.cube;
         let one = |toss: &Toss| {
             let first = toss.first_flight(cube);
@@ -145,10 +145,10 @@ impl Study {
     pub(super) fn one_point(&self, rigid: Rigid) -> [Quartiles; 3] {
         let others = self.strikes.iter().filter(|(trained, _)| !trained);
         let off = others.map(|(_, strike)| {
-            let foretold = rigid.strike(&strike.before, strike.arm, &self.cube);
+            let predicted = rigid.strike(&strike.before, strike.arm, &self.cube);
             let [change, measured] =
-                [&foretold, &strike.after].map(|after| after.velocity.z - strike.before.velocity.z);
-            [(change - measured).abs(), (foretold.spin - strike.after.spin).norm(), change / measured]
+                [&predicted, &strike.after].map(|after| after.velocity.z - strike.before.velocity.z);
+            [(change - measured).abs(), (predicted.spin - strike.after.spin).norm(), change / measured]
         });
         let off: Vec<[f64; 3]> = off.collect();
         [0, 1, 2].map(|which| quartiles(&off.iter().map(|errors| errors[which]).collect::<Vec<_>>()))
@@ -181,7 +181,7 @@ pub(super) struct Model {
     pub(super) errors: Errors,
     pub(super) paths: Vec<Vec<Pose>>,
     /// Corners that come down, toss by toss.
-    pub(super) downs: Vec<Vec<(usize, f64)>>,
+    pub(super) touchdowns: Vec<Vec<(usize, f64)>>,
 }
 
 /// The last run of `peers/cube.py`.
@@ -241,13 +241,13 @@ mod tests {
         let mut next = numbers(7);
         let mut noise = |size: f64| size * next();
         for case in &mut study.cases {
-            case.measured = case.of_box(e, contact_s, &study.cube).unwrap();
+            case.measured = case.box_path(e, contact_s, &study.cube).unwrap();
             for pose in &mut case.measured {
                 pose.height_m += noise(5e-5);
                 pose.upward += Vector3::from_fn(|_, _| noise(5e-4));
             }
         }
-        let model = study.of_box().unwrap();
+        let model = study.box_model().unwrap();
         assert_eq!(model.setting, "e = 0.35, contacts of 3 ms");
         // The bound is the noise itself.
         assert!(model.errors.corners_m[2] < 1e-4, "{:?}", model.errors.corners_m);

@@ -60,8 +60,8 @@ pub fn tosses(
     let chart = axes.on(&mut paper, 24.0);
     chart.curve(&mut paper, [(-0.6, -0.6), (0.6, 0.6)].into_iter(), Ink::line(GRAY, 0.8));
     for (points, fill) in [(with, RUST), (without, BLUES[4])] {
-        for (measured, foretold) in points {
-            chart.mark(&mut paper, *measured, *foretold, fill);
+        for (measured, predicted) in points {
+            chart.mark(&mut paper, *measured, *predicted, fill);
         }
     }
     chart.border(&mut paper);

@@ -17,20 +17,20 @@ const TOLERANCE: f64 = 1e-3;
 
 /// Returns the shocks of a drop of a uniform plate onto contacts that take time: `gap` is the heights of b and d
 /// together over the fall in one contact time, `r` the direction of its tilt.
-fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Shocks, Error> {
+fn drop_shocks(law: ContactLaw, gap: f64, r: f64) -> Result<Shocks, Error> {
     let plate = clatter_flight::Plate::new([1.0; 4], [(1.0_f64 / 3.0).sqrt(); 2])?;
     let height = gap * CONTACT_S;
     let contact = Contact::new(law, E, CONTACT_S)?;
     let scene = PlateScene::new(plate, 1.0, [height * (1.0 - r), height * r], 0.0)?;
     let drop = SingleDrop::of_plate(&scene, &contact)?;
-    let mut felt = Shocks { shocks: [0.0; 4], peak: 0.0 };
-    for (shock, [x, across_m]) in felt.shocks.iter_mut().zip(plate.corners_m()) {
+    let mut found = Shocks { shocks: [0.0; 4], peak: 0.0 };
+    for (shock, [x, across_m]) in found.shocks.iter_mut().zip(plate.corners_m()) {
         let part = Part { across_m, ..Part::new(x, None) };
-        let asked = |kind| answer(&drop, &part, &Limit::new(kind, 1.0), Model::Compliant, TOLERANCE);
-        *shock = asked(LimitKind::VelocityChange)?.value;
-        felt.peak = felt.peak.max(asked(LimitKind::Acceleration)?.value / contact.peak_per_change());
+        let value_of = |kind| answer(&drop, &part, &Limit::new(kind, 1.0), Model::Compliant, TOLERANCE);
+        *shock = value_of(LimitKind::VelocityChange)?.value;
+        found.peak = found.peak.max(value_of(LimitKind::Acceleration)?.value / contact.peak_per_change());
     }
-    Ok(felt)
+    Ok(found)
 }
 
 /// The shocks of the corners of a plate.
@@ -80,7 +80,7 @@ impl Ties {
         let rigid = rigid.map(|word| [word.from, word.to.min(0.5), word.peak()]).collect();
         let direction = |k: u16, of: u16| 0.5 * f64::from(k) / f64::from(of);
         let over_direction = |law| {
-            let point = |k| Ok((direction(k, CURVE), felt(law, GAP, direction(k, CURVE))?.largest()));
+            let point = |k| Ok((direction(k, CURVE), drop_shocks(law, GAP, direction(k, CURVE))?.largest()));
             (0..=CURVE).into_par_iter().map(point).collect::<Result<Vec<_>, Error>>()
         };
         let over_gap = |law| {
@@ -88,8 +88,8 @@ impl Ties {
                 let gap = 10.0_f64.powf(3.5 * f64::from(k) / f64::from(GAPS) - 1.0);
                 let mut worst = [0.0_f64; 2];
                 for k in 0..=SEARCH {
-                    let felt = felt(law, gap, direction(k, SEARCH))?;
-                    worst = [worst[0].max(felt.largest()), worst[1].max(felt.peak)];
+                    let found = drop_shocks(law, gap, direction(k, SEARCH))?;
+                    worst = [worst[0].max(found.largest()), worst[1].max(found.peak)];
                 }
                 Ok((gap, worst))
             };
@@ -130,8 +130,8 @@ fn edge(plate: &Plate) -> Result<[(&'static str, [f64; 4]); 5], Error> {
         // This is the same in a mirror.
         ("rigid, d just before a", [d, c, b, a]),
         ("rigid, both at once: the paper's bar", [near, far, far, near]),
-        ("contacts, hysteretic", felt(hysteretic, FAR, 0.0)?.shocks),
-        ("contacts, dashpot", felt(dashpot, FAR, 0.0)?.shocks),
+        ("contacts, hysteretic", drop_shocks(hysteretic, FAR, 0.0)?.shocks),
+        ("contacts, dashpot", drop_shocks(dashpot, FAR, 0.0)?.shocks),
     ])
 }
 
@@ -161,7 +161,7 @@ mod tests {
         for r in [0.1, 0.3, 0.45, 0.5] {
             let rigid = atlas.words().iter().find(|word| word.to >= r).unwrap().peak();
             for law in ContactLaw::ALL {
-                let got = felt(law, 1000.0, r).unwrap().largest();
+                let got = drop_shocks(law, 1000.0, r).unwrap().largest();
                 assert!((got / rigid - 1.0).abs() < 2.0 * TOLERANCE, "{law:?} at {r}: {got}, not {rigid}");
             }
         }
@@ -174,7 +174,7 @@ mod tests {
         let ratio = |e: f64| Contact::new(ContactLaw::Dashpot, e, CONTACT_S).unwrap().damping_ratio();
         let given_back = turn(0.9, 0.1, |e| ratio(e) >= (4.0_f64 / 7.0).sqrt() * ratio(E));
         for (law, e) in [(ContactLaw::Hysteretic, E), (ContactLaw::Dashpot, given_back)] {
-            let shocks = felt(law, 0.0, 0.5).unwrap().shocks;
+            let shocks = drop_shocks(law, 0.0, 0.5).unwrap().shocks;
             assert!(shocks.iter().all(|shock| (shock - 1.0 - e).abs() < 2.0 * TOLERANCE), "{law:?}, {e}: {shocks:?}");
         }
     }

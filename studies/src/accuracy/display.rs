@@ -8,7 +8,7 @@ use super::big::Big;
 use super::digits;
 use super::miscount;
 use super::part::Cell;
-use super::train::{Case, Found, Judged, Way};
+use super::train::{Case, Comparison, Found, Way};
 use crate::files::decimals;
 
 /// Returns a number with one digit and its power of ten, rounded by `round`.
@@ -52,7 +52,7 @@ fn state(allowed: Option<f64>, error: f64) -> &'static str {
     }
 }
 
-pub(super) fn judged(j: &Judged) -> Value {
+pub(super) fn error_cell(j: &Comparison) -> Value {
     let Some(error) = j.error else { return Value::Null };
     let mark = match j.allowed {
         Some(DURATION_LONG) => "long",
@@ -98,8 +98,8 @@ pub(super) fn start(case: &Case) -> String {
 }
 
 pub(super) fn pair(cell: &Cell) -> Value {
-    let told = |error: f64| json!({ "shown": upper(error), "state": state(Some(cell.allowed), error) });
-    json!({ "ours": told(cell.ours), "plain": cell.plain.map(told) })
+    let shown = |error: f64| json!({ "shown": upper(error), "state": state(Some(cell.allowed), error) });
+    json!({ "ours": shown(cell.ours), "plain": cell.plain.map(shown) })
 }
 
 /// Number of digits that are shown of a number.
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn errors_are_told_from_above() {
-        let told = [0.0, 2.2e-16, 3.1e-16, 1e-10, 9.5e-13, 0.031, 0.95, 3.2, 4567.0, f64::NAN].map(upper);
-        assert_eq!(told, ["ε", "ε", "4·10⁻¹⁶", "10⁻¹⁰", "10⁻¹²", "0.04", "1", "4", "5·10³", "∞"]);
+        let shown = [0.0, 2.2e-16, 3.1e-16, 1e-10, 9.5e-13, 0.031, 0.95, 3.2, 4567.0, f64::NAN].map(upper);
+        assert_eq!(shown, ["ε", "ε", "4·10⁻¹⁶", "10⁻¹⁰", "10⁻¹²", "0.04", "1", "4", "5·10³", "∞"]);
     }
 }
