@@ -265,7 +265,7 @@ fn count(lines: usize) -> f64 {
 }
 
 fn words(number: usize, strike: &Strike) -> String {
-    // To a hundredth of a microsecond: a strike at the same time is later by a rounding.
+    // Times are rounded to a hundredth of a microsecond: a strike at the same time is later by a rounding.
     let time_ms = (1e5 * strike.time_ms).round() / 1e5;
     format!("{number}: {} ms, {} m/s", three(time_ms), three(strike.shock_m_s))
 }
@@ -430,7 +430,7 @@ mod tests {
         assert!(drawn.contains("−3 %"), "{drawn}");
     }
 
-    /// Along the length, as far as the plate goes: 20 mm are 52 pt, from the middle at 154 pt.
+    /// The scale runs along the length, as far as the plate goes: 20 mm are 52 pt, from the middle at 154 pt.
     #[test]
     fn the_scale_goes_along_the_whole_plate() {
         let drawn = plan(&plate(), plate().sides_m(), &[part(1, [[0.0, 0.01]; 2])]).unwrap();

@@ -3,7 +3,7 @@
 /// A point on the page.
 pub type Pt = [f64; 2];
 
-/// One calm palette, light to dark; its steps are told apart in gray as well.
+/// One calm palette, light to dark; its steps differ in gray as well.
 pub const BLUES: [&str; 9] =
     ["#f2f6fa", "#e1ebf4", "#cddeed", "#b5cde3", "#98b8d6", "#779fc6", "#5585b3", "#37699a", "#1f4e7c"];
 /// Lines and letters.

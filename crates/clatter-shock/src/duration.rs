@@ -36,7 +36,7 @@ const TRIALS: usize = 20;
 /// Tₑ counts on straight lines between the samples. The root mean square at a time is that of the samples around it; the
 /// history is zero before and after. The averaging time begins with 15 % of Tₑ and becomes 15 % of the T_E found until it
 /// lies in 10 to 20 % of it; where that does not come about in 20 trials, or one sample is longer, the last one holds, and
-/// `averaging_s` tells. For an exponential decay T_E is 2.1 Tₑ and the part of an averaging time.
+/// `averaging_s` gives it. For an exponential decay T_E is 2.1 Tₑ and the part of an averaging time.
 ///
 /// # Validity
 ///
@@ -133,12 +133,12 @@ mod tests {
     #[test]
     fn a_decay_lasts_as_its_formulas_say() {
         let (step, tau) = (1e-5, 0.01);
-        // From sample 1000 on; 12 time constants leave 6e-6 of it.
+        // The decay begins with sample 1000; 12 time constants leave 6e-6 of it.
         let record: Vec<f64> = (0..13_000)
             .map(|i| if i < 1000 { 0.0 } else { -700.0 * (-(float(i) - 1000.0) * step / tau).exp() })
             .collect();
         let got = effective_duration(&record, step).expect("a shock");
-        // Up within one sample, of which two thirds are above a third.
+        // It rises within one sample, of which two thirds are above a third.
         let want = tau * 3.0_f64.ln() + 2.0 / 3.0 * step;
         // A straight line instead of the exponential: (h/τ)²/8 of the value, by the slope 1/(3τ).
         assert!((got.third_of_peak_s - want).abs() < step * step / tau, "{got:?} {want}");

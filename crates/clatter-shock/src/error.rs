@@ -83,7 +83,7 @@ pub enum Error {
         /// Position on the bar.
         position: f64,
     },
-    /// A history whose velocity change is zero, as far as roundings tell.
+    /// A history whose velocity change is zero, to roundings.
     #[error(
         "the velocity change of the history is zero, both directions cancel: it has no damage boundary over velocity change, only a critical acceleration"
     )]

@@ -23,7 +23,7 @@ use std::f64::consts::TAU;
 
 /// Samples between two bounds.
 const BLOCK: usize = 32;
-/// The same as a number.
+/// The number of samples in a block as a float.
 const STEPS: f64 = 32.0;
 /// Samples gone through for one group of frequencies before the next: they stay in the nearest cache.
 const CHUNK: usize = 4096;

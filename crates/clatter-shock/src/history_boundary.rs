@@ -110,7 +110,7 @@ impl HistoryBoundary {
         })
     }
     /// Returns the velocity change below which the history does no damage, however short; `None` if its velocity change
-    /// is zero, as far as roundings tell: then it does no damage by its velocity change, and short histories do less
+    /// is zero, to roundings: then it does no damage by its velocity change, and short histories do less
     /// and less.
     #[must_use]
     pub fn critical_velocity_change(&self) -> Option<f64> {

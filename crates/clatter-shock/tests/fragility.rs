@@ -149,7 +149,7 @@ fn the_equivalent_half_sine_needs_the_least_acceleration() {
     }
 }
 
-/// A tolerance far below what durations of a grid differ by: the pulse asked for is found all the same, between them.
+/// The tolerance is far below the steps of the grid of durations: the wanted pulse is found all the same, between them.
 #[test]
 fn an_equivalent_half_sine_between_the_durations_of_a_grid() {
     let table =
@@ -199,7 +199,7 @@ fn tables_that_are_none_are_refused() {
         let refused = table.equivalent_half_sine(&component, &asked, tolerance).expect_err(message);
         assert_eq!(refused.to_string(), message);
     }
-    // One duration alone is a table, and too far from the one asked for by its own mismatch.
+    // One duration alone is a table, and too far from the wanted one by its own mismatch.
     let one = ShockTable { shortest: 6e-3, longest: 6e-3, ..table };
     let Err(Error::NoEquivalent { nearest, .. }) = one.equivalent_half_sine(&component, &asked, 1e-5) else {
         panic!("one duration is another pulse");

@@ -37,7 +37,7 @@ struct Mount<'a> {
     pulses: &'a [Pulse],
     omega: f64,
     zeta: f64,
-    /// Accelerations are asked for within this interval alone, so that a jump at its end stays out.
+    /// Accelerations are evaluated within this interval alone, so that a jump at its end stays out.
     within: (f64, f64),
 }
 

@@ -62,7 +62,7 @@ fn what_is_left_out_stays_within_its_bound() {
                         time += pair[0].1;
                         list.push(VelocityShock { time, delta_v: pair[1].0 });
                     }
-                    // At rest in the end: what is still to come, v0 in all, falls on one instant.
+                    // The bar is at rest in the end: the later shocks, v0 in all, fall on one instant.
                     let net: f64 = list.iter().map(|s| s.delta_v).sum();
                     list.push(VelocityShock { time, delta_v: 1.0 - net });
                     let sum: f64 = list.iter().map(|s| s.delta_v.abs()).sum();

@@ -1,4 +1,4 @@
-//! The peak of one quantity, asked for by its size, is the one of the whole response.
+//! The peak of one quantity above a given size is that of the whole response.
 
 use clatter_shock::{
     DampingRatio, Extreme, Peaked, Pulse, Pulses, Response, Shape, Suspension, VelocityShock, VelocityShocks,

@@ -407,7 +407,7 @@ impl Drive {
     /// Returns ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
     #[inline(always)]
     fn settle(&self, series: Series, quotient: f64, error: f64) -> Steps {
-        // By integers, which take fewer instructions than `round` and `ceil`.
+        // Integers take fewer instructions than `round` and `ceil`.
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_precision_loss,
@@ -610,7 +610,7 @@ impl Drive {
             let factor = exp(x);
             return v.map(|v| factor * v);
         }
-        // By halves: a factor may leave the range of floats where the product does not.
+        // The product is formed by halves: a factor may leave the range of floats where the product does not.
         let half = exp(0.5 * x);
         v.map(|v| ldexp(half * v, self.unit) * half)
     }
@@ -760,7 +760,7 @@ fn expanded(q: f64, restitution: f64, e: f64) -> Dd {
 /// Returns the velocities of ends a and b after the last strike: the struck end is a for an odd count.
 #[inline]
 pub(crate) fn rebound(bar: &Symmetric, odd: bool, a: f64, next: f64) -> [f64; 2] {
-    // By bits: a branch on the parity would be mispredicted every other time.
+    // The swap is by bits: a branch on the parity would be mispredicted every other time.
     let (next, struck) = (next.to_bits(), (-bar.e * a).to_bits());
     let swap = (next ^ struck) & u64::from(odd).wrapping_neg();
     [f64::from_bits(next ^ swap), f64::from_bits(struck ^ swap)]

@@ -42,13 +42,13 @@ use crate::{Error, Restitution};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Corner {
-    /// At (−1, −1).
+    /// Corner at (−1, −1).
     A,
-    /// At (1, −1).
+    /// Corner at (1, −1).
     B,
-    /// At (1, 1), opposite of a.
+    /// Corner at (1, 1), opposite of a.
     C,
-    /// At (−1, 1).
+    /// Corner at (−1, 1).
     D,
 }
 

@@ -9,9 +9,9 @@ use crate::{Bar, Start};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Count {
-    /// Exactly so many.
+    /// The exact number of impacts.
     Finite(u64),
-    /// Finite, but beyond 2⁶⁴: the nearest float.
+    /// A finite number beyond 2⁶⁴: the nearest float.
     Huge(f64),
     /// The impacts never end, in finite or infinite time.
     Endless,
@@ -49,11 +49,11 @@ pub struct Peak {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Net {
-    /// At end a.
+    /// Net change at end a.
     pub a: f64,
-    /// At end b.
+    /// Net change at end b.
     pub b: f64,
-    /// At the center of mass.
+    /// Net change at the center of mass.
     pub center: f64,
     /// Net change of the angular velocity, in v0/L.
     pub angular: f64,
@@ -125,7 +125,7 @@ impl Bar {
     /// Measured beside the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the
     /// unit square, and for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to
     /// 250 where double-double is needed (N beyond 10⁷, or next to the endless curve). Where integers decide,
-    /// microseconds to a millisecond for a start next to a tie, and one to a hundred milliseconds to tell which impact
+    /// microseconds to a millisecond for a start next to a tie, and one to a hundred milliseconds to decide which impact
     /// is the largest of more than 10¹⁴ (gyration ratios below 10⁻¹⁴).
     #[must_use]
     #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
@@ -297,7 +297,7 @@ impl Symmetric {
         let (mut before, mut a, mut next, mut b, mut b_next, mut n) = (0.0, va, first, 0.0, 1.0, 1_u32);
         // The lowest velocity so far, its impact, and how close any two neighbors came to each other.
         let (mut lowest, mut peak, mut margin) = (va, 1, f64::MAX);
-        // |a_n| falls for good once it falls, so that neighbors tell.
+        // |a_n| falls for good once it falls, so that a comparison of neighbors decides.
         let mut compare = |before: f64, velocity: f64, number: u32| {
             let above = velocity - before;
             peak = if above < 0.0 { number } else { peak };

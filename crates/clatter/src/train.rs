@@ -47,7 +47,7 @@ pub struct Train {
     bar: Symmetric,
     jumps: Jumps,
     start: Start,
-    /// Impacts given so far.
+    /// Number of impacts given so far.
     number: u64,
     steps: Steps,
     later: Option<Box<Later>>,
@@ -185,7 +185,7 @@ struct SoFar {
     bar: Symmetric,
 }
 
-/// Impacts that are not worked out by plain steps, some at a time.
+/// Impacts that plain steps do not give, computed some at a time.
 #[derive(Debug, Clone)]
 struct Later {
     bar: Symmetric,
@@ -193,7 +193,7 @@ struct Later {
     source: Source,
     /// Number of impacts, unless it is endless, beyond 2⁶⁴ or not yet known.
     count: Option<u64>,
-    /// Impacts worked out or passed over so far.
+    /// Number of impacts computed or skipped so far.
     ahead: u64,
     /// The latest impacts, up to the end of the buffers.
     approach: [f64; BUFFER],
@@ -215,7 +215,7 @@ enum Source {
     Instant { first: f64, a: f64, t: f64, h0: f64 },
 }
 
-/// Impacts worked out together.
+/// Number of impacts computed together.
 const BUFFER: usize = 16;
 /// Plain steps taken before the closed form, which forgets no digit, takes over.
 const PLAIN: u64 = 32;
@@ -707,7 +707,7 @@ mod tests {
             let (got, want) = (skipping.nth(skip), one_by_one.get(skip));
             prop_assert_eq!(got.map(|i| (i.number, i.end)), want.map(|i| (i.number, i.end)));
             if let (Some(got), Some(want)) = (got, want) {
-                // From an anchor of its own, within twice the allowed error.
+                // It starts from an anchor of its own, within twice the allowed error.
                 prop_assert!((got.time - want.time).abs() <= 2e-10 * want.time.max(1.0), "{got:?}, not {want:?}");
                 prop_assert_eq!(skipping.next().map(|i| i.number), one_by_one.get(skip + 1).map(|i| i.number));
             }

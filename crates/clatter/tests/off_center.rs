@@ -175,7 +175,7 @@ proptest! {
         }
     }
 
-    /// Against every impact, at any position and on a grid.
+    /// The comparison is with every impact, at any position and on a grid.
     #[test]
     fn shocks_zones_and_the_safest_place_are_those_of_the_impacts((arms, rho, e) in any_bar(), vb in -2.0..0.5_f64, s in -1.0..1.0_f64, threshold in 0.1..4.0_f64) {
         let bar = Bar::from_arms(arms, rho, e).unwrap();
@@ -267,7 +267,7 @@ fn any_masses_between_the_ends_make_a_bar() {
     let board = Mass::Slab { mass_kg: 0.1, from_m: -0.07, to_m: 0.07 };
     let battery = |position_m: f64| Mass::Point { mass_kg: 0.05, position_m };
     let bar = Bar::from_masses(0.14, &[board, battery(0.035)], 0.3).unwrap();
-    // By Steiner, in half-lengths: c = 1/6, ρ² = (2/3)(1/3 + c²) + (1/3)(1/2 − c)².
+    // Steiner gives, in half-lengths: c = 1/6, ρ² = (2/3)(1/3 + c²) + (1/3)(1/2 − c)².
     let rho2: f64 = 2.0 / 3.0 * (1.0 / 3.0 + 1.0 / 36.0) + 1.0 / 27.0;
     assert!((bar.center_of_mass() - 1.0 / 6.0).abs() < 1e-15);
     assert!((bar.gyration_ratio() - rho2.sqrt()).abs() < 1e-14);

@@ -4,7 +4,7 @@ use clatter::{Bar, Count, Mass, Start};
 use num_bigint::{BigInt, Sign};
 
 /// The two matrices of a bar (Eqs. 1 and 2 with q_a and q_b), each times a positive integer that makes it whole, and
-/// the velocities of the ends times another one. Signs are all that is asked for.
+/// the velocities of the ends times another one. Only signs are needed.
 struct Whole {
     strike: [[[BigInt; 2]; 2]; 2],
     velocity: [BigInt; 2],
@@ -49,7 +49,7 @@ impl Whole {
         Self::of([a + a_rest, b + b_rest], &rho * &rho, e, velocity)
     }
 
-    /// From masses on a bar of half-length 1, at points or spread evenly from one to another. With the sums M of m, F of
+    /// Creates it from masses on a bar of half-length 1, at points or spread evenly from one to another. With the sums M of m, F of
     /// m x and S of m (x² + w²/12) the arms are (M ± F)/M and the square of the radius is (S M − F²)/M².
     fn of_masses(masses: &[[f64; 3]], e: f64, velocity: [f64; 2]) -> Self {
         // M, 2 F and 12 S.

@@ -434,7 +434,7 @@ fn ties_are_told_and_taken_as_a_tilt_that_differs_by_next_to_nothing() {
         let word: String = impacts.iter().map(|impact| impact.corner.letter()).collect();
         (word, impacts.iter().map(|impact| impact.tie).collect::<Vec<_>>(), impacts)
     };
-    // On an edge: a and d together.
+    // The plate lands on an edge: a and d together.
     let (edge, ties, _) = first([1.0, 0.0]);
     assert_eq!(edge, first([1.0, 1e-50]).0, "the limit of a vanishing tilt");
     assert!(ties[0] && ties[1..].iter().all(|tie| !tie), "{ties:?}");

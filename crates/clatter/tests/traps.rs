@@ -412,7 +412,7 @@ fn counts_beyond_2_to_the_64_say_so() {
         let s = Bar::from_gyration_ratio(k, 1.0).unwrap().summary(&Start::default());
         let Count::Huge(n) = s.count else { panic!("k = {k}: {:?}", s.count) };
         assert!(close(n, std::f64::consts::FRAC_PI_2 / k, 8.0 * f64::EPSILON), "k = {k}: {n:e}");
-        // Turning about the center, a quarter turn less: ψ = π/2 for a start that the center does not feel.
+        // Turning about the center, a quarter turn less: ψ = π/2 for a start that does not move the center.
         let Count::Huge(n) = Bar::from_gyration_ratio(k, 1.0).unwrap().count(&start(-1.0, 1.0)) else {
             panic!("k = {k}")
         };

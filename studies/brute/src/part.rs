@@ -102,7 +102,7 @@ impl Suspended {
             let time = from + i as f64 * h;
             self.time = time + h;
             self.see();
-            // Between the samples: the turning points of the cubics through values and slopes.
+            // Peaks between the samples are the turning points of the cubics through values and slopes.
             let (u, w) = (spring(z, v), spring(self.z, self.v));
             self.peaks.displacement.see(turning(h, [z, v], [self.z, self.v]), time);
             self.peaks.acceleration.see(turning(h, [u, spring(v, a1)], [w, spring(self.v, w - f2)]), time);

@@ -3,7 +3,7 @@
 use crate::flight::{Drop, Law, Own};
 use toml::{Table, Value};
 
-/// From, to.
+/// Begin and end of a range.
 pub type Range = [f64; 2];
 
 /// The kind of a limit.

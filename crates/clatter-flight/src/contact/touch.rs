@@ -23,7 +23,7 @@ pub(super) struct Touch {
 pub(super) enum State {
     /// Above the ground, without a dent.
     Away,
-    /// On the line of first loading; a dashpot always.
+    /// On the line of first loading, or on that of a dashpot.
     Loading,
     /// On the line of unloading and reloading.
     Elastic,

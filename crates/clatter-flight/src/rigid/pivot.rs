@@ -75,7 +75,7 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
     let over = p0 > 0.0 && energy >= about.gl;
     let upright = 0.5 * std::f64::consts::PI;
     let time = if over {
-        // Over the top: up to 90°, then down as a mirror image of going up from the other side.
+        // The body goes over the top: up to 90°, then down as a mirror image of going up from the other side.
         let mirror = Turn { base: 0.0, ..about };
         let up = about.direct(tilt0, upright - base, kinetic0);
         up + mirror.direct(far, upright, energy - about.gl * libm::sin(far))

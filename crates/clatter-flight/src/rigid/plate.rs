@@ -12,7 +12,7 @@
 //!
 //! # Chatter
 //! Alone, a corner that leaves with w strikes ever sooner and is still after 2w/(g (1 − e)). Its strikes and its fall have then added up
-//! to −w, as the force of a corner that lies would have added up to after an impulse that stops it now: the others cannot tell. So
+//! to −w, as the force of a corner that lies would have added up to after an impulse that stops it now: the effect on the others is the same. So
 //! corners that are slower than [`SHARE`] of the largest shock, and still before the time has moved by an ulp, lie from then on.
 //!
 //! # Rounding

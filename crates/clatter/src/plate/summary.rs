@@ -8,11 +8,11 @@ use super::{Corner, Plate, PlateImpact, PlateShocks, PlateStart};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum PlateCount {
-    /// Exactly so many.
+    /// The exact number of impacts.
     Finite(u64),
-    /// Proven without end: some corners strike in the same order for ever.
+    /// A train proven without end: some corners strike in the same order for ever.
     Endless,
-    /// More than were followed.
+    /// More impacts than were followed.
     MoreThan(u64),
 }
 

@@ -20,7 +20,7 @@ pub(crate) struct Case {
     pub(crate) approach: Vec<String>,
     pub(crate) times: Vec<String>,
     pub(crate) peak_end_dv: String,
-    /// From 1, or a word where it is a limit.
+    /// Number of the impact of the peak, from 1, or a word where it is a limit.
     pub(crate) peak_index: Value,
     pub(crate) duration: String,
     #[serde(rename = "final")]
