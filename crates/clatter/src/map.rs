@@ -164,7 +164,7 @@ impl Map {
     /// [`Bar::summary`] or [`Bar::count`].
     ///
     /// # Accuracy
-    /// That of [`Bar::summary`] for every point, peaks to [`crate::accuracy::PEAK`].
+    /// Every point is as exact as [`Bar::summary`], peaks to [`crate::accuracy::PEAK`].
     ///
     /// # Errors
     /// [`Error::Axis`] where `q` is an axis over e, or `e` is none; [`Error::TooLarge`] beyond 2²⁸ points, or where

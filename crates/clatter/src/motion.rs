@@ -725,7 +725,7 @@ pub(crate) fn exact(bar: &Symmetric, start: &Start) -> Recurrence {
 }
 
 impl Recurrence {
-    /// Returns the recurrence of the differences a_{n+1} − a_n, times ν^{n+1}: it is the same one, from (T − `1)v_a` +
+    /// Returns the recurrence of the differences a_{n+1} − a_n, times ν^{n+1}: it is the same one, from (T − 1) `v_a` +
     /// `v_b` and −(`v_b` + e `v_a`). These are whole but for an off-center bar, whose ν is rounded.
     fn differences(&self, bar: &Symmetric) -> Self {
         let nu = bar.exact_q().nu;

@@ -231,7 +231,7 @@ const SLOW: u64 = 256;
 /// * 0.64 N² from D = 4e − T², which is off by 16 roundings of e at most and turns the wave by N/8eθ of that;
 /// * or 13 (1 + (1 − e)²/D) from D = (1 − q²)(1 + e)² − (1 − e)², off by 8 of D and of (1 − e)².
 ///
-/// That is 2700 at most, where [`Bar::train`] lets plain steps go on: an error of 2700 · 326 · 2⁻⁵³ ≤ 1e−10.
+/// The sum is 2700 at most, where [`Bar::train`] lets plain steps go on: an error of 2700 · 326 · 2⁻⁵³ ≤ 1e−10.
 const CLEAR: f64 = 1.0 / 2048.0;
 /// Plain steps need T and e of at least this size, so that no term of theirs comes near the subnormal floats.
 const LARGE: f64 = 1e-8;

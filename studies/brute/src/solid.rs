@@ -264,7 +264,7 @@ impl Body {
     /// Returns a time in which no corner can come to the ground, in free flight.
     fn clear(&self, s: &State) -> f64 {
         let [a, b, c] = self.solid.radii.map(|k| k * k);
-        // This is the smallest radius of gyration.
+        // This is the square of the smallest radius of gyration.
         let least = (0.5 * (a + b) - (0.5 * (a - b)).hypot(self.solid.askew)).min(c);
         let fastest = dot([s[11], s[12], s[13]], [s[11], s[12], s[13]]).sqrt() / least;
         let one = |k: usize| {

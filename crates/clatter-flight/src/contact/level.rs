@@ -60,7 +60,7 @@ impl<const N: usize> Level<N> {
     fn height_of(&self, point: usize) -> f64 {
         self.y + Self::along(self.slopes, self.points[point]) + self.over[point]
     }
-    /// Returns the forces of the lying points if they hold the plate, from those that move independently.
+    /// Returns the forces on all points if the lying ones hold the plate, by those of them that move independently.
     fn held_by_any(&self, lying: &[bool; N], forces: &[f64; N]) -> Option<[f64; N]> {
         let coupling = |i: usize, j: usize| self.share(self.points[i], self.points[j]);
         let pushed = |i: usize, forces: &[f64; N]| (0..N).map(|j| coupling(i, j) * forces[j]).sum::<f64>();
