@@ -58,7 +58,7 @@ fn the_errors() {
     golden("accuracy-errors", &text);
 }
 
-/// Every number of the section on measured tosses, as it is printed.
+/// Checks every number of the section on measured tosses, as it is printed.
 #[test]
 fn the_tosses() {
     golden("accuracy-tosses", &clatter_studies::cube::numbers().expect("the numbers of the section"));

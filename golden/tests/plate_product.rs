@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use clatter_assess::ProductFile;
 
-/// It holds headings, alternative texts, and the begins of the parts of the pages.
+/// Checks headings, alternative texts, and the beginnings of the parts of the pages.
 #[test]
 fn the_pages_of_a_plate() {
     // An opt-out for machines that cannot have typst; it is never set in CI.

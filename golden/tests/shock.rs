@@ -137,7 +137,7 @@ fn numbers() -> Value {
     serde_json::from_str(&json).expect("JSON")
 }
 
-/// Every number of the page, as it is printed, except those of the equivalent pulse.
+/// Checks every number of the page, as it is printed, except those of the equivalent pulse.
 #[test]
 fn the_numbers_of_the_page() {
     let (mut numbers, mut text) = (numbers(), String::new());
@@ -152,7 +152,7 @@ fn the_equivalent_pulse() {
     golden("shock-equivalent", &numbers()["phone"]["equivalent"].to_string());
 }
 
-/// The text of the page besides its numbers: headings, alternative texts, the begins of its parts.
+/// Checks the text of the page besides its numbers: headings, alternative texts and the beginnings of its parts.
 #[test]
 fn the_page() {
     let openings = ["What follows, in short", "Fig. 1 ", "Fig. 3 ", "Fig. 7 ", "Fig. 10 ", "Fig. 12 "];

@@ -179,7 +179,7 @@ impl SafeZone {
     }
 
     /// Returns the curve s = `level` inside the square, in connected pieces with q ascending, such that the true curve
-    /// stays within about `flatness` of the chords. Pieces end on the border, not beside it.
+    /// stays within about `flatness` of the chords. Pieces end exactly on the border.
     #[must_use]
     pub fn curve(self, level: f64, flatness: f64) -> Vec<Vec<Point>> {
         let at = |q| match self.solve(level, q) {

@@ -85,9 +85,9 @@ pub enum Error {
 /// Writes a report into `dir`, which is made if it is missing: the PDF, its figures as SVG, its tables as
 /// JSON and CSV. `progress` gets one line a step.
 ///
-/// Each file is written beside its place and renamed, so that none is ever half there. The PDF is the same, byte for
-/// byte, from run to run, but for the times in that of [`Report::Accuracy`]. Another build of the same typst packs the same
-/// content differently.
+/// Each file is written under another name and then renamed, so that no file is ever incomplete. The PDF
+/// is the same, byte for byte, from run to run, but for the times in that of [`Report::Accuracy`]. Another build of the
+/// same typst packs the same content differently.
 ///
 /// ```no_run
 /// // typst may have to be installed first

@@ -10,7 +10,7 @@ use crate::suspended::{
 use clatter::design::DESIGNS;
 use clatter::{Bar, Start};
 use clatter_figures::draw::RUST;
-use clatter_figures::{beside, boundary};
+use clatter_figures::{boundary, spectrum_compared};
 use clatter_report::File;
 use clatter_shock::{
     DamageBoundary, DampingRatio, EquivalentPulse, Frequencies, Limit, Margin, Pulse, Pulses, Quantity, Response, Rule,
@@ -276,8 +276,8 @@ impl Data {
             ("shock-impact-2.svg", rules::holders(&self.holders[1], DESIGNS[1])?),
             ("shock-zones-1.svg", rules::zones(&self.zones[0], DESIGNS[0])?),
             ("shock-zones-2.svg", rules::zones(&self.zones[1], DESIGNS[1])?),
-            ("shock-spectrum.svg", beside(&p.acceleration[0], &p.acceleration[1], name)?),
-            ("shock-velocity.svg", beside(&p.velocity[0], &p.velocity[1], name)?),
+            ("shock-spectrum.svg", spectrum_compared(&p.acceleration[0], &p.acceleration[1], name)?),
+            ("shock-velocity.svg", spectrum_compared(&p.velocity[0], &p.velocity[1], name)?),
             ("shock-pulses.svg", rules::amplifications(&amplifications)?),
             ("shock-models.svg", rules::models(&p.models())?),
             ("shock-boundary.svg", boundary((&p.boundary).into(), &p.curve, &marks, [230.0, 160.0])?),

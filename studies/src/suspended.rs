@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 /// bar falls without spin.
 ///
 /// # Errors
-/// As [`three_way_rule`].
+/// The errors of [`three_way_rule`].
 ///
 /// ```
 /// # use clatter::{Bar, Start};
@@ -100,7 +100,7 @@ pub fn omegas(per_octave: u16) -> Vec<f64> {
 /// more.
 ///
 /// # Errors
-/// As [`three_way_rule`].
+/// The errors of [`three_way_rule`].
 ///
 /// ```
 /// # use clatter::Bar;
@@ -168,7 +168,7 @@ pub fn worst(bar: &Bar, damping: DampingRatio, per_octave: u16) -> Result<Worst,
 /// of velocity is within the threshold.
 ///
 /// # Errors
-/// As [`respond`]; [`Error::Quantity`] for a threshold that is not finite and positive.
+/// The errors of [`respond`]; [`Error::Quantity`] for a threshold that is not finite and positive.
 ///
 /// ```
 /// # use clatter::{Bar, Start};
@@ -212,7 +212,7 @@ pub fn suspended_zone(bar: &Bar, suspension: &Suspension, threshold: f64) -> Res
 /// the end that strikes first), and the number of impacts of the train, as far as it was followed.
 ///
 /// # Errors
-/// As [`respond`].
+/// The errors of [`respond`].
 ///
 /// ```
 /// # use clatter::Bar;
@@ -254,7 +254,7 @@ impl ShapeFigures {
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
     /// # Errors
-    /// As [`DamageBoundary::new`].
+    /// The errors of [`DamageBoundary::new`].
     pub fn new(shape: Shape, damping: DampingRatio) -> Result<Self, Error> {
         let boundary = DamageBoundary::new(Suspension::new(TAU, damping)?, Limit::Acceleration(1.0), shape)?;
         let knee = boundary.knee_velocity_change();
@@ -270,7 +270,7 @@ impl ShapeFigures {
 /// Returns the largest |A| over the amplitude of one pulse, at natural frequency times duration `frequency_duration`.
 ///
 /// # Errors
-/// As [`Pulses::new`].
+/// The errors of [`Pulses::new`].
 ///
 /// ```
 /// # use clatter_shock::{DampingRatio, Shape};
@@ -290,7 +290,7 @@ pub fn amplification(shape: Shape, damping: DampingRatio, frequency_duration: f6
 /// overlap.
 ///
 /// # Errors
-/// As [`respond`] and [`Pulses::new`].
+/// The errors of [`respond`] and [`Pulses::new`].
 ///
 /// ```
 /// # use clatter::{Bar, Start};

@@ -137,7 +137,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 
 /// Draws a drop: heights of both ends over time with the strikes marked, the velocity shocks below, and, where contacts
 /// take time, forces and accelerations below these. Where the later strikes come much later than the first, the first
-/// stand beside the whole, magnified.
+/// are drawn next to the whole, magnified.
 ///
 /// ```
 /// use clatter_flight::{Body, Model, Scene};

@@ -41,7 +41,7 @@ pub use plate::{Area, HeatMap, Landing, Strike, heat_map, landing, plan};
 pub use product::{Place, product};
 pub use record::{Trace, record};
 pub use ring::ring;
-pub use shock::{Against, Critical, beside, boundary, damage_boundary, rule, spectra, spectrum, two};
+pub use shock::{Against, Critical, boundary, damage_boundary, rule, spectra, spectrum, spectrum_compared, two};
 pub use surface::{Sheet, Surface, surface};
 
 /// The tools of figures: a page in points, charts on it, and the style of lines and words.

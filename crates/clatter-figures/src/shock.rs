@@ -120,7 +120,7 @@ pub fn spectra(all: &[(&Spectrum, &str)], against: Against<'_>) -> Result<String
 }
 
 /// Draws a spectrum and another one of the same quantity by its maximax, with its name: half as wide as a page.
-pub fn beside(s: &Spectrum, other: &Spectrum, name: &str) -> Result<String, FigureError> {
+pub fn spectrum_compared(s: &Spectrum, other: &Spectrum, name: &str) -> Result<String, FigureError> {
     draw(s, None, Against::default(), &[(other, name)], true)
 }
 

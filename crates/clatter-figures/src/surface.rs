@@ -109,7 +109,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// Returns the part of a polygon below the cut. 1/z is close to linear beside the pole at q = e = 1, and finite there.
+/// Returns the part of a polygon below the cut. 1/z is close to linear near the pole at q = e = 1, and finite there.
 fn below(polygon: &[P3], cut: f64) -> Vec<P3> {
     let mut out = Vec::new();
     for (i, a) in polygon.iter().enumerate() {

@@ -89,7 +89,7 @@ pub fn respond(bar: &Bar, start: &Start, position: f64, suspension: &Suspension)
 /// the angular frequency `omega_max`.
 ///
 /// # Errors
-/// As [`respond`].
+/// The errors of [`respond`].
 pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Result<(VelocityShocks, f64), Error> {
     check_position(position)?;
     let (q, e) = (bar.symmetric()?.q(), bar.e());
@@ -269,8 +269,8 @@ pub struct RulePoint {
 /// first.
 ///
 /// # Errors
-/// As [`respond`]; [`Error::Entry`] for an Ω that is not finite and positive; [`Error::Quantity`] for a flat drop (no
-/// Ω).
+/// The errors of [`respond`]; [`Error::Entry`] for an Ω that is not finite and positive; [`Error::Quantity`] for a flat
+/// drop (no Ω).
 pub fn three_way_rule(
     bar: &Bar,
     start: &Start,

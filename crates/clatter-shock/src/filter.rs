@@ -104,7 +104,7 @@ struct Recursion {
     d: f64,
 }
 
-/// The data of one frequency beside the filter.
+/// The data of the oscillator of one frequency, apart from those of the filter.
 #[derive(Debug, Clone)]
 struct Oscillator {
     theta: f64,

@@ -201,7 +201,7 @@ impl DamageBoundary {
     /// Returns the margin of one pulse of this shape: the limit over the response.
     ///
     /// # Errors
-    /// As [`Pulses::new`].
+    /// The errors of [`Pulses::new`].
     pub fn margin(&self, amplitude: f64, duration: f64) -> Result<Margin, Error> {
         let pulse = Pulse { shape: self.shape, amplitude, duration, start: 0.0 };
         self.limit.margin(&Pulses::new(&[pulse])?.respond(&self.suspension))

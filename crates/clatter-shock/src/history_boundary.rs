@@ -87,8 +87,8 @@ impl HistoryBoundary {
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
     /// # Errors
-    /// As [`Pulses::piecewise_linear`]; [`Error::Quantity`] unless the limit is finite and positive, and for a history
-    /// that is zero throughout.
+    /// The errors of [`Pulses::piecewise_linear`]; [`Error::Quantity`] unless the limit is finite and positive, and for
+    /// a history that is zero throughout.
     pub fn new(suspension: Suspension, limit: Limit, points: &[(f64, f64)]) -> Result<Self, Error> {
         let allowed = limit.allowed()?;
         let (omega, factors) = (suspension.omega(), suspension.damping().impulse_factors());

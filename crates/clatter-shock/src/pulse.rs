@@ -358,7 +358,7 @@ impl Pulses {
     ///
     /// # Accuracy
     ///
-    /// As [`respond`](Self::respond).
+    /// The accuracy is that of [`respond`](Self::respond).
     ///
     /// # Examples
     ///

@@ -239,7 +239,7 @@ mod tests {
         }
     }
 
-    /// The velocity changes that the standard prints beside peak and duration, cm/s.
+    /// Compares the velocity changes with those that the standard prints with peak and duration, in cm/s.
     #[test]
     fn pulses_have_the_velocity_change_of_their_tables() {
         let printed = [543.0, 499.0, 468.0, 393.0, 312.0, 255.0, 187.0, 125.0];

@@ -353,7 +353,7 @@ impl Modes {
         let [a, b] = self.rows[k];
         a.abs() * (m.x.abs() + m.w.abs()) + b.abs() * m.w.abs()
     }
-    /// Returns a bound on the bend of quantity `k` beside −q, where |x| and |y| stay within `v` and the forcing and its
+    /// Returns a bound on |q″ + q| of quantity q, number `k`, where |x| and |y| stay within `v` and the forcing and its
     /// slope within `f` and `slope`: q″ = −q − 2ζq′ + (input).
     #[inline]
     pub(crate) fn bend_bound(&self, k: usize, v: f64, f: f64, slope: f64) -> f64 {

@@ -112,7 +112,7 @@ proptest! {
         }
     }
 
-    /// One long sinusoid, or the same cut into parts of half a circle at most.
+    /// Compares one long sinusoid with the same cut into parts of half a circle at most.
     #[test]
     fn a_long_sinusoid_is_the_sum_of_its_parts(
         turned in 3.0..400.0_f64,

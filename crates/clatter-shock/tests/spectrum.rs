@@ -134,7 +134,7 @@ fn equivalent_static_acceleration_has_the_sign_of_the_displacement() {
     }
 }
 
-/// The five quantities at three dampings, from shocks, pulses, and the same history sampled.
+/// Checks the five quantities at three dampings, from shocks, pulses, and the same history sampled.
 #[test]
 fn signs_of_both_parts_and_the_time_of_the_peak_are_those_of_the_response() {
     let list = [(0.3, 2.0), (0.9, -3.1), (1.7, 1.2)];

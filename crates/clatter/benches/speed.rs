@@ -88,7 +88,7 @@ fn summaries() {
     }
 }
 
-/// Long and awkward trains in constant time; the plain loop gives up after 1000 impacts.
+/// Times long and awkward trains, which take constant time; the plain loop gives up after 1000 impacts.
 fn long_trains() {
     let start = Start::default();
     for (name, bar) in [

@@ -192,7 +192,7 @@ impl Bar {
     /// gyration about the center of mass over half the length.
     ///
     /// # Errors
-    /// As [`Bar::from_arms`] with arms 1 + c and 1 − c.
+    /// The errors of [`Bar::from_arms`] with arms 1 + c and 1 − c.
     ///
     /// # Examples
     /// ```

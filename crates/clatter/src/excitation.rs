@@ -76,12 +76,13 @@ impl Section<'_> {
 /// Sections one after the other; each begins where the one before ends.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Excitation {
-    sections: Vec<Kept>,
+    sections: Vec<StoredSection>,
     sines: Vec<Sine>,
 }
 
+/// A section as it is stored: its sinusoids are a range of the list of all.
 #[derive(Debug, Clone, PartialEq)]
-struct Kept {
+struct StoredSection {
     from: f64,
     length: f64,
     delta_v: f64,
@@ -102,7 +103,7 @@ impl Excitation {
         let first = self.sines.len();
         self.sines.extend(section.sines.iter().filter(|s| s.amplitude != 0.0 && s.rate > 0.0));
         let Section { from, length, delta_v, acceleration, free, .. } = section;
-        self.sections.push(Kept { from, length, delta_v, acceleration, sines: first..self.sines.len(), free });
+        self.sections.push(StoredSection { from, length, delta_v, acceleration, sines: first..self.sines.len(), free });
     }
     /// Adds a steady acceleration to all sections from the one of this number on.
     #[inline]
@@ -110,9 +111,9 @@ impl Excitation {
         self.sections[first..].iter_mut().flat_map(|s| &mut s.acceleration).for_each(|a| *a += acceleration);
     }
     #[inline]
-    fn view<'a>(&'a self, kept: &Kept) -> Section<'a> {
-        let Kept { from, length, delta_v, acceleration, free, .. } = *kept;
-        Section { from, length, delta_v, acceleration, sines: &self.sines[kept.sines.clone()], free }
+    fn view<'a>(&'a self, stored: &StoredSection) -> Section<'a> {
+        let StoredSection { from, length, delta_v, acceleration, free, .. } = *stored;
+        Section { from, length, delta_v, acceleration, sines: &self.sines[stored.sines.clone()], free }
     }
     /// Returns the section of this number, from 0.
     ///
@@ -127,6 +128,6 @@ impl Excitation {
     #[must_use]
     #[inline]
     pub fn sections(&self) -> impl ExactSizeIterator<Item = Section<'_>> + Clone {
-        self.sections.iter().map(|kept| self.view(kept))
+        self.sections.iter().map(|stored| self.view(stored))
     }
 }

@@ -458,7 +458,7 @@ impl Drive {
     }
 
     /// Returns θ and ψ of a wave in double-double, and a bound on the relative error that both share: 2⁻⁸¹ where that
-    /// is `enough`, else 2⁻⁹⁵, beside that of D.
+    /// is `enough`, else 2⁻⁹⁵, plus that of D.
     fn angles(&self, enough: bool) -> (Dd, Dd, f64) {
         let (d, d_error) = self.discriminant(Digits::ANGLES);
         let (s, t) = (d.sqrt(), self.wide_t());

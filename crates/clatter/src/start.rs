@@ -24,7 +24,7 @@ impl End {
     }
     /// Returns the end of impact `number` (from 1): odd numbers fall on `a`, even ones on `b`.
     #[must_use]
-    pub fn of_impact(number: u64) -> Self {
+    pub fn striking(number: u64) -> Self {
         if number % 2 == 1 { Self::A } else { Self::B }
     }
 }

@@ -122,7 +122,7 @@ impl Bar {
     /// it.
     ///
     /// # Cost
-    /// Measured beside the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the
+    /// Compared with the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the
     /// unit square, and for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to
     /// 250 where double-double is needed (N beyond 10⁷, or next to the endless curve). Where integers decide,
     /// microseconds to a millisecond for a start next to a tie, and one to a hundred milliseconds to decide which impact

@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, clamp};
 /// The given form of the inertia. It is kept, because rounding it to a q would lose digits near q = 1, and because
 /// integers decide the count in the end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Given {
+enum GivenInertia {
     /// The inertia ratio itself.
     InertiaRatio,
     /// k² = (ρ/L)² as a quotient of products.
@@ -46,7 +46,7 @@ pub(crate) struct Symmetric {
     /// 1 − q and 1 + q rounded, but not from a rounded q.
     pub(crate) less: f64,
     pub(crate) more: f64,
-    given: Given,
+    given: GivenInertia,
 }
 
 impl Symmetric {
@@ -54,7 +54,7 @@ impl Symmetric {
     #[inline]
     pub(crate) fn from_inertia_ratio(q: f64, e: Restitution) -> Self {
         let e = e.get();
-        Self { q, e, t: q + q * e, less: 1.0 - q, more: 1.0 + q, given: Given::InertiaRatio }
+        Self { q, e, t: q + q * e, less: 1.0 - q, more: 1.0 + q, given: GivenInertia::InertiaRatio }
     }
 
     /// Creates the bar from k² = over/under, every product within the range of floats.
@@ -65,7 +65,7 @@ impl Symmetric {
         if k != 0.0 && !(1e-35..=1e35).contains(&k) {
             return Err(Error::Quantity { name: "gyration ratio", value: k, allowed: "0 or in [1e-35, 1e35]" });
         }
-        let given = Given::GyrationSquared { over, under };
+        let given = GivenInertia::GyrationSquared { over, under };
         let ((n, d), two) = (terms(over, under), Dd::from(2.0));
         let (q, less, more) = (((d - n) / (d + n)).hi, (two * n / (d + n)).hi, (two * d / (d + n)).hi);
         Ok(Self { q, e, t: q + q * e, less, more, given })
@@ -78,17 +78,17 @@ impl Symmetric {
         // (1 − q)(1 + q) over the one of both that does not cancel.
         let product = given.less_more(moments);
         let [less, more] = if q.hi > 0.0 { [product / (one + q), one + q] } else { [one - q, product / (one - q)] };
-        let given = Given::OffCenter(given);
+        let given = GivenInertia::OffCenter(given);
         Self { q: q.hi, e, t: q.hi + q.hi * e, less: less.hi, more: more.hi, given }
     }
 
     /// Returns an off-center bar with its ends exchanged.
     pub(crate) fn exchanged(self) -> Self {
         match self.given {
-            Given::OffCenter(OffCenter { arms: [a, b], rho }) => {
-                Self { given: Given::OffCenter(OffCenter { arms: [b, a], rho }), ..self }
+            GivenInertia::OffCenter(OffCenter { arms: [a, b], rho }) => {
+                Self { given: GivenInertia::OffCenter(OffCenter { arms: [b, a], rho }), ..self }
             }
-            Given::InertiaRatio | Given::GyrationSquared { .. } => self,
+            GivenInertia::InertiaRatio | GivenInertia::GyrationSquared { .. } => self,
         }
     }
 
@@ -99,30 +99,30 @@ impl Symmetric {
 
     /// Returns the given lengths of an off-center bar.
     pub(crate) fn off_center(&self) -> Option<OffCenter> {
-        if let Given::OffCenter(given) = self.given { Some(given) } else { None }
+        if let GivenInertia::OffCenter(given) = self.given { Some(given) } else { None }
     }
 
     /// Returns q to about 2⁻¹⁰⁰.
     pub(crate) fn wide_q(&self) -> Dd {
         match self.given {
-            Given::InertiaRatio => Dd::from(self.q),
-            Given::GyrationSquared { over, under } => {
+            GivenInertia::InertiaRatio => Dd::from(self.q),
+            GivenInertia::GyrationSquared { over, under } => {
                 let (n, d) = terms(over, under);
                 (d - n) / (d + n)
             }
-            Given::OffCenter(given) => given.q(&given.moments()),
+            GivenInertia::OffCenter(given) => given.q(&given.moments()),
         }
     }
 
     /// Returns (1 − q)(1 + q) to a relative 2⁻¹⁰⁰: 4nd/(d + n)² with k² = n/d.
     pub(crate) fn wide_less_more(&self) -> Dd {
         match self.given {
-            Given::InertiaRatio => two_sum(1.0, -self.q) * two_sum(1.0, self.q),
-            Given::GyrationSquared { over, under } => {
+            GivenInertia::InertiaRatio => two_sum(1.0, -self.q) * two_sum(1.0, self.q),
+            GivenInertia::GyrationSquared { over, under } => {
                 let (n, d) = terms(over, under);
                 n * d * 4.0 / (d + n).sqr()
             }
-            Given::OffCenter(given) => given.less_more(&given.moments()),
+            GivenInertia::OffCenter(given) => given.less_more(&given.moments()),
         }
     }
 
@@ -130,13 +130,13 @@ impl Symmetric {
     pub(crate) fn exact_q(&self) -> Ratio {
         let ratio = |mu: Dyadic, nu: Dyadic| Ratio { mu, square: nu.mul(&nu), factor_b: nu.clone(), nu };
         match self.given {
-            Given::InertiaRatio => ratio(Dyadic::from(self.q), Dyadic::from(1.0)),
-            Given::GyrationSquared { over, under } => {
+            GivenInertia::InertiaRatio => ratio(Dyadic::from(self.q), Dyadic::from(1.0)),
+            GivenInertia::GyrationSquared { over, under } => {
                 let product = |f: &[f64]| f.iter().fold(Dyadic::from(1.0), |p, &x| p.mul(&Dyadic::from(x)));
                 let (n, d) = (product(&over), product(&under));
                 ratio(d.sub(&n), d.add(&n))
             }
-            Given::OffCenter(given) => {
+            GivenInertia::OffCenter(given) => {
                 let ([a, b], square) = (given.arms.map(Dyadic::from), Dyadic::from(two_prod(given.rho, given.rho)));
                 let [i_a, i_b] = [&a, &b].map(|arm| arm.mul(arm).add(&square));
                 let nu = Dyadic::from(given.moments().root);

@@ -260,7 +260,7 @@ impl Iterator for Train {
         }
         let (approach, time) = (*later.approach.get(self.at)?, *later.times.get(self.at)?);
         (self.at, self.number) = (self.at + 1, self.number + 1);
-        Some(self.jumps.impact(self.number, End::of_impact(self.number), approach, time))
+        Some(self.jumps.impact(self.number, End::striking(self.number), approach, time))
     }
 
     #[inline]
@@ -572,7 +572,7 @@ fn hand_out<B, F: FnMut(B, Impact) -> B>(
     init: B,
     f: &mut F,
 ) -> B {
-    let (mut all, first) = (init, End::of_impact(number + 1));
+    let (mut all, first) = (init, End::striking(number + 1));
     let ((approach, rest), (times, last)) = (approach.as_chunks::<2>(), times.as_chunks::<2>());
     for (approach, times) in approach.iter().zip(times) {
         all = f(all, jumps.impact(number + 1, first, approach[0], times[0]));

@@ -66,7 +66,7 @@ impl Symmetric {
         let around = self.train(start).skip(skip).take(3).filter(|impact| impact.number != number);
         let struck = around.map(|impact| (-(1.0 + self.e) * impact.approach, PeakImpact::Number(impact.number)));
         let beside = struck.fold((0.0, impact), |most, next| if next.0 > most.0 { next } else { most });
-        if End::of_impact(number) == End::A { [(end, impact), beside] } else { [beside, (end, impact)] }
+        if End::striking(number) == End::A { [(end, impact), beside] } else { [beside, (end, impact)] }
     }
 }
 

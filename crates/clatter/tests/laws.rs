@@ -83,7 +83,7 @@ proptest! {
         }
     }
 
-    /// Newton's law at the struck end, and a blow that never pulls.
+    /// Checks Newton's law at the struck end, and that a blow never pulls.
     #[test]
     fn each_struck_end_departs_at_e_times_its_approach(bar in bars(), start in starts()) {
         let impacts = some(&bar, &start);
@@ -247,7 +247,7 @@ proptest! {
         prop_assert!(count(more_q) >= count(q), "count in q from {q} to {more_q} at e = {e}");
     }
 
-    /// One bar, given in four ways.
+    /// Checks one bar that is given in four ways.
     #[test]
     fn the_ways_of_giving_the_inertia_agree(k in 0.01..20.0_f64, half in 0.01..10.0_f64, m in 0.01..100.0_f64, e in 0.0..=1.0_f64) {
         let rho = k * half;

@@ -173,8 +173,8 @@ fn on_the_curve(q: f64) -> f64 {
     ((1.0 - k) / (1.0 + k)).powi(2)
 }
 
-/// Restitutions beside the curve: neighboring floats, and 10⁻¹⁶ to 10⁻⁹ off.
-fn beside(e: f64, random: &mut impl FnMut() -> f64) -> f64 {
+/// Returns a restitution near the curve: a neighboring float, or one 10⁻¹⁶ to 10⁻⁹ off.
+fn near_curve(e: f64, random: &mut impl FnMut() -> f64) -> f64 {
     let x = random() * 12.0;
     let e = if x < 5.0 { f64::from_bits(e.to_bits() + 3).min(e + (x.floor() - 2.0) * e * f64::EPSILON) } else { e };
     let off = 10f64.powf(-16.0 + 7.0 * random());
@@ -191,7 +191,7 @@ fn counts_next_to_the_endless_curve_are_those_of_whole_numbers() {
         if q < 1e-3 {
             continue;
         }
-        let e = beside(on_the_curve(q), &mut random);
+        let e = near_curve(on_the_curve(q), &mut random);
         let velocity = [-1.0, [-1.0, 0.0, -3.0 * random()][wrong.of as usize % 3]];
         let start = Start::new(velocity, 1.0).unwrap();
         let bar = Bar::from_arms([a, b], rho, e).unwrap();
@@ -211,7 +211,7 @@ fn counts_of_a_bar_with_a_given_center_of_mass_are_those_of_whole_numbers() {
         if q < 1e-3 {
             continue;
         }
-        let e = beside(on_the_curve(q), &mut random);
+        let e = near_curve(on_the_curve(q), &mut random);
         let velocity = [-1.0, [-1.0, 0.0, -3.0 * random()][wrong.of as usize % 3]];
         let start = Start::new(velocity, 1.0).unwrap();
         let bar = Bar::from_center_of_mass(c, k, e).unwrap();
@@ -287,7 +287,7 @@ fn a_count_of_masses_says_whether_it_is_exact() {
         let bar = |e| Bar::from_masses(2.0, &list, e).unwrap();
         let (q, velocity) = (bar(0.0).q(), [-1.0, [-1.0, 0.5 * random(), -2.0 * random()][case % 3]]);
         let e = if anywhere { random() } else { on_the_curve(q.max(1e-3)) };
-        let e = if anywhere { e } else { beside(e, &mut random) };
+        let e = if anywhere { e } else { near_curve(e, &mut random) };
         let (bar, start) = (bar(e), Start::new(velocity, 1.0).unwrap());
         if bar.count_is_exact(&start) {
             sure += 1;

@@ -160,7 +160,7 @@ fn starts() -> impl Strategy<Value = ([f64; 3], [f64; 2])> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// Order, count, times and velocities, with ties, flat drops, edges and gaps in ratios of 10¹².
+    /// Checks order, count, times and velocities, with ties, flat drops, edges and gaps in ratios of 10¹².
     #[test]
     fn trains_are_those_of_fractions(
         (k, s) in plates(), e in number(0, 32), (velocity, gaps) in starts(),
@@ -230,7 +230,7 @@ proptest! {
         prop_assert!(most <= atlas.peak().corner * (1.0 + 1e-12), "{most} is more than the worst of all");
     }
 
-    /// Energy: (1 − e²) v²/(2 w) is lost at each strike.
+    /// The energy (1 − e²) v²/(2 w) is lost at each strike.
     #[test]
     fn a_strike_takes_the_energy_that_it_should((k, s) in plates(), e in 0.0..=1.0_f64, r in 0.01..0.99_f64) {
         let plate = Plate::off_center(k, s, e).unwrap();

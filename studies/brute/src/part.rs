@@ -315,7 +315,7 @@ struct Point {
 
 /// Returns the shocks of a history, from the largest peak down. Each reaches on both sides as long as the sign is kept
 /// and a tenth of its peak, at least `least`, is exceeded, and from there as long as it goes on falling, never into an
-/// earlier one, nor beyond a contact without a gap. Peaks below `least` do not count beside others above it.
+/// earlier one, nor beyond a contact without a gap. Peaks below `least` do not count if others are above it.
 pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
     let mut points: Vec<Point> = Vec::with_capacity(3 * pushes.len() + 2);
     let mut gained = [0.0; 3];

@@ -156,7 +156,7 @@ impl Mul for &Big {
 }
 impl Div for &Big {
     type Output = Big;
-    /// Divides; 0 over anything is 0, and the divisor is not 0.
+    /// Returns the quotient; 0 over anything is 0, and the divisor must not be 0.
     fn div(self, o: &Big) -> Big {
         if self.is_zero() {
             return Big::zero();
@@ -224,7 +224,7 @@ mod tests {
         }
     }
 
-    /// A turn by one radian, and by a thousand.
+    /// Checks a turn by one radian and by a thousand.
     #[test]
     fn the_exponential_of_a_turn_is_sine_and_cosine() {
         for (angle, sine) in [(1.0, "841470984807896506652502321630"), (1000.0, "826879540532002560255887429109")] {

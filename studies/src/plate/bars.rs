@@ -38,7 +38,7 @@ impl BarsAndPlate {
     /// Creates the comparison for a plate of these α and β.
     ///
     /// # Errors
-    /// As of [`Plate::new`].
+    /// The errors of [`Plate::new`].
     pub(crate) fn new(inertia: [f64; 2], e: f64) -> Result<Self, Error> {
         let [alpha, beta] = inertia;
         let shocks = Plate::new(inertia.map(|a| a.sqrt().recip()), e)?.worst(STRIKES)?;

@@ -33,7 +33,7 @@ impl GainMap {
     /// Computes [`worst`] at each cell.
     ///
     /// # Errors
-    /// As [`worst`].
+    /// The errors of [`worst`].
     pub fn compute(damping: DampingRatio, cells: usize, per_octave: u16) -> Result<Self, Error> {
         let bar = |i: usize| Bar::new(middle(i / cells, cells), middle(i % cells, cells));
         let values = parallel(cells * cells, |i| {
@@ -72,7 +72,7 @@ impl Holders {
     /// Computes [`impact_of_peak`] at each point.
     ///
     /// # Errors
-    /// As [`clatter_shock::respond`].
+    /// The errors of [`clatter_shock::respond`].
     pub fn compute(bar: &Bar, damping: DampingRatio, per_octave: u16, rows: usize) -> Result<Self, Error> {
         let omegas = omegas(per_octave);
         let columns = omegas.len();
@@ -88,7 +88,7 @@ impl Holders {
     }
 }
 
-/// The safe zone of a suspended part over its frequency, beside that of the paper.
+/// The safe zone of a suspended part over its frequency, and that of the paper for comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SuspendedZones {
     /// Threshold in v0.
@@ -110,7 +110,7 @@ impl SuspendedZones {
     /// Computes the zones for one bar, threshold and damping ratio.
     ///
     /// # Errors
-    /// As [`suspended_zone`].
+    /// The errors of [`suspended_zone`].
     pub fn compute(bar: &Bar, threshold: f64, damping: DampingRatio, per_octave: u16) -> Result<Self, Error> {
         let omegas = omegas(per_octave);
         let zones = parallel(omegas.len(), |i| suspended_zone(bar, &Suspension::new(omegas[i], damping)?, threshold))?;

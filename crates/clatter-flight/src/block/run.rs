@@ -184,7 +184,8 @@ impl BlockDrop {
     /// Returns the same flight with a contact of its own at each corner, in the order of [`Block::corners_m`].
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts), by each of the contacts; [`Error::Laws`] unless all are hysteretic, where they differ.
+    /// The errors of [`contacts`](Self::contacts), for each of the contacts; [`Error::Laws`] if they differ and not all
+    /// are hysteretic.
     pub fn own_contacts(
         &self,
         contacts: &[Contact; 8],

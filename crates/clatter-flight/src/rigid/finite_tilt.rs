@@ -234,7 +234,7 @@ impl Airborne {
     }
 }
 
-/// The energy that a body must have, kept beside the motion so that roundings do not add up over 10⁴ strikes.
+/// The energy that a body must have, kept apart from the motion so that roundings do not add up over 10⁴ strikes.
 struct Ledger {
     energy: f64,
     opened: f64,

@@ -140,7 +140,7 @@ mod tests {
             assert!((least / s.kappa - 1.0).abs() < 1e-11, "{body:?} e {e}: {least}, κ = {}", s.kappa);
         }
     }
-    /// C from above, by all corners of the box, and for q ≥ 0 within a factor of 2.
+    /// Checks that C is a bound, by all corners of the box, and for q ≥ 0 within a factor of 2.
     #[test]
     fn no_slow_motion_has_more_energy_than_the_box() {
         for (body, e) in cases() {

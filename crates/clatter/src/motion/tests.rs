@@ -170,7 +170,7 @@ proptest! {
         prop_assert!(s.count == Count::Endless || bar.train(&start).nth(usize::try_from(known).unwrap()).is_none(), "and no more");
     }
 
-    /// The peak and the final velocities against integers.
+    /// Compares the peak and the final velocities with integers.
     #[test]
     fn peaks_and_final_velocities_hold_the_allowed_errors((bar, start) in drops()) {
         if bar.exact_q().nu != Dyadic::from(1.0) {
