@@ -105,8 +105,9 @@ pub(crate) fn thinned(points: &[(f64, f64)], step: f64) -> Vec<(f64, f64)> {
     kept
 }
 
-/// Returns the end of the part that is magnified: the first long pause after at least three strikes, else the last one
-/// before, and only if that leaves most of the time to the rest. The hardest strike is within it.
+/// Returns the end of the part that is magnified, 1.25 times the time t at which a long pause begins; `None` if there is
+/// no such pause. A pause is long if it follows at least three strikes and lasts beyond 1.6 t; if none does, the last
+/// pause is taken if it lasts beyond 2 t. Pauses count from the hardest strike on, as long as 7.5 t is before `end_s`.
 fn early(drop: &Drop<'_>, end_s: f64) -> Option<f64> {
     let hardness = |strike: &Strike| strike.delta_v_m_s.iter().fold(0.0_f64, |most, dv| most.max(dv.abs()));
     let strikes = drop.strikes.iter().map(hardness).enumerate();

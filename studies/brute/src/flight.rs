@@ -94,7 +94,7 @@ type State = [f64; 4];
 
 /// Angle of rotation per step of free flight, in radians.
 const TURN: f64 = 0.1;
-/// The most steps; a drop that needs more is left.
+/// The largest number of steps; a drop is followed no further.
 const MOST_STEPS: usize = 1_000_000;
 /// Rebound speed below which an end that strikes at an instant hops on, as a share of the speed of the drop.
 const HOP: f64 = 1e-4;

@@ -70,7 +70,7 @@ type State = [f64; 14];
 
 /// Angle of rotation per step of free flight, in radians.
 const TURN: f64 = 0.05;
-/// The most steps; a drop that needs more is left.
+/// The largest number of steps; a drop is followed no further.
 const MOST_STEPS: usize = 400_000;
 /// Height from which on a corner is down.
 const DOWN: f64 = 1e-12;
