@@ -7,7 +7,7 @@ import importlib.metadata, json, math, subprocess, sys, time
 
 
 def best(run):
-    """The answer and the least time in ms."""
+    """Returns the answer and the least time in ms."""
     begin, least, runs = time.perf_counter(), math.inf, 0
     while runs < 5 or time.perf_counter() - begin < 0.3:
         start = time.perf_counter()
@@ -18,7 +18,7 @@ def best(run):
 
 
 def python_loop(scene, bar):
-    """Eq. 1 of the paper: v <- A v where the ends take turns, until the next end moves up."""
+    """Runs Eq. 1 of the paper: v <- A v where the ends take turns, until the next end moves up."""
     q, e, v0 = bar["q"], bar["e"], scene["speed_m_s"]
 
     def run():
@@ -34,7 +34,7 @@ def python_loop(scene, bar):
 
 
 def scipy_events(scene, bar):
-    """Free flight of both ends by solve_ivp, stopped at each touch by an event, restarted from the paper's matrix."""
+    """Follows the free flight of both ends by solve_ivp, stopped at each touch by an event, restarted from the paper's matrix."""
     from scipy.integrate import solve_ivp
 
     q, e, v0 = bar["q"], bar["e"], scene["speed_m_s"]
@@ -66,7 +66,7 @@ def scipy_events(scene, bar):
 
 
 def siconos_events(scene, bar):
-    """Event-driven simulation of a linear Lagrangian system in the height of the center and the turn times L."""
+    """Simulates by events a linear Lagrangian system in the height of the center and the turn times L."""
     import numpy as np
     import siconos.kernel as sk
 
@@ -99,12 +99,12 @@ def siconos_events(scene, bar):
 
 
 STEP_S = 1e-6
-# Of the contact spring, in steps: the shortest with which the largest shocks stay within 3 %.
+# Time constant of the contact spring, five steps: the shortest with which the largest shocks stay within 3 %.
 MUJOCO_TIME_CONSTANT_S = 5e-6
 
 
 def mujoco_contact(scene, bar, lifted_m=0.0):
-    """One body on a slide and a hinge, a small sphere at each end; the damping ratio is fitted until the first strike
+    """Simulates one body on a slide and a hinge, with a small sphere at each end; the damping ratio is fitted until the first strike
     gives the restitution e."""
     import mujoco
     import numpy as np
@@ -133,7 +133,7 @@ def mujoco_contact(scene, bar, lifted_m=0.0):
         return model, data, state
 
     def follow(parts, steps):
-        """Angle, velocity and spin, and the force at each end, step by step."""
+        """Returns angle, velocity and spin, and the force at each end, step by step."""
         model, data, state = parts
         states, forces = rollout.rollout(model, data, state, nstep=steps)
         return np.vstack([state, states[0]])[:, 2:5], np.vstack([forces[0], np.zeros(2)])

@@ -73,7 +73,7 @@ def properties(order, pairs):
 
 
 def daqmx(path, count, big=False, cards=1):
-    """Two 16-bit channels and a digital line on each card, each channel with a linear scale, in two chunks."""
+    """Writes two 16-bit channels and a digital line on each card, each channel with a linear scale, in two chunks."""
     order = ">" if big else "<"
     text = lambda s: struct.pack(order + "I", len(s)) + s.encode()
     rows, chunks = count // 2, 2
@@ -87,7 +87,7 @@ def daqmx(path, count, big=False, cards=1):
     for name, card, offset, digital in channels:
         meta += text(name) + struct.pack(order + "I", 0x126A if digital else 0x1269)
         meta += struct.pack(order + "IIQI", 0xFFFFFFFF if not digital else 5, 1, rows, 1)
-        # 16-bit signed, or one bit of a byte.
+        # The type is 16-bit signed, or one bit of a byte.
         meta += struct.pack(order + ("IIIBI" if digital else "IIIII"), 0 if digital else 3, card, offset, 0, 0)
         meta += struct.pack(order + "I", cards) + b"".join(struct.pack(order + "I", w) for w in widths)
         scales = {} if digital else {"NI_Number_Of_Scales": 2, "NI_Scale[1]_Scale_Type": "Linear", "NI_Scale[1]_Linear_Slope": 0.01, "NI_Scale[1]_Linear_Y_Intercept": 0.5, "NI_Scale[1]_Linear_Input_Source": 0, "NI_Scaling_Status": "unscaled"}
@@ -174,7 +174,7 @@ def read_uff(data):
 # LVM ----------------------------------------------------------------------------------------------------------------------
 
 def lvm(path, channels, x_columns="No", point=".", separator="\t", segments=1, again=0.5, comment=False, x0=0.0):
-    """`channels`: name, unit, step and values of each."""
+    """Writes `channels`: name, unit, step and values of each."""
     number = lambda value, form: format(value, form).replace(".", point)
     line = lambda *cells: separator.join(map(str, cells)) + "\n"
     word = {"\t": "Tab", ",": "Comma"}[separator]
@@ -238,7 +238,7 @@ def read_lvm(data, record=0):
 # MAT and HDF5 -------------------------------------------------------------------------------------------------------------
 
 def mat_files(folder):
-    """Expected channels are those that were written: scipy reads the files as a check."""
+    """Writes the files; the expected channels are those written, and scipy reads the files as a check."""
     files = {}
     fast, slow = shock(300, 1e-4), shock(150, 2e-4)
     pairs = [(300, 0.0, 1e-4, fast), (150, 0.0, 2e-4, slow)]
@@ -283,7 +283,7 @@ def hdf5_files(folder):
 # Comparison ---------------------------------------------------------------------------------------------------------------
 
 def clatter(command, path, *options):
-    """The channels that clatter reads, or its message."""
+    """Returns the channels that clatter reads, or its message."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out.npy")
         run = subprocess.run([command, "record", path, "--format=json", "-o", out, *options], capture_output=True, text=True)
@@ -344,7 +344,7 @@ def main(folder, command, *given):
             compare(path, [(2 * a[0], a[1], a[2], np.concatenate([a[3], b[3]])) for a, b in zip(one, two)])
             continue
         compare(path, reader(data))
-    # Cut TDMS files.
+    # TDMS files are cut short.
     chance = random.Random(3)
     for path in [path for path in made if path.endswith(".tdms")]:
         data = open(path, "rb").read()

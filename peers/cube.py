@@ -21,7 +21,7 @@ def vertical(w, x, y, z):
 
 
 def rotated(turned, vector, inverse=False):
-    """A vector by a unit quaternion."""
+    """Rotates a vector by a unit quaternion."""
     w, *axis = turned
     if inverse:
         axis = [-part for part in axis]
@@ -31,7 +31,7 @@ def rotated(turned, vector, inverse=False):
 
 
 class Mujoco:
-    """Boxes as they are, or balls at the corners; the softness of contacts by a time and a damping ratio, as their documentation advises."""
+    """Simulates boxes, or balls at the corners; the softness of contacts by a time and a damping ratio, as their documentation advises."""
 
     name = "MuJoCo"
     settings = {
@@ -79,7 +79,7 @@ class Mujoco:
 
 
 class Drake:
-    """Balls at the corners, as their point contact sees one point of a box alone; Hunt and Crossley's law, or the linear dissipation of SAP."""
+    """Simulates balls at the corners, because their point contact sees one point of a box alone; Hunt and Crossley's law, or the linear dissipation of SAP."""
 
     name = "Drake"
     settings = {
@@ -109,7 +109,7 @@ class Drake:
         friction = CoulombFriction(setting["friction"], setting["friction"])
 
         def surface(stiffness):
-            # In series: a ground that is much stiffer leaves the stiffness to the cube.
+            # The stiffnesses act in series: a ground that is much stiffer leaves the stiffness to the cube.
             properties = ProximityProperties()
             AddContactMaterial(dissipation=setting["dissipation"], point_stiffness=stiffness, friction=friction, properties=properties)
             properties.AddProperty("material", "relaxation_time", setting["relaxation"])
@@ -146,7 +146,7 @@ class Drake:
 
 
 def score(tool, cube, setting):
-    """In m."""
+    """Returns the error in m."""
     model = tool(cube, setting)
 
     def off(toss):
@@ -159,7 +159,7 @@ def score(tool, cube, setting):
 
 
 def fitted(tool, cube, settings):
-    """One setting after the other from each start, until none improves; the setting, its score, how many were tried."""
+    """Varies one setting after the other from each start, until none improves; returns the setting, its score, and the number of trials."""
     scores = {}
 
     def tried(setting):
@@ -181,7 +181,7 @@ def fitted(tool, cube, settings):
 
 
 def answer(tool):
-    """Paths by the best settings, and by the best ones without friction."""
+    """Returns the paths by the best settings, and by the best ones without friction."""
     cube = json.load(sys.stdin)
     rounded = lambda pose: [round(1e5 * pose[0]), *(round(1e4 * part) for part in pose[1:])]
     rows = []

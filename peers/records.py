@@ -27,7 +27,7 @@ def write(path, t, a):
 
 
 def bursts():
-    """Decaying tones up to a fifth of the sampling rate, and a little noise."""
+    """Returns decaying tones up to a fifth of the sampling rate, and a little noise."""
     t = np.arange(ROWS) / RATE_HZ
     random = np.random.default_rng(1)
     a = random.normal(0.0, 0.5, ROWS)
@@ -39,7 +39,7 @@ def bursts():
 
 
 def bell(samples_a_cycle, fine=1):
-    """Six cycles to the width of the bell; time and acceleration, so many points a sample."""
+    """Returns six cycles to the width of the bell: time and acceleration, so many points a sample."""
     rate = TONE_HZ * samples_a_cycle
     width = 6.0 / TONE_HZ
     count = int(10 * width * rate)
@@ -49,7 +49,7 @@ def bell(samples_a_cycle, fine=1):
 
 
 def exact(samples_a_cycle):
-    """The largest absolute acceleration of the oscillator at the tone, step by step by a matrix exponential."""
+    """Returns the largest absolute acceleration of the oscillator at the tone, step by step by a matrix exponential."""
     t, a = bell(samples_a_cycle, FINE)
     dt, w, z = t[1] - t[0], 2 * np.pi * TONE_HZ, 0.5 / Q
     m = np.zeros((4, 4))
@@ -78,7 +78,7 @@ def least(run):
 
 
 def peer(tool):
-    """A spectrum (t, a, rate, frequencies) by a tool at its defaults."""
+    """Returns a spectrum (t, a, rate, frequencies) by a tool at its defaults."""
     if tool == "pyyeti":
         from pyyeti import srs
 

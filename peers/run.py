@@ -21,18 +21,18 @@ PYTHON = os.path.join(HOME, "venv", "bin", "python")
 DEBIAN_PYTHON = "/usr/bin/python3"
 RAPIER = os.path.join(HOME, "rapier", "release", "clatter-peers-rapier")
 ROUNDS = 3
-# What to install for whom; numpy is everybody's.
+# Packages of each tool; all need numpy.
 NUMPY = "numpy==2.4.6"
 PACKAGES = {
     "numpy": [], "scipy": ["scipy==1.17.1"], "mujoco": ["mujoco==4.0.0"],
     "pyyeti": ["pyyeti==1.4.7", "scipy==1.17.1", "pandas==3.1.1"], "endaq": ["endaq==1.5.3", "scipy==1.17.1", "pandas==3.1.1"],
     "polars": ["polars==2.1.0"],
 }
-# One thread each, no traces of Python in the tree.
+# Each tool has one thread, and leaves no files of Python in the tree.
 VARIABLES = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", PYTHONDONTWRITEBYTECODE="1", PYTHONWARNINGS="ignore")
 DESIGNS = [(0.5, 0.3), (0.73, 0.2), (0.67, 0.15), (0.57, 0.1)]
 HALF_LENGTH_M, SPEED_M_S, TILT_DEG = 0.07, 2.0, 1.0
-# Tools that step through time are tried from starts lifted by parts of a step's travel as well: their counts hang on it.
+# Tools that step through time also run from starts lifted by parts of a step's travel: their counts depend on it.
 LIFTED_STEPS = [k / 8 for k in range(1, 8)]
 OURS = {
     "closed": ("clatter, closed form", "count and largest shock"),
@@ -43,7 +43,7 @@ BEGUN = time.monotonic()
 
 
 def version():
-    """Of clatter, from the workspace."""
+    """Returns the version of clatter, from the workspace."""
     with open(os.path.join(ROOT, "Cargo.toml")) as manifest:
         return next(line.split('"')[1] for line in manifest if line.startswith("version"))
 
@@ -53,12 +53,12 @@ def say(text):
 
 
 def output(command, **more):
-    """What a command prints; its own progress goes to the terminal."""
+    """Returns the output of a command; its own progress goes to the terminal."""
     return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True, env=VARIABLES, **more).stdout
 
 
 def scene():
-    """The four bars, with the truth by rational arithmetic from a_{n+1} = q(1 + e) a_n - e a_{n-1}."""
+    """Returns the four bars, with the truth by rational arithmetic from a_{n+1} = q(1 + e) a_n - e a_{n-1}."""
     gap = 2 * HALF_LENGTH_M * math.sin(math.radians(TILT_DEG))
     bars, truth = [], []
     for q, e in DESIGNS:
@@ -77,7 +77,7 @@ def scene():
 
 
 def environment(skipped, tools):
-    """Installs what each of these tools needs; a tool that cannot be had is skipped."""
+    """Installs the packages of each of these tools; a tool without them is skipped."""
     if not os.path.exists(PYTHON):
         say("making a Python environment in target/peers/venv")
         venv.create(os.path.join(HOME, "venv"), with_pip=True)
@@ -102,7 +102,7 @@ def build_ours(targets):
 
 
 def build(skipped):
-    """Ours must build; Rapier is skipped if it does not."""
+    """Builds our programs, which must succeed; Rapier is skipped if it does not."""
     build_ours(["-p", "clatter", "-p", "clatter-shock", "-p", "clatter-cli", "-p", "clatter-record",
                 "--example", "bars", "--example", "peers", "--example", "records", "--bin", "clatter"])
     say("building Rapier")
@@ -116,7 +116,7 @@ def build(skipped):
 
 
 def take_turns(tools, skipped):
-    """Each tool's answer round by round; one that fails is skipped from then on."""
+    """Returns each tool's answer round by round; one that fails is skipped from then on."""
     answers = {}
     for turn in range(ROUNDS):
         for tool, (command, given) in tools.items():
@@ -132,7 +132,7 @@ def take_turns(tools, skipped):
 
 
 def bars_table(answers, truth):
-    """The rows of the four bars: counts of the first round, the least time of all."""
+    """Returns the rows of the four bars: counts of the first round, the least time of all."""
     rows = []
 
     def row(tool, setting, version, rounds):
@@ -164,7 +164,7 @@ def bars_table(answers, truth):
 
 
 def spectra_table(answers):
-    """The rows of all tools, the least time of all rounds, with the ratio to ours at the same rate."""
+    """Returns the rows of all tools, the least time of all rounds, with the ratio to ours at the same rate."""
     rows = []
     for tool in ("clatter spectra", "pyyeti", "endaq"):
         for same in zip(*answers.get(tool, [])):
@@ -176,7 +176,7 @@ def spectra_table(answers):
 
 
 def maps_table(answers):
-    """Ours in this process's own time and as a command, numpy with and without a file."""
+    """Returns our times in this process's own time and as a command, numpy with and without a file."""
     rows = [{"tool": "clatter, one thread", "ms": min(answer["map_ms"] for answer in answers["clatter"])}]
     difference = None
     if "numpy" in answers:
@@ -193,7 +193,7 @@ def maps_table(answers):
 
 
 def records_table(answers):
-    """One row a tool: least times, errors of the first round."""
+    """Returns one row a tool: least times, errors of the first round."""
     rows = []
     for tool, name in (("clatter records", "clatter"), ("polars records", "polars"), ("pyyeti records", "pyyeti"), ("endaq records", "endaq")):
         rounds = answers.get(tool, [])

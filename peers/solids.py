@@ -25,16 +25,16 @@ PLATES = {
     "uniform plate": ((150, 70, 0), [(0.675, 0.075), (0.5, 0.25), (0.3, 0.45)]),
     "long plate": ((160, 20, 12), [(0.7, 0.05), (0.6, 0.15), (0.3, 0.45)]),
 }
-# Of the box: turned about its length, then about the horizontal across it, in degrees.
+# Rotation of the box: about its length, then about the horizontal across it, in degrees.
 BOX_MM = (100, 60, 40)
 LANDINGS = {"box, edge": (30, 3), "box, corner": (35, 25)}
 RESTITUTIONS = [0.3, 0.5]
 TOUCHES = 3
 
-# The first of each list is where the search begins.
+# The search begins with the first of each list.
 SETTINGS = {
     "mujoco": {
-        # Of a contact's undamped spring, for one radian: a touch takes three times that.
+        # Time of a contact's undamped spring for one radian: a touch takes three times that.
         "time_s": [1e-6, 5e-7, 2e-6, 4e-6],
         "impedance": [0.9999, 0.9],
         "shape": ["balls", "box"],
@@ -56,7 +56,7 @@ NAMES = {"siconos": "Siconos", "rapier": "Rapier3D f64", "mujoco": "MuJoCo"}
 
 
 def names(kind):
-    """Of corners as clatter has them: signs along length, width, thickness."""
+    """Returns the signs of corners in the order of clatter along length, width, thickness."""
     if kind == "plate":
         return {"a": (-1, -1, 0), "b": (1, -1, 0), "c": (1, 1, 0), "d": (-1, 1, 0)}
     signs = {"+": 1, "-": -1}
@@ -74,7 +74,7 @@ def product(a, b):
 
 
 def upward(turned):
-    """The vertical in axes of the body."""
+    """Returns the vertical in axes of the body."""
     w, x, y, z = turned
     return 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)
 
@@ -84,7 +84,7 @@ def drop(kind, case, size_mm, turned, e, gravity):
     corners = [[sign * side / 2 for sign, side in zip(signs, (length, width, thickness))] for signs in names(kind).values()]
     lowest = min(sum(u * c for u, c in zip(upward(turned), corner)) for corner in corners)
     along, across = math.hypot(length, thickness) / math.sqrt(12), math.hypot(width, thickness) / math.sqrt(12)
-    # A plate has no thickness: its three moments would be next to what no body has.
+    # A plate has no thickness: its three moments would be close to those of no body.
     third = math.hypot(length, width) / math.sqrt(12) if kind == "box" else math.hypot(along, across) * (1 - 1e-9)
     return {
         "kind": kind, "case": case, "e": e, "corners_m": corners, "gyration_m": [across, along, third], "turned": turned,
@@ -98,7 +98,7 @@ def clatter(command, *options):
 
 
 def least_ms(run, seconds):
-    """On the processor, of this process and those it waits for: of one thread, the wall time of a machine that does nothing else."""
+    """Returns the processor time of this process and those it waits for: for one thread, the wall time of a machine that does nothing else."""
     def used():
         return sum(part.ru_utime + part.ru_stime for part in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)))
 
@@ -111,7 +111,7 @@ def least_ms(run, seconds):
 
 
 def follow(command, drop, size_mm, contact_s, *more):
-    """The drop by contacts that take time."""
+    """Returns the drop by contacts that take time."""
     length, width, thickness = (repr(1e-3 * side) for side in size_mm)
     across, along, third = map(repr, drop["gyration_m"])
     # A plate has its radii along both sides, a box about its three axes.
@@ -122,7 +122,7 @@ def follow(command, drop, size_mm, contact_s, *more):
 
 
 def strikes(drop, impacts, time, change, unit_s=1.0, unit_m_s=1.0):
-    """A list of clatter as what tools answer."""
+    """Returns a list of clatter in the form of the other tools."""
     order = list(names(drop["kind"]))
     impacts = impacts[:drop["touches"]]
     peaks = [max(abs(impact[change][i]) for impact in impacts) * unit_m_s for i in range(len(order))]
@@ -131,7 +131,7 @@ def strikes(drop, impacts, time, change, unit_s=1.0, unit_m_s=1.0):
 
 
 def scene(command):
-    """All drops, each with the truth; and clatter's own rows."""
+    """Returns all drops, each with the truth, and clatter's own rows."""
     drops, ours = [], []
     for (case, (size, gaps)), e in itertools.product(PLATES.items(), RESTITUTIONS):
         for gap in gaps:
@@ -158,13 +158,13 @@ def scene(command):
         ours.append([least_ms(exact, 0.1), strikes(one, exact(10 * REFERENCE_CONTACT_S), "time_s", "delta_v_m_s"), None])
         drops.append(one)
     for one in drops:
-        # The last touch is slow: what it is off by in speed it is late.
+        # The last touch is slow: its error in speed is a delay.
         one["until_s"] = (1.6 if one["kind"] == "plate" else 1.2) * one["truth"]["times_s"][-1]
     return drops, ours
 
 
 class Mujoco:
-    """Contacts are springs with dashpots, stiffness and damping given (solref below zero); the damping is fitted until the
+    """Simulates contacts as springs with dashpots, stiffness and damping given (solref below zero); the damping is fitted until the
     first touch gives the restitution e, in the mean of all starts."""
 
     def __init__(self, setting, drop):
@@ -199,7 +199,7 @@ class Mujoco:
         self.data = self.tool.MjData(self.model)
 
     def follow(self, part, steps):
-        """Pose and velocities before and after each step, and which corners press in it; a force reads one step late."""
+        """Returns pose and velocities before and after each step, and the corners that press in it; a force reads one step late."""
         model, data, numpy, drop = self.model, self.data, self.numpy, self.drop
         self.tool.mj_resetData(model, data)
         data.qpos[:] = [0.0, 0.0, drop["height_m"] + part * self.setting["step_s"] * drop["speed_m_s"], *drop["turned"]]
@@ -212,7 +212,7 @@ class Mujoco:
         return numpy.vstack([state, states[0]])[:, 1:14], forces[0] > 0
 
     def vertical(self, motion):
-        """Velocities of all corners."""
+        """Returns the velocities of all corners."""
         w, x, y, z = motion[3:7]
         up = self.numpy.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])
         return motion[9] + self.numpy.cross(motion[10:13], self.corners) @ up
@@ -235,7 +235,7 @@ class Mujoco:
         onset = pressed & ~numpy.vstack([numpy.zeros(pressed.shape[1], bool), pressed[:-1]])
         onsets = numpy.argwhere(onset)[:self.drop["touches"]]
         last = int(onsets[-1][0]) if len(onsets) else 0
-        # A change is from before to after a time in which a corner presses, less what gravity does meanwhile.
+        # A change is from before to after a time in which a corner presses, less the effect of gravity meanwhile.
         edges = numpy.flatnonzero(numpy.diff(numpy.r_[0, pressed.any(1), 0]))
         peaks = numpy.zeros(len(self.corners))
         for start, stop in zip(edges[::2], edges[1::2]):
@@ -248,7 +248,7 @@ class Mujoco:
 
 
 class Siconos:
-    """Event-driven simulation of a linear Lagrangian system: the height of the center, the rises of half the length and width."""
+    """Simulates by events a linear Lagrangian system: the height of the center, the rises of half the length and width."""
 
     def __init__(self, _, drop):
         import numpy
@@ -287,7 +287,7 @@ class Siconos:
 
 
 def answer(tool):
-    """Each drop from each start, and the least time of the first."""
+    """Returns each drop from each start, and the least time of the first."""
     given, rows = json.load(sys.stdin), []
     for drop in given["drops"]:
         model = tool(given["setting"], drop)
@@ -297,11 +297,11 @@ def answer(tool):
 
 
 def judged(drop, starts):
-    """Order, errors: the largest of all starts."""
+    """Returns order and errors: the largest of all starts."""
     order, truth = list(names(drop["kind"])), drop["truth"]
     joined = lambda corners: ("" if drop["kind"] == "plate" else " ").join(order[c] for c in corners)
     right = [start["corners"] == truth["corners"] for start in starts]
-    # How many touches are right before the order departs, at worst.
+    # Least number of right touches before the order departs.
     agree = lambda a, b: next((i for i, (p, q) in enumerate(itertools.zip_longest(a, b)) if p != q), len(b))
     peak = max(truth["peaks_m_s"])
     peaks = max(abs(p - q) / peak for start in starts for p, q in zip(start["peaks_m_s"], truth["peaks_m_s"]))
@@ -315,7 +315,7 @@ def judged(drop, starts):
 
 
 class Search:
-    """One setting after the other, the step last, until none improves; each kind of body alone."""
+    """Varies one setting after the other, the step last, until none improves; each kind of body alone."""
 
     def __init__(self, command, given, drops, options):
         self.command, self.given, self.drops, self.options, self.tried = command, given, drops, options, {}
@@ -324,7 +324,7 @@ class Search:
         import run
 
         given = json.dumps({"setting": setting, "drops": self.drops, "lifted_steps": self.given, "timed_s": timed_s})
-        # In a folder of its own: MuJoCo writes a log where it is.
+        # It runs in a folder of its own: MuJoCo writes a log in the current one.
         found = json.loads(run.output(self.command, input=given, cwd=run.HOME))["drops"]
         return [{**judged(drop, answer["starts"]), "ms": answer["ms"]} for drop, answer in zip(self.drops, found)]
 
@@ -333,7 +333,7 @@ class Search:
         if key not in self.tried:
             rows = self.judge(setting)
             wrong = sum(row["starts"] - row["right"] for row in rows)
-            # To one digit: of settings that are as good the first is taken.
+            # Scores count to one digit: of equal settings the first is taken.
             errors = [row["peak_error"] for row in rows]
             error, largest = (float(f"{value:.0e}") for value in (statistics.median(errors), max(errors)))
             self.tried[key] = wrong, error, largest
@@ -412,7 +412,7 @@ def main(tools):
 
 
 def write(path, head, rows):
-    """One drop or setting a line."""
+    """Writes one drop or setting a line."""
     compact = lambda value: json.dumps(value, ensure_ascii=False)
     lines = []
     for row in rows:

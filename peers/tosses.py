@@ -38,7 +38,7 @@ CLATTER = Path(__file__).resolve().parent.parent / "target/release/clatter"
 
 
 def corners(path):
-    """Turn of the lower side against the ground, and heights of its two corners, for each picture."""
+    """Returns the angle of the lower side against the ground, and heights of its two corners, for each picture."""
     with open(path) as file:
         rows = [(float(row["z"]), float(row["th"])) for row in csv.DictReader(file)]
     turn = [(th + math.pi / 4) % (math.pi / 2) - math.pi / 4 for _, th in rows]
@@ -81,7 +81,7 @@ def main(data):
         if both:
             told.append((statistics.mean(e["value"] for e in both), both, fit["records"][0]["scatter"]))
     values = sorted(e for e, _, _ in told)
-    # Of those with one restitution the interval says how far it may be off.
+    # For those with one restitution the interval gives its uncertainty.
     half = [0.5 * (both[0]["interval"][1] - both[0]["interval"][0]) for _, both, _ in told if len(both) == 1]
     print(f"{len(tosses)} tosses within 8 degrees, every third fitted: {len(found)}, of which {len(found) - len(told)} tell no e")
     print(f"e {statistics.median(values):.2f} at the median, from {values[0]:.2f} to {values[-1]:.2f}, deviation {statistics.stdev(values):.3f}")

@@ -17,7 +17,7 @@ ROUNDS = 9
 
 
 def peak():
-    """Of a million bars, as in maps.py."""
+    """Returns the map of a million bars, as in maps.py."""
     q, e = np.meshgrid(np.linspace(0, 1, 1000), np.linspace(0, 1, 1000), indexing="ij")
     d = q * (1 + e)
     a, w = 1 + d, (1 - q) * (1 + e)
@@ -30,7 +30,7 @@ def peak():
 
 
 def tasks():
-    """What is timed: name of the task, then tools."""
+    """Returns the timed tasks: the name of each, then its tools."""
     for rate in RATES_HZ:
         t, a = history(rate)
         frequencies = list(FREQUENCIES_HZ)

@@ -1,4 +1,4 @@
-//! A file of any kind is read within the values that are allowed, or its fault is told.
+//! A file of any kind is read within the allowed number of values, or refused with its fault.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! A product file is read, or its faults are told.
+//! A product file is read, or refused with its faults.
 
 #![no_main]
 

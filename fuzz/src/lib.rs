@@ -1,5 +1,5 @@
-//! What is done with input from outside: it is read, or its fault is told, and what is read can be used. The fuzz targets call these, and
-//! the acceptance tests with inputs torn by chance.
+//! Checks of input from outside: it is read, or refused with its fault, and the result of reading can be used. The fuzz
+//! targets call these, and so do the acceptance tests, with randomly torn inputs.
 
 use std::fs;
 
@@ -9,13 +9,13 @@ use clatter_shock::{Search, find_shocks, fit_pulses};
 
 /// Commands that answer at once.
 const COMMANDS: [&str; 6] = ["zone", "impacts", "atlas", "respond", "simulate", "spectrum"];
-/// What writes files, or asks for work without end.
+/// Options that write files, or ask for work without end.
 const LEFT_OUT: [&str; 4] = ["-o", "--output", "--limit", "--impact-limit"];
 
-/// A command line, its arguments line by line.
+/// Runs a command line, its arguments line by line.
 ///
 /// # Panics
-/// Where it ends in another way than with an answer or a refusal that is plain text.
+/// If it ends in another way than with an answer or a refusal in plain text.
 pub fn arguments(text: &str) {
     let arguments: Vec<&str> = text.lines().collect();
     let named = arguments.first().is_some_and(|first| COMMANDS.contains(first));
@@ -32,10 +32,10 @@ pub fn arguments(text: &str) {
     assert!(shown.chars().all(|c| c == '\n' || !c.is_control()), "{text:?}: {shown:?}");
 }
 
-/// A list of velocity shocks, of pulses or of shock tests, as the command reads it.
+/// Reads a list of velocity shocks, of pulses or of shock tests, as the command does.
 ///
 /// # Panics
-/// Where neither an answer nor a refusal comes.
+/// If neither an answer nor a refusal comes.
 pub fn list(bytes: &[u8]) {
     let dir = tempfile::tempdir().expect("a directory");
     let file = dir.path().join("list.csv");
@@ -49,10 +49,10 @@ pub fn list(bytes: &[u8]) {
     }
 }
 
-/// A measured record of any kind.
+/// Reads a measured record of any kind.
 ///
 /// # Panics
-/// Where what is read is out of order, or beyond what is allowed.
+/// If the values are out of order, or more than allowed.
 pub fn record(bytes: &[u8]) {
     let most_values = 100_000;
     for (units, full_scale_m_s2) in [(None, None), (Some(Units::si()), None), (None, Some(500.0))] {

@@ -1,4 +1,4 @@
-//! How exact the results are: orders, errors at every extreme, the page. Sizes of errors alone, never times.
+//! Accuracy of the results: orders, errors at every extreme, the page. Only sizes of errors are compared, never times.
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use clatter_studies::orders;
 use common::{digits, golden, page};
 
-/// The power of ten that an error stays below; what is only rounding is told as such.
+/// Returns the power of ten that bounds an error; an error that is only rounding is marked as such.
 fn size(error: Option<f64>) -> String {
     match error {
         None => "-".into(),
@@ -20,7 +20,7 @@ fn size(error: Option<f64>) -> String {
     }
 }
 
-/// An error that is rounding and one that is none by luck are the same.
+/// Returns the size of an error of this crate; one that is 0 by luck counts as rounding.
 fn ours(quantity: &str, error: Option<f64>) -> String {
     let size = size(error);
     if quantity != "count" && size == "exact" { "rounding".into() } else { size }
@@ -31,7 +31,7 @@ fn the_orders() {
     let mut text = String::new();
     for order in orders().unwrap() {
         let _ = writeln!(text, "{} to {}, {}: {}", order.model, order.limit, order.parameter, order.compared);
-        // Contacts are worked out to a precision of their own.
+        // Contacts are computed to a precision of their own.
         let known = if order.model == "compliant" { 2 } else { 4 };
         let _ = writeln!(text, "  order {} of {}", digits(order.measured(), known), order.expected);
         let known = if order.model == "compliant" { 2 } else { 5 };
@@ -58,7 +58,7 @@ fn the_errors() {
     golden("accuracy-errors", &text);
 }
 
-/// Every number of the section on measured tosses, as it is printed.
+/// Checks every number of the section on measured tosses, as it is printed.
 #[test]
 fn the_tosses() {
     golden("accuracy-tosses", &clatter_studies::cube::numbers().expect("the numbers of the section"));

@@ -1,4 +1,4 @@
-//! The paper's design example, and what design says of a product.
+//! The paper's design example, and the designs for a product.
 
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
@@ -39,7 +39,7 @@ fn the_paper_s_example() {
     golden("design-of-the-paper", &text);
 }
 
-/// The least margin that changes are to leave.
+/// The least margin that changes must leave.
 const MARGIN: f64 = 0.1;
 
 fn together(text: &mut String, name: &str, found: &Together) {

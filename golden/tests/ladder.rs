@@ -1,4 +1,5 @@
-//! What every model gets wrong: the four bars of Table 1 and a worked product. Times, and what follows from them, are never here.
+//! Errors of every model on the four bars of Table 1 and a worked product. Times, and results that depend on them, are
+//! left out.
 
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
@@ -10,7 +11,7 @@ use clatter_assess::ProductFile;
 use clatter_assess::ladder::Ladder;
 use clatter_studies::bars;
 
-/// What a model may get wrong; the reference is worked out ten times as exactly.
+/// Tolerance of a model; the reference is ten times as exact.
 const TOLERANCE: f64 = 0.01;
 
 fn golden(name: &str, text: &str) {
@@ -32,7 +33,7 @@ fn rows(ladder: &Ladder) -> String {
     let more: String = more.into_iter().chain([("zeta omega dt", groups.damping)]).map(|(n, v)| group(n, v)).collect();
     let _ = writeln!(text, "  g h0/v0^2 = {:.2e}, phi^2 = {:.2e}{more}", groups.gravity, groups.geometry);
     for m in &ladder.models {
-        // Two digits, of errors that are more than what the reference is good for.
+        // Errors above the accuracy of the reference have two digits.
         let error = if m.error < reference.tolerance { "< 1e-3".to_owned() } else { format!("{:.1e}", m.error) };
         let within = if m.error <= TOLERANCE { "within 1 %" } else { "" };
         let line = format!("  {:<14} {error:<8} {:<5} {within}", m.model.name(), m.strikes);

@@ -83,7 +83,7 @@ fn coarse_maps() {
     golden("coarse-maps", &text);
 }
 
-/// What the page says, where a reader or a screen reader looks for it.
+/// Checks that the text of the page is where a reader or a screen reader looks for it.
 #[test]
 fn the_page() {
     let openings = ["Of its ", "Fig. 2 ", "Fig. 5 ", "Fig. 6 ", "Fig. 7 "];

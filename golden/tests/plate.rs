@@ -1,4 +1,4 @@
-//! What a plate does beyond a bar: claims, numbers and the page.
+//! Effects of a plate beyond a bar: claims, numbers and the page.
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
@@ -26,7 +26,7 @@ fn the_claims() {
     golden("plate-claims", &text);
 }
 
-/// Every number of the page, as it is printed.
+/// Checks every number of the page, as it is printed.
 #[test]
 fn the_numbers_of_the_page() {
     let (json, mut text) = (plate_numbers().expect("the numbers of the page"), String::new());
@@ -34,7 +34,7 @@ fn the_numbers_of_the_page() {
     golden("plate-numbers", &text);
 }
 
-/// What the page says besides its numbers: headings, alternative texts, how its parts begin.
+/// Checks the text of the page besides its numbers: headings, alternative texts and the beginnings of its parts.
 #[test]
 fn the_page() {
     let openings =

@@ -1,10 +1,10 @@
-//! What the pages of a plate say.
+//! The text of the pages of a plate.
 
 use std::fmt::Write as _;
 
 use clatter_assess::ProductFile;
 
-/// Headings, alternative texts, and how the parts of the pages begin.
+/// Checks headings, alternative texts, and the beginnings of the parts of the pages.
 #[test]
 fn the_pages_of_a_plate() {
     // An opt-out for machines that cannot have typst; it is never set in CI.

@@ -1,4 +1,4 @@
-//! What scatter says of a product.
+//! The scatter of a product.
 
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]

@@ -1,4 +1,4 @@
-//! What a clatter does to suspended parts: rule, gains, zones, pulses and the page.
+//! The response of suspended parts to a clatter: rule, gains, zones, pulses and the page.
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
@@ -124,7 +124,7 @@ fn the_pulse_shapes() {
     for zeta in [0.0, 0.05, 0.5] {
         for shape in shapes {
             let f = ShapeFigures::new(shape, damping(zeta)).unwrap();
-            // a flat top: its place is known to half the digits of its height
+            // The top is flat: its place is known to half the digits of its height.
             let (top, at, knee) = (digits(f.amplification, 10), digits(f.frequency_duration, 6), digits(f.knee, 6));
             let _ = writeln!(text, "{zeta:<5} {top:<14} {at:<9} {knee:<12} {shape:?}");
         }
@@ -137,7 +137,7 @@ fn numbers() -> Value {
     serde_json::from_str(&json).expect("JSON")
 }
 
-/// Every number of the page, as it is printed, but those of the equivalent pulse.
+/// Checks every number of the page, as it is printed, except those of the equivalent pulse.
 #[test]
 fn the_numbers_of_the_page() {
     let (mut numbers, mut text) = (numbers(), String::new());
@@ -146,13 +146,13 @@ fn the_numbers_of_the_page() {
     golden("shock-numbers", &text);
 }
 
-/// The half-sine of a shock table that the page gives; null where it says that there is none.
+/// The half-sine of a shock table that the page gives; null if there is none.
 #[test]
 fn the_equivalent_pulse() {
     golden("shock-equivalent", &numbers()["phone"]["equivalent"].to_string());
 }
 
-/// What the page says besides its numbers: headings, alternative texts, how its parts begin.
+/// Checks the text of the page besides its numbers: headings, alternative texts and the beginnings of its parts.
 #[test]
 fn the_page() {
     let openings = ["What follows, in short", "Fig. 1 ", "Fig. 3 ", "Fig. 7 ", "Fig. 10 ", "Fig. 12 "];

@@ -13,12 +13,12 @@ const EXAMPLES: [&str; 4] = [
     include_str!("../../reports/examples/tablet.toml"),
 ];
 
-/// A value of three digits, if there is one.
+/// Returns a value with three digits, if there is one.
 fn three(name: &str, value: Option<f64>) -> String {
     value.map_or(String::new(), |value| format!("; {name} {value:.2e}"))
 }
 
-/// Three digits, more than any drop is known to: the search resolves no more.
+/// Returns a limit with three digits, more than the accuracy of any drop: the search resolves no more.
 fn line(limit: &LimitAssessment) -> String {
     let beside = [("flat", limit.clatter_free), ("bound", limit.bound), ("other law", limit.other_law)];
     format!(

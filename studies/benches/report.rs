@@ -1,6 +1,7 @@
 //! The whole report beside typst alone on the same input, in turns: `cargo bench -p clatter-studies --bench report`.
 //!
-//! Allowed is twice the time of typst. Looks for typst as the report does, but builds none: run the report once before.
+//! The time may be twice that of typst. The bench looks for typst as the report does, but builds none: run the report
+//! once before.
 #![expect(clippy::print_stdout, reason = "the times are what is wanted")]
 
 use clatter_studies::{Report, write};

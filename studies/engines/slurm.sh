@@ -4,7 +4,7 @@
 #   sbatch --array=1-64 slurm.sh plan.toml 64 parts
 #   sbatch --dependency=afterok:JOB --wrap='clatter study merge parts/*.parquet'
 #
-# Where tasks failed, the same line again: parts that are there are left as they are.
+# If tasks failed, run the same line again: existing parts are kept.
 #SBATCH --job-name=clatter-study
 #SBATCH --cpus-per-task=1
 #SBATCH --mem=1G

@@ -16,9 +16,9 @@ import pytest
 
 HERE = Path(__file__).parent
 CLATTER = os.environ.get("CLATTER_COMMAND") or shutil.which("clatter")
-# A shard takes about half a second, which is long enough for its worker to be found.
+# A shard takes about half a second, which is long enough to find its worker.
 SAMPLES, SHARDS = 40_000, 8
-# What a study on these machines takes, several times over.
+# Several times the duration of a study on these machines.
 PATIENCE_S = 100
 
 
@@ -28,7 +28,7 @@ def clatter(*arguments):
 
 @pytest.fixture(scope="module")
 def plan(tmp_path_factory):
-    """The plan of this folder with fewer drops."""
+    """Returns the plan of this folder with fewer drops."""
     folder = tmp_path_factory.mktemp("study")
     shutil.copy(HERE / "../../tests/cases/bar-terminal.toml", folder)
     text = (HERE / "plan.toml").read_text()
@@ -40,14 +40,14 @@ def plan(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def whole(plan):
-    """The answer without shards."""
+    """Returns the answer without shards."""
     part = plan.parent / "whole.parquet"
     clatter(plan, "-o", part)
     return clatter("merge", part, "--format=json")
 
 
 def killed_worker(script):
-    """Kills the first process found to run a shard, and tells which it was."""
+    """Kills the worker of the first process found to run a shard, and returns its number."""
     end = time.monotonic() + PATIENCE_S
     while time.monotonic() < end and script.poll() is None:
         for process in psutil.Process(script.pid).children(recursive=True):
@@ -65,7 +65,7 @@ def killed_worker(script):
 @pytest.mark.parametrize("script", ["with_dask.py", "with_ray.py"])
 def test_a_killed_worker_changes_nothing(script, plan, whole, tmp_path):
     command = [sys.executable, HERE / script, plan, str(SHARDS), tmp_path / "parts"]
-    # Ray tells usage to its makers unless told not to.
+    # Ray reports its usage to its makers unless this is set.
     env = {**os.environ, "CLATTER_COMMAND": CLATTER, "RAY_USAGE_STATS_ENABLED": "0"}
     run = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=env)
     try:
@@ -87,7 +87,7 @@ def test_gnu_parallel_or_xargs(plan, whole, tmp_path):
 
 
 def test_the_tasks_of_slurm(plan, whole, tmp_path):
-    """The script as Slurm calls it, in another order."""
+    """Runs the script as Slurm calls it, in another order."""
     for task in reversed(range(1, 4)):
         env = {**os.environ, "CLATTER_COMMAND": CLATTER, "SLURM_ARRAY_TASK_ID": str(task)}
         subprocess.run([HERE / "slurm.sh", plan, "3", tmp_path / "parts"], check=True, env=env)

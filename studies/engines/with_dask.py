@@ -13,7 +13,7 @@ CLATTER = os.environ.get("CLATTER_COMMAND", "clatter")
 
 
 def shard(plan, i, shards, parts):
-    """Makes a part, on one core; where it is there already, nothing is done."""
+    """Makes a part, on one core; if it exists already, nothing is done."""
     part = f"{parts}/{i}.parquet"
     command = [CLATTER, "study", plan, f"--shard={i}/{shards}", "-o", part]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env={**os.environ, "RAYON_NUM_THREADS": "1"})

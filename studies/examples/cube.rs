@@ -1,4 +1,4 @@
-//! The tosses of a cube as they come to their first touch, for `peers/cube.py`.
+//! The tosses of a cube at their first touch, for `peers/cube.py`.
 #![expect(clippy::print_stdout, reason = "that is what is asked for")]
 
 fn main() -> Result<(), clatter_studies::Error> {

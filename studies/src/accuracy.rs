@@ -1,14 +1,14 @@
-//! How exact the results are: the data of the accuracy report, and what is made of them.
+//! Accuracy of the results: the data of the accuracy report, and its files.
 //!
 //! Everything is measured when the report is made, against the same equations in 512 binary digits.
 
 mod big;
 mod digits;
+mod display;
 mod flight;
 mod numbers;
 mod part;
 mod plain;
-mod told;
 mod train;
 
 use crate::figures::{OrderPanel as Panel, orders as figure};
@@ -23,7 +23,7 @@ use crate::Error;
 use crate::files::csv;
 use crate::files::pretty;
 
-/// Everything the report shows.
+/// All data of the report.
 #[derive(Debug)]
 pub(crate) struct Data {
     flights: Flights,
@@ -36,27 +36,27 @@ pub(crate) struct Data {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Measured {
-    /// What is computed: a train, free motion, a pulse, a record, a model.
+    /// The computed subject: a train, free motion, a pulse, a record, a model.
     pub subject: &'static str,
     /// The extreme.
     pub extreme: String,
     /// The quantity.
     pub quantity: &'static str,
-    /// What is allowed, relative to what `clatter::accuracy` and `clatter_shock::accuracy` say; `None` where nothing is
-    /// promised.
+    /// The allowed error, relative to the scale in `clatter::accuracy` and `clatter_shock::accuracy`; `None` where
+    /// nothing is promised.
     pub allowed: Option<f64>,
-    /// What ours is off by; `None` where the quantity has no value.
+    /// The error of this library; `None` where the quantity has no value.
     pub measured: Option<f64>,
-    /// What a plain recurrence in f64 is off by, and a plain closed form: infinite where none came out.
+    /// The errors of a plain recurrence in f64, and of a plain closed form: infinite where they give no result.
     pub plain: [Option<f64>; 2],
 }
 
-/// The quantities of a train, as a column is headed.
+/// The quantities of a train, as heads of the columns.
 const COLUMNS: [&str; 6] = ["peak", "approach", "jump", "time", "final", "duration"];
-/// Strikes of the flights that are shown.
+/// Number of strikes that are shown of the flights.
 const STRIKES: usize = 5;
 
-/// Every error that the accuracy report prints, measured anew.
+/// Returns every error of the accuracy report, measured anew.
 ///
 /// ```
 /// for row in clatter_studies::measured()? {
@@ -84,7 +84,7 @@ impl Data {
         Ok(Self { flights: flights?, trains, part: part?, lines })
     }
 
-    /// Figure as SVG, numbers as JSON, errors as CSV.
+    /// Returns the figure as SVG, numbers as JSON, errors as CSV.
     pub(crate) fn files(&self) -> Result<Vec<File>, Error> {
         let of = |parameter: &str| {
             let chosen = self.flights.orders.iter().filter(|order| order.parameter.starts_with(parameter));
@@ -102,7 +102,7 @@ impl Data {
         ])
     }
 
-    /// Every error, one after the other.
+    /// Returns every error, one after the other.
     fn measured(&self) -> Vec<Measured> {
         let mut rows = Vec::new();
         for row in &self.trains {
@@ -118,7 +118,7 @@ impl Data {
                 plain: [recurrence, closed],
             });
             for (k, quantity) in COLUMNS.into_iter().enumerate() {
-                let [ours, recurrence, closed] = ways.map(|way| way.judged[k]);
+                let [ours, recurrence, closed] = ways.map(|way| way.compared[k]);
                 rows.push(Measured {
                     subject: "train",
                     extreme: extreme.clone(),
@@ -180,7 +180,7 @@ impl Data {
     }
 }
 
-/// A count's error: 0 if it is right, infinite if it is of another kind.
+/// Returns the error of a count: 0 if it is right, infinite if it is of another kind.
 fn miscount(exact: Found, found: Found) -> Option<f64> {
     match (exact, found) {
         (_, Found::Open) => None,
@@ -190,7 +190,7 @@ fn miscount(exact: Found, found: Found) -> Option<f64> {
     }
 }
 
-/// The errors in full, one row each.
+/// Returns the errors in full, one row each.
 fn table(rows: &[Measured]) -> String {
     let head = ["subject", "extreme", "quantity", "allowed", "measured", "plain recurrence", "plain closed form"];
     let number = |v: Option<f64>| v.map_or(String::new(), |v| format!("{v:e}"));

@@ -6,7 +6,7 @@ use clatter::contour::{Point, falling_root, refine};
 use clatter::quadrature::{Integral, integrate};
 use clatter::{Bar, Start};
 
-/// The curve between n and n + 1 impacts, in `segments` pieces from e = 1 to (0, 0).
+/// Returns the curve between n and n + 1 impacts, in `segments` pieces from e = 1 to (0, 0).
 ///
 /// With θ from π/(n + ½) to π/n (Fig. 2; theory: nθ + φ = π):
 ///
@@ -35,13 +35,13 @@ pub fn impacts(n: u32, segments: u32) -> Vec<Point> {
     if n == 0 { Vec::new() } else { (0..=segments).map(at).collect() }
 }
 
-/// δ = π/n − θ where the curve between n and n + 1 impacts has e = 1, which is θ = π/(n + ½).
+/// Returns δ = π/n − θ where the curve between n and n + 1 impacts has e = 1, which is θ = π/(n + ½).
 fn last_delta(n: u32) -> f64 {
     std::f64::consts::PI / (f64::from(n) * (2.0 * f64::from(n) + 1.0))
 }
 
-/// The point of the curve between n and n + 1 impacts at θ = π/n − δ, where
-/// √e = sin nδ / sin(π/n − (n+1)δ) keeps its digits for large n.
+/// Returns the point of the curve between n and n + 1 impacts at θ = π/n − δ, where √e = sin nδ / sin(π/n − (n+1)δ)
+/// keeps its digits for large n.
 fn impacts_at(n: u32, delta: f64) -> Point {
     let n = f64::from(n);
     let corner = std::f64::consts::PI / n;
@@ -50,7 +50,7 @@ fn impacts_at(n: u32, delta: f64) -> Point {
     Point { q: 2.0 * root * libm::cos(corner - delta) / (1.0 + e), e }
 }
 
-/// The bounding curve of the endless region, q = 2√e/(1 + e), in `segments` pieces from (0, 0) to (1, 1).
+/// Returns the bounding curve of the endless region, q = 2√e/(1 + e), in `segments` pieces from (0, 0) to (1, 1).
 ///
 /// On it and above it the impacts never end (from pure translation). The area above it is π − 3.
 ///
@@ -67,9 +67,9 @@ pub fn endless(segments: u32) -> Vec<Point> {
     (0..=segments).map(at).collect()
 }
 
-/// Area of the design plane with at most n impacts, the integral of q de along [`impacts`].
+/// Returns the area of the design plane with at most n impacts, the integral of q de along [`impacts`].
 ///
-/// Accuracy: `error` bounds what the quadrature leaves, 1e-13 or better.
+/// Accuracy: `error` bounds the error of the quadrature, 1e-13 or better.
 ///
 /// ```
 /// // all finite counts together fill 4 − π
@@ -92,7 +92,7 @@ pub fn area_up_to(n: u32) -> Integral {
     integrate(q_de, &[0.0, last_delta(n)], 1e-13)
 }
 
-/// Where on the line of constant q the peak at the ends puts the safe zone at `level`.
+/// The solution on a line of constant q: the position of `level` relative to the safe zone by the peak at the ends.
 enum Solution {
     /// s < level for every e.
     Below,
@@ -120,13 +120,13 @@ pub struct SafeZone {
 }
 
 impl SafeZone {
-    /// The safe zone of `threshold`, in v0.
+    /// Creates the safe zone of `threshold`, in v0.
     #[must_use]
     pub fn new(threshold: f64) -> Self {
         Self { threshold }
     }
 
-    /// 1/peak at the ends, which is finite at (1, 1) too.
+    /// Returns 1/peak at the ends, which is finite at (1, 1) too.
     fn inverse_peak(q: f64, e: f64) -> f64 {
         Bar::new(q, e).map_or(f64::NAN, |bar| 1.0 / bar.summary(&Start::default()).peak.end)
     }
@@ -145,7 +145,7 @@ impl SafeZone {
         }
     }
 
-    /// The e at which s = `level` on the line of constant q, `None` where no e in [0, 1] has it.
+    /// Returns the e at which s = `level` on the line of constant q, `None` where no e in [0, 1] has it.
     #[must_use]
     pub fn restitution(self, level: f64, q: f64) -> Option<f64> {
         match self.solve(level, q) {
@@ -154,7 +154,7 @@ impl SafeZone {
         }
     }
 
-    /// The values of q, ascending, between which the level curve stays inside the square or outside it.
+    /// Returns the values of q, ascending, between which the level curve stays inside the square or outside it.
     fn breaks(self, level: f64) -> Vec<f64> {
         let side = |q| match self.solve(level, q) {
             Solution::Below => -1,
@@ -178,8 +178,8 @@ impl SafeZone {
         breaks
     }
 
-    /// The curve s = `level` inside the square, in connected pieces with q ascending, such that the true curve
-    /// stays within about `flatness` of the chords. Pieces end on the border, not beside it.
+    /// Returns the curve s = `level` inside the square, in connected pieces with q ascending, such that the true curve
+    /// stays within about `flatness` of the chords. Pieces end exactly on the border.
     #[must_use]
     pub fn curve(self, level: f64, flatness: f64) -> Vec<Vec<Point>> {
         let at = |q| match self.solve(level, q) {
@@ -202,9 +202,9 @@ impl SafeZone {
         pieces
     }
 
-    /// Area of the design plane where s ≥ `level`: the integral of e(q) along the exact curve.
+    /// Returns the area of the design plane where s ≥ `level`: the integral of e(q) along the exact curve.
     ///
-    /// Accuracy: `error` bounds what the quadrature leaves, 1e-9 or better.
+    /// Accuracy: `error` bounds the error of the quadrature, 1e-9 or better.
     #[must_use]
     pub fn area(self, level: f64) -> Integral {
         let e = |q| match self.solve(level, q) {
@@ -265,7 +265,7 @@ mod tests {
         for n in 2..60 {
             assert!(area_up_to(n).error <= 1e-13, "{n}: {:?}", area_up_to(n));
         }
-        // all finite counts together fill 4 − π; what is left beyond n falls like 1/n²
+        // All finite counts together fill 4 − π; the rest beyond n falls like 1/n².
         let left = |n: u32| 4.0 - std::f64::consts::PI - area_up_to(n).value;
         assert!((left(2000) * 4.0 / left(1000) - 1.0).abs() < 0.01, "{} {}", left(1000), left(2000));
         // no zone within v0: between the roots of q²(1+e)² − q e (1+e) + 1 − e = 0

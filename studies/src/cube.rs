@@ -1,4 +1,5 @@
-//! Measured tosses of a cube, and of a square: what the box of the product makes of them beside other models, and what friction changes.
+//! Measured tosses of a cube, and of a square: predictions of the box of the product compared with other models, and
+//! the effect of friction.
 
 mod body;
 mod compare;
@@ -26,7 +27,7 @@ const TOSSES: &str = include_str!("../data/cube.csv");
 /// 118 of the tosses of DAIRLab/ImpactModeling, as `studies/data/square.py` has written them.
 const SQUARES: &str = include_str!("../data/square.csv");
 
-/// The quantile of values, between neighbors by a straight line.
+/// Returns the quantile of values, interpolated linearly between neighbors.
 fn quantile(values: impl IntoIterator<Item = f64>, share: f64) -> f64 {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
@@ -48,7 +49,8 @@ fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     quantile(values, 0.5)
 }
 
-/// How each toss comes to its first touch, and where the cube is at the samples after it: what `peers/cube.py` gives other tools.
+/// Returns the state of each toss at its first touch, and the cube at the samples after it: the input of
+/// `peers/cube.py` for other tools.
 ///
 /// # Errors
 /// [`Error::Data`] if the file of tosses is torn.

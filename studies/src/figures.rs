@@ -1,4 +1,4 @@
-//! Figures of the studies as SVG, drawn with what `clatter-figures` draws with.
+//! Figures of the studies as SVG, drawn with the tools of `clatter-figures`.
 
 #![expect(clippy::missing_errors_doc, reason = "of every figure: what plotters says, which no input brings about")]
 

@@ -1,14 +1,14 @@
-//! Numbers and tables as they stand in files: JSON, CSV, decimals.
+//! Numbers and tables in files: JSON, CSV, decimals.
 
 use crate::Error;
 
-/// As JSON that people can read.
+/// Returns readable JSON.
 pub(crate) fn pretty(value: &impl serde::Serialize) -> Result<String, Error> {
     let text = serde_json::to_string_pretty(value).map_err(|error| Error::Data(error.to_string()))?;
     Ok(text + "\n")
 }
 
-/// `value` with `digits` decimals, its zero without a sign, its minus as long as a plus.
+/// Returns `value` with `digits` decimals, its zero without a sign, its minus as long as a plus.
 pub(crate) fn decimals(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let text = if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
@@ -19,12 +19,12 @@ pub(crate) fn decimals(value: f64, digits: usize) -> String {
     text.replace('-', "−")
 }
 
-/// A CSV field, quoted where it must be.
+/// Returns a CSV field, quoted where it must be.
 fn field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// A line for each row.
+/// Returns a table with a line for each row.
 pub(crate) fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> String {
     rows.into_iter().map(|row| row.iter().map(|f| field(f)).collect::<Vec<_>>().join(",") + "\n").collect()
 }

@@ -1,13 +1,16 @@
 //! Studies with clatter: science about the product, and no part of it.
 //!
-//! - [`paper`]: what the reference paper prints beside what clatter computes, with the curves of its figures ([`contour`]);
-//! - [`plate_claims`], [`plate_numbers`]: what a plate that lands on its corners does beyond a bar;
-//! - [`suspended`]: what a clatter does to suspended parts of any frequency, anywhere on a bar;
-//! - [`orders`], [`residues`], [`measured`]: how the models of a drop tend to one another, and how exact all of it is;
-//! - [`bars`], [`trade_files`], [`peers`]: what exactness costs, by our models and by other tools;
-//! - [`cube`]: measured tosses of a cube and of a square beside the box, other tools, and what friction changes.
+//! - [`paper`]: the results that the reference paper prints, compared with those of clatter, with the curves of its
+//!   figures ([`contour`]);
+//! - [`plate_claims`], [`plate_numbers`]: the effects of a plate that lands on its corners, beyond those of a bar;
+//! - [`suspended`]: the effect of a clatter on suspended parts of any frequency, anywhere on a bar;
+//! - [`orders`], [`residues`], [`measured`]: the convergence of the models of a drop to one another, and the accuracy
+//!   of all results;
+//! - [`bars`], [`trade_files`], [`peers`]: the cost of accuracy, for our models and for other tools;
+//! - [`cube`]: measured tosses of a cube and of a square compared with the box and with other tools, and the effect of
+//!   friction.
 //!
-//! [`figures`] draws what they find; [`write()`] makes the printed reports, which the command `clatter report` gives.
+//! [`figures`] draws the results; [`write()`] makes the printed reports of the command `clatter report`.
 
 #![allow(clippy::disallowed_methods, reason = "what is shown has few digits")]
 
@@ -44,15 +47,15 @@ pub use trade::{bars, trade_files};
 pub enum Report {
     /// The paper's own figures, table and claims.
     Paper,
-    /// What a plate that lands on its corners does beyond a bar.
+    /// The effects of a plate that lands on its corners, beyond those of a bar.
     Plate,
-    /// What the clatter does to a suspended part.
+    /// The effect of the clatter on a suspended part.
     Shock,
-    /// How exact all of it is.
+    /// The accuracy of all results.
     Accuracy,
 }
 
-/// Why a report was not written.
+/// The reasons for a report that was not written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -62,13 +65,13 @@ pub enum Error {
     /// The report's data could not be computed.
     #[error(transparent)]
     Model(#[from] clatter::Error),
-    /// The same of a drop in time.
+    /// A drop in time could not be computed.
     #[error(transparent)]
     Flight(#[from] clatter_flight::Error),
-    /// The same of a component.
+    /// A component could not be computed.
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
-    /// The same of a product.
+    /// A product could not be computed.
     #[error(transparent)]
     Assess(#[from] clatter_assess::Error),
     /// A figure could not be drawn.
@@ -82,9 +85,9 @@ pub enum Error {
 /// Writes a report into `dir`, which is made if it is missing: the PDF, its figures as SVG, its tables as
 /// JSON and CSV. `progress` gets one line a step.
 ///
-/// Each file is written beside its place and renamed, so that none is ever half there. The PDF is the same, byte for
-/// byte, from run to run, but for the times in that of [`Report::Accuracy`]. Another build of the same typst packs the same
-/// content differently.
+/// Each file is written under another name and then renamed, so that no file is ever incomplete. The PDF
+/// is the same, byte for byte, from run to run, but for the times in that of [`Report::Accuracy`]. Another build of the
+/// same typst packs the same content differently.
 ///
 /// ```no_run
 /// // typst may have to be installed first
@@ -121,20 +124,22 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
     }
 }
 
-/// Errors, the trade between them and time, what other tools make of the same scenes, and measured tosses.
+/// Returns errors, the trade between them and time, the results of other tools for the same scenes, and measured
+/// tosses.
 fn accuracy_files() -> Result<Vec<File>, Error> {
     let mut files = accuracy::Data::compute()?.files()?;
-    // After the rest: it takes times.
+    // This comes after the rest: it measures times.
     files.extend(trade_files()?);
     files.extend(peers()?);
     files.extend(cube::files()?);
     Ok(files)
 }
 
-/// What other tools make of the same scenes, each at the best setting found, as `peers/run.py` last measured them:
-/// `peers.json` for the page and `peers.svg`, a row a tool with its times, counts and error on the four bars of Table 1.
+/// Returns the results of other tools for the same scenes, each at the best setting found, as `peers/run.py` last
+/// measured them: `peers.json` for the page and `peers.svg`, a row a tool with its times, counts and error on the four
+/// bars of Table 1.
 ///
-/// The times are those of one machine, which is named beside them.
+/// The times are those of one machine, which the files name.
 ///
 /// ```
 /// let files = clatter_studies::peers()?;

@@ -1,4 +1,4 @@
-//! How the models tend to one another, measured: rows for the accuracy table.
+//! The convergence of the models to one another, measured: rows for the accuracy table.
 
 use clatter_flight::{Contact, ContactLaw, Error, Model, Motion, Profile, Scene, Strike};
 
@@ -7,20 +7,20 @@ use clatter_flight::{Contact, ContactLaw, Error, Model, Motion, Profile, Scene, 
 pub struct Order {
     /// The model.
     pub model: &'static str,
-    /// What it tends to.
+    /// Its limit.
     pub limit: &'static str,
     /// The parameter that goes to zero.
     pub parameter: &'static str,
-    /// What is compared.
+    /// The compared quantities.
     pub compared: &'static str,
-    /// Order that theory gives.
+    /// Order by theory.
     pub expected: f64,
     /// Parameter and largest difference, the parameter falling.
     pub steps: Vec<(f64, f64)>,
 }
 
 impl Order {
-    /// Order between the last two steps, `ln(error ratio)/ln(parameter ratio)`.
+    /// Returns the order between the last two steps, `ln(error ratio)/ln(parameter ratio)`.
     #[must_use]
     pub fn measured(&self) -> f64 {
         let [.., (p, x), (q, y)] = self.steps.as_slice() else { return f64::NAN };
@@ -31,22 +31,22 @@ impl Order {
 /// A number that would be zero without rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residue {
-    /// What is compared.
+    /// The compared quantities.
     pub compared: &'static str,
     /// Largest difference, relative.
     pub value: f64,
-    /// What the documentation promises.
+    /// Value that the documentation promises.
     pub allowed: f64,
 }
 
-/// Half-length 70 mm, 4.43 m/s.
+/// Returns a scene of half-length 70 mm, 4.43 m/s.
 fn phone(q: f64, e: f64, tilt_deg: f64, gravity: f64) -> Result<Scene, clatter::Error> {
     let half = 0.07;
     Scene::new(Profile::new(2.0 * half, half * ((1.0 - q) / (1.0 + q)).sqrt())?, e, 4.43, tilt_deg, gravity)
 }
 
-/// Largest difference of times (relative) and of shocks (over the drop speed) of the first strikes; infinite if the
-/// ends differ.
+/// Returns the largest difference of times (relative) and of shocks (over the drop speed) of the first strikes;
+/// infinite if the ends differ.
 fn distance(a: &Motion, b: &Motion, speed: f64, strikes: usize) -> f64 {
     let off = |(a, b): (&Strike, &Strike)| {
         let time = (a.time_s - b.time_s).abs() / b.time_s.max(f64::MIN_POSITIVE);
@@ -56,13 +56,13 @@ fn distance(a: &Motion, b: &Motion, speed: f64, strikes: usize) -> f64 {
     a.strikes.iter().zip(&b.strikes).take(strikes).map(off).fold(0.0, f64::max)
 }
 
-/// The motion with hysteretic contacts.
+/// Returns the motion with hysteretic contacts.
 fn hysteretic(drop: &Scene, contact_time_s: f64) -> Result<Motion, Error> {
     drop.fly(Model::Contacts(Contact::new(ContactLaw::Hysteretic, drop.e(), contact_time_s)?))
 }
 
-/// The orders in which the models tend to one another, measured on a train of four (q = ½, e = 0.3) over its first
-/// three strikes, the contact on its second strike.
+/// Returns the orders in which the models tend to one another, measured on a train of four (q = ½, e = 0.3) over its
+/// first three strikes, the contact on its second strike.
 ///
 /// ```
 /// for order in clatter_studies::orders()? {
@@ -151,15 +151,16 @@ pub fn orders() -> Result<Vec<Order>, Error> {
     ])
 }
 
-/// What only rounding keeps from zero: weak gravity against none, the restitution that a contact has against the one it
-/// is fitted to, the energy of elastic bodies over 10⁴ strikes.
+/// Returns differences that would be zero without rounding: weak gravity against none, the restitution of a contact
+/// against the one it is fitted to, the energy of elastic bodies over 10⁴ strikes.
 ///
 /// # Errors
 /// None: the scenes are valid.
 pub fn residues() -> Result<Vec<Residue>, Error> {
     let mut weak = 0.0_f64;
     for (q, e) in [(0.73, 0.2), (0.5, 0.3), (0.5, 0.5), (0.9, 0.5), (0.95, 0.9), (-0.4, 0.7)] {
-        // Gravity 1e-40 acts on no digit, but takes the way of the parabolas where none takes that of the map.
+        // Gravity of 1e-40 changes no digit, but takes the way of the parabolas, while no gravity takes that of the
+        // map.
         let drop = |g| phone(q, e, 5.0, g)?.with_impact_limit(40);
         weak = weak.max(distance(&drop(1e-40)?.fly(Model::Ballistic)?, &drop(0.0)?.fly(Model::Map)?, 4.43, 40));
     }
@@ -195,7 +196,7 @@ pub fn residues() -> Result<Vec<Residue>, Error> {
     ])
 }
 
-/// Largest relative change of the energy after a strike from that before the first.
+/// Returns the largest relative change of the energy after a strike from that before the first.
 fn energy_drift(scene: &Scene, flight: &Motion) -> f64 {
     let [a, b] = scene.body().arms_m();
     let center = |of: [f64; 2]| (b * of[0] + a * of[1]) / (a + b);

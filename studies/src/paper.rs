@@ -1,4 +1,4 @@
-//! What the paper prints, beside what clatter computes: Table 1 and every statement about the results.
+//! The results that the paper prints, compared with those of clatter: Table 1 and every statement about the results.
 //!
 //! Source: "Safe zones for shock-protection of fragile components during impact-induced clatter".
 
@@ -27,7 +27,7 @@ pub enum RowKind {
     Impacts,
 }
 
-/// How a printed number stands to the computed one. Decided by computing; see [`Agreement::of`].
+/// The agreement of a printed number with the computed one. It is computed; see [`Agreement::of`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Agreement {
     /// Every printed digit is right, rounded to nearest.
@@ -74,24 +74,24 @@ impl Agreement {
 /// One number of Table 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// As printed.
+    /// Value as printed.
     pub printed: &'static str,
-    /// As computed, in the printed unit.
+    /// Value as computed, in the printed unit.
     pub value: f64,
-    /// How the two compare.
+    /// Agreement of the two.
     pub agreement: Agreement,
 }
 
 /// One row of Table 1, a cell for each of [`DESIGNS`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// What it lists.
+    /// Quantity of the row.
     pub kind: RowKind,
     /// The four designs.
     pub cells: [Cell; 4],
 }
 
-/// Table 1: what the paper prints, what is computed, and whether they agree.
+/// Returns Table 1: the printed values, the computed values, and their agreement.
 ///
 /// ```
 /// use clatter_studies::paper::{Agreement, RowKind, table1};
@@ -125,7 +125,7 @@ pub fn table1() -> Result<[Row; 7], Error> {
     }))
 }
 
-/// The value of one cell, in the printed unit.
+/// Returns the value of one cell, in the printed unit.
 #[expect(clippy::cast_precision_loss, reason = "the table's counts are below 100")]
 fn cell(kind: RowKind, bar: &Bar, summary: &Summary) -> f64 {
     match kind {

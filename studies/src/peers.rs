@@ -1,4 +1,4 @@
-//! What other tools make of the same scenes: `peers/results.json`, as `peers/run.py` last wrote it, as rows and a
+//! Results of other tools for the same scenes: `peers/results.json`, as `peers/run.py` last wrote it, as rows and a
 //! figure.
 
 use std::collections::BTreeMap;
@@ -52,12 +52,12 @@ struct BarRow {
     version: String,
     setting: String,
     impacts: [u64; 4],
-    /// Least and most of starts lifted by parts of a step's travel, where there are steps.
+    /// The least and the largest number from starts lifted by parts of a step's travel, where there are steps.
     impacts_lifted: Option<[[u64; 2]; 4]>,
-    /// Of the largest shock at an end, relative, the largest of the four bars.
+    /// Error of the largest shock at an end, relative, the largest of the four bars.
     error: f64,
     ms: [f64; 4],
-    /// Over the train of clatter.
+    /// Time over that of the train of clatter.
     ratio: [f64; 4],
 }
 
@@ -70,7 +70,7 @@ impl Machine {
 }
 
 impl BarRow {
-    /// How far the count of a bar is right.
+    /// Returns the correctness of the count of a bar.
     fn dot(&self, bar: usize, truth: u64) -> Dot {
         let lifted = self.impacts_lifted.map_or([truth; 2], |lifted| lifted[bar]);
         match (self.impacts[bar] == truth, lifted == [truth; 2]) {
@@ -83,7 +83,7 @@ impl BarRow {
 
 #[derive(Debug, Deserialize)]
 struct Spectra {
-    /// Of their own, where they were measured again alone.
+    /// Date and machine of the spectra, where they were measured again alone.
     date: Option<String>,
     machine: Option<Machine>,
     rows: Vec<SpectrumRow>,
@@ -92,11 +92,11 @@ struct Spectra {
 #[derive(Debug, Deserialize)]
 struct SpectrumRow {
     tool: String,
-    /// None where the pulses themselves are given.
+    /// Sampling rate; none where the pulses themselves are given.
     rate_hz: Option<f64>,
     error: f64,
     ms: f64,
-    /// Over clatter on the same record.
+    /// Time over that of clatter on the same record.
     ratio: Option<f64>,
 }
 
@@ -114,9 +114,9 @@ struct Records {
 struct RecordRow {
     tool: String,
     reading_ms: Option<f64>,
-    /// Of the spectra, without reading.
+    /// Time of the spectra, without reading.
     ms: Option<f64>,
-    /// At each number of samples a cycle.
+    /// Errors at each number of samples a cycle.
     errors: Option<Vec<f64>>,
 }
 
@@ -160,7 +160,7 @@ impl Results {
         serde_json::from_str(RESULTS).map_err(|error| Error::Data(format!("peers/results.json: {error}")))
     }
 
-    /// What the page says.
+    /// Returns the numbers of the page.
     fn numbers(&self) -> Value {
         let bars = self.bars.rows.iter().map(|row| {
             let dots = std::array::from_fn::<_, 4, _>(|i| row.dot(i, self.bars.impacts[i]));
@@ -209,12 +209,12 @@ impl Results {
     }
 }
 
-/// To a tenth.
+/// Rounds to a tenth.
 fn round(v: f64) -> f64 {
     (10.0 * v).round() / 10.0
 }
 
-/// Two significant digits; thousands apart, below 0.001 with a power of ten.
+/// Returns two significant digits; thousands apart, below 0.001 with a power of ten.
 fn two(v: f64) -> String {
     if v < 1e-3 {
         return tick(v);
@@ -232,7 +232,7 @@ fn two(v: f64) -> String {
     head.into_iter().chain(groups).collect::<Vec<_>>().join("\u{202f}")
 }
 
-/// A time in the unit that leaves one to three digits before the point.
+/// Returns a time in the unit that leaves one to three digits before the point.
 fn time(ms: f64) -> String {
     let (value, unit) = if ms < 1e-3 {
         (1e6 * ms, "ns")
@@ -244,24 +244,24 @@ fn time(ms: f64) -> String {
     format!("{}\u{a0}{unit}", two(value))
 }
 
-/// A relative error; what is only rounding is told as such.
+/// Returns a relative error; one that is only rounding is marked as such.
 fn error(v: f64) -> String {
     if v < 1e-15 { "rounding".to_owned() } else { two(v) }
 }
 
-/// An error in per cent.
+/// Returns an error in per cent.
 fn percent(v: f64) -> String {
     if v == 0.0 { "exact".to_owned() } else { format!("{}\u{a0}%", two(100.0 * v)) }
 }
 
-/// From the least to the most.
+/// Returns the span from the least to the largest.
 fn span(values: &[f64; 4]) -> String {
     let (low, high) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
     let (low, high) = (two(low), two(high));
     if low == high { low } else { format!("{low}–{high}") }
 }
 
-/// `peers.json` and `peers.svg`.
+/// Returns `peers.json` and `peers.svg`.
 pub(crate) fn files() -> Result<Vec<File>, Error> {
     let results = Results::read()?;
     Ok(vec![("peers.json", pretty(&results.numbers())?), ("peers.svg", results.figure()?)])
@@ -292,7 +292,7 @@ mod tests {
         let records: Vec<_> = results.records.rows.iter().map(|row| row.tool.as_str()).collect();
         assert_eq!(records, ["clatter", "clatter, straight lines", "polars", "pyyeti", "endaq"]);
         let ours = results.records.rows[0].errors.as_ref().unwrap();
-        // What README states, but for the last tone: its bell reaches beyond the band.
+        // README states these errors, except that of the last tone: its bell reaches beyond the band.
         assert!(ours.len() == 7 && ours[..6].iter().all(|error| error.abs() < 1e-3), "{ours:?}");
         assert!(spectra.contains(&("clatter, exact pulses", None)), "no row of exact pulses");
         assert_eq!((spectra.len(), results.maps.rows.len()), (13, 4));
@@ -313,7 +313,7 @@ mod tests {
         for row in [closed, train, tilt] {
             assert_eq!(row.impacts, results.bars.impacts, "{}", row.tool);
         }
-        // the accuracy that the peak has everywhere
+        // This is the accuracy that the peak has everywhere.
         assert!(closed.error <= 1e-13 && train.error <= 1e-13, "{closed:?}, {train:?}");
         let mut off = 0.0_f64;
         for ([q, e], truth) in DESIGNS.into_iter().zip(results.bars.impacts) {
@@ -329,7 +329,7 @@ mod tests {
             let largest = strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0_f64, |m, v| m.max(v.abs()));
             off = off.max((largest / (results.bars.speed_m_s * summary.peak.end) - 1.0).abs());
         }
-        // what the tilt itself changes, by roundings of shocks of order 1
+        // The tilt itself changes the peak by that much, to roundings of shocks of order 1.
         assert!((off - tilt.error).abs() < 1e-13, "{off:e} and {:e}", tilt.error);
     }
 

@@ -1,4 +1,4 @@
-//! What a plate that lands on its corners does beyond a bar: the data of the plate report, and what is made of them.
+//! Effects of a plate that lands on its corners, beyond those of a bar: the data of the plate report, and its files.
 
 pub(crate) mod bars;
 mod claims;
@@ -22,7 +22,7 @@ use ties::Ties;
 
 pub use claims::plate_claims;
 
-/// Restitution where one value stands for all: that of the paper's reference design.
+/// Restitution used where one value is enough: that of the paper's reference design.
 pub(crate) const E: f64 = 0.3;
 /// Steps of e, of curves and of the map of counts.
 const STEPS: u16 = 50;
@@ -33,25 +33,25 @@ const CELLS: u16 = 45;
 /// Restitutions of the curves over α = β.
 const CURVES: [f64; 3] = [0.1, E, 0.5];
 
-/// Uniform plates over e, from 0.02 to 1.
+/// Returns uniform plates over e, from 0.02 to 1.
 pub(crate) fn over_e() -> Result<Vec<BarsAndPlate>, Error> {
     let plate = |k: u16| BarsAndPlate::new([3.0; 2], f64::from(k) / f64::from(STEPS));
     (1..=STEPS).into_par_iter().map(plate).collect()
 }
 
-/// α or β from 1 to 10.
+/// Returns α or β from 1 to 10.
 fn inertia(k: u16, steps: u16) -> f64 {
     1.0 + 9.0 * f64::from(k) / f64::from(steps)
 }
 
-/// Plates over α and β at [`E`], α fastest.
+/// Returns plates over α and β at [`E`], α fastest.
 pub(crate) fn plane() -> Result<Vec<BarsAndPlate>, Error> {
     let side = CELLS + 1;
     let plate = |k: u16| BarsAndPlate::new([inertia(k % side, CELLS), inertia(k / side, CELLS)], E);
     (0..side * side).into_par_iter().map(plate).collect()
 }
 
-/// Everything the report shows.
+/// All data of the report.
 #[derive(Debug)]
 pub(crate) struct Data {
     over_e: Vec<BarsAndPlate>,
@@ -66,8 +66,8 @@ pub(crate) struct Data {
     claims: Vec<Claim>,
 }
 
-/// Every number that the page of [`Report::Plate`](crate::Report::Plate) says beside its claims, as it is printed: the file
-/// `plate.json`.
+/// Returns every number on the page of [`Report::Plate`](crate::Report::Plate) apart from its claims, as it is printed:
+/// the file `plate.json`.
 ///
 /// # Errors
 /// None in practice: all plates are valid.
@@ -99,7 +99,7 @@ impl Data {
         })
     }
 
-    /// Figures as SVG, numbers and claims as JSON and CSV.
+    /// Returns figures as SVG, numbers and claims as JSON and CSV.
     pub(crate) fn files(&self) -> Result<Vec<File>, Error> {
         let claims = table::claims(&self.claims);
         Ok(vec![
@@ -117,13 +117,13 @@ impl Data {
         ])
     }
 
-    /// The ends of the paper's bar, and of one along the diagonal, that stand for the uniform plate at [`E`].
+    /// Returns the ends of the paper's bar, and of one along the diagonal, that stand for the uniform plate at [`E`].
     fn bar(&self) -> [f64; 2] {
         let [reference, ..] = self.designs;
         [reference.bar[0], reference.diagonal]
     }
 
-    /// Every number that the page says.
+    /// Returns every number on the page.
     fn numbers(&self) -> Result<Value, Error> {
         let percent = |share: f64| decimals(100.0 * share, 1);
         let row = |plate: &BarsAndPlate| {
@@ -142,7 +142,7 @@ impl Data {
             (row["q"], row["e"]) = (q.into(), e.into());
             row
         });
-        // Over all plates of the plane: the least, the most and what has it.
+        // The range is over all plates of the plane: the least, the largest and the plate that has it.
         let range = |of: fn(&BarsAndPlate) -> f64| {
             let plates = self.plane.iter().map(|plate| (of(plate), plate.inertia));
             let least = plates.clone().fold(f64::INFINITY, |least, one| least.min(one.0));
@@ -170,20 +170,20 @@ impl Data {
         }))
     }
 
-    /// A measured figure of the claims by its name, with two decimals.
+    /// Returns a measured figure of the claims by its name, with two decimals.
     fn figure(&self, what: &str) -> Option<String> {
         let mut figures = self.claims.iter().flat_map(|claim| &claim.measured);
         figures.find(|figure| figure.what == what).map(|figure| decimals(figure.value, 2))
     }
 
-    /// The words from r = 0 to the diagonal; those beyond are their mirror images.
+    /// Returns the words from r = 0 to the diagonal; those beyond are their mirror images.
     fn words(&self) -> Vec<Value> {
         let half = self.atlas.words().iter().filter(|word| word.from < 0.5);
         let word = |word: &clatter::Word| {
             let same = |corners: &[clatter::Corner]| corners == word.corners;
             json!({
                 "from": decimals(word.from, 4), "to": decimals(word.to, 4), "word": letters(&word.corners),
-                // With its mirror image, of a square plate; the middle one is its own.
+                // The share includes the mirror image on a square plate; the middle word is its own.
                 "share": decimals(100.0 * share(&self.atlas, 1.0, same) * if word.to > 0.5 { 1.0 } else { 2.0 }, 1),
                 "corner": decimals(word.peak(), 3), "center": decimals(word.center, 3),
                 "struck": word.struck.map(|shock| decimals(shock, 2)),

@@ -1,4 +1,4 @@
-//! What the clatter does to a suspended part: the data of the shock report, and what is made of them.
+//! The effect of the clatter on a suspended part: the data of the shock report, and its files.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::suspended::{
 use clatter::design::DESIGNS;
 use clatter::{Bar, Start};
 use clatter_figures::draw::RUST;
-use clatter_figures::{beside, boundary};
+use clatter_figures::{boundary, spectrum_compared};
 use clatter_report::File;
 use clatter_shock::{
     DamageBoundary, DampingRatio, EquivalentPulse, Frequencies, Limit, Margin, Pulse, Pulses, Quantity, Response, Rule,
@@ -22,7 +22,7 @@ use crate::Error;
 use crate::files::decimals;
 use crate::files::pretty;
 
-/// Everything the report shows.
+/// All data of the report.
 #[derive(Debug)]
 pub(crate) struct Data {
     bars: [BarRules; 4],
@@ -44,7 +44,7 @@ struct Figures {
     damped: ShapeFigures,
 }
 
-/// A drop in SI units, and what it does to a board at the end that strikes second.
+/// A drop in SI units, and its effect on a board at the end that strikes second.
 #[derive(Debug)]
 struct Phone {
     train: Vec<Pulse>,
@@ -61,7 +61,7 @@ struct Phone {
     models: Models,
 }
 
-/// What simpler models of the same drop say, as spectra of the acceleration at the frequencies of the train's.
+/// The estimates of simpler models for the same drop, as spectra of the acceleration at the frequencies of the train's.
 #[derive(Debug)]
 struct Models {
     net: Vec<f64>,
@@ -94,7 +94,7 @@ impl Models {
         })
     }
 
-    /// The largest frequency up to which a model stays within `share` of the train.
+    /// Returns the largest frequency up to which a model stays within `share` of the train.
     fn good_to(model: &[f64], train: &Spectrum, share: f64) -> f64 {
         let off = |(estimate, peak): (&f64, &f64)| (estimate / peak - 1.0).abs() <= share;
         let good = model.iter().zip(&train.maximax).take_while(|pair| off(*pair)).count();
@@ -125,7 +125,7 @@ impl Board {
     }
 }
 
-/// Damping of every part where nothing else is said: Q = 10.
+/// Damping of every part unless stated otherwise: Q = 10.
 const ZETA: f64 = 0.05;
 /// Distances from the center: end, quarter point, center.
 const PLACES: [f64; 3] = [1.0, 0.5, 0.0];
@@ -155,7 +155,7 @@ const PHONE: [f64; 2] = DESIGNS[1];
 const SPEED_M_S: f64 = 4.851;
 const GAP_M: f64 = 0.02;
 const CONTACT_S: f64 = 4e-4;
-/// The board at the end that strikes second: its mode and what it stands.
+/// The board at the end that strikes second: its mode and its limit.
 const BOARD_HZ: f64 = 230.0;
 const BOARD_LIMIT_G: f64 = 1600.0;
 /// Modes of boards in products of this size, and beyond.
@@ -199,7 +199,8 @@ impl Phone {
     }
 }
 
-/// Every number that the page of [`Report::Shock`](crate::Report::Shock) says, as it is printed: the file `shock.json`.
+/// Returns every number on the page of [`Report::Shock`](crate::Report::Shock), as it is printed: the file
+/// `shock.json`.
 ///
 /// # Errors
 /// None in practice: all cases are valid.
@@ -253,7 +254,7 @@ impl Data {
         })
     }
 
-    /// Figures as SVG, numbers as JSON.
+    /// Returns figures as SVG, numbers as JSON.
     pub(crate) fn files(&self) -> Result<Vec<File>, Error> {
         let amplifications: Vec<_> = self.shapes.iter().map(|s| (s.name, s.curve.clone())).collect();
         let p = &self.phone;
@@ -275,8 +276,8 @@ impl Data {
             ("shock-impact-2.svg", rules::holders(&self.holders[1], DESIGNS[1])?),
             ("shock-zones-1.svg", rules::zones(&self.zones[0], DESIGNS[0])?),
             ("shock-zones-2.svg", rules::zones(&self.zones[1], DESIGNS[1])?),
-            ("shock-spectrum.svg", beside(&p.acceleration[0], &p.acceleration[1], name)?),
-            ("shock-velocity.svg", beside(&p.velocity[0], &p.velocity[1], name)?),
+            ("shock-spectrum.svg", spectrum_compared(&p.acceleration[0], &p.acceleration[1], name)?),
+            ("shock-velocity.svg", spectrum_compared(&p.velocity[0], &p.velocity[1], name)?),
             ("shock-pulses.svg", rules::amplifications(&amplifications)?),
             ("shock-models.svg", rules::models(&p.models())?),
             ("shock-boundary.svg", boundary((&p.boundary).into(), &p.curve, &marks, [230.0, 160.0])?),
@@ -284,7 +285,7 @@ impl Data {
         ])
     }
 
-    /// Every number that the page says.
+    /// Returns every number on the page.
     fn numbers(&self) -> Value {
         let bars = self.bars.iter().zip(&self.worst).map(|(bar, worst)| {
             let unit = 0.5 * bar.rules[0].standard.acceleration;
@@ -338,7 +339,7 @@ impl Data {
 }
 
 impl Phone {
-    /// What simpler models say, over the peak of the train of pulses.
+    /// Returns the estimates of simpler models, over the peak of the train of pulses.
     fn models(&self) -> [(&'static str, Vec<(f64, f64)>); 4] {
         let [train, _] = &self.acceleration;
         let over = |model: &[f64]| {
@@ -391,28 +392,28 @@ impl Phone {
     }
 }
 
-/// One for each design of the paper's table.
+/// Returns one result for each design of the paper's table.
 fn each<T>(of: impl Fn([f64; 2]) -> Result<T, Error>) -> Result<[T; 4], Error> {
     let [a, b, c, d] = DESIGNS.map(of);
     Ok([a?, b?, c?, d?])
 }
 
-/// The worst peak over that of the largest single shock at the end.
+/// Returns the worst peak over that of the largest single shock at the end.
 fn over_largest(bar: &BarRules, worst: &Worst) -> f64 {
     bar.rules[0].stiff.map_or(f64::NAN, |stiff| worst.acceleration / stiff.acceleration)
 }
 
-/// The largest peak over that of one shock of v0.
+/// Returns the largest peak over that of one shock of v0.
 fn highest(rule: &Rule) -> f64 {
     rule.points.iter().map(|p| 2.0 * p.gain).fold(0.0, f64::max)
 }
 
-/// A number with so many decimals, infinite as the sign of it.
+/// Returns a number with so many decimals, or the sign of infinity.
 fn shown(value: f64, digits: usize) -> String {
     if value.is_infinite() { "∞".to_owned() } else { decimals(value, digits) }
 }
 
-/// A zone in per cent, or that there is none.
+/// Returns a zone in per cent, or `none`.
 fn zone(s: Option<f64>) -> String {
     s.map_or("none".to_owned(), |s| shown(100.0 * s, 1))
 }

@@ -1,10 +1,10 @@
-//! Whichever end strikes first: gains over the single-impact estimate, the impact that holds the peak, and the safe
-//! zone of a suspended part.
+//! Suspended parts if either end may strike first: gains over the single-impact estimate, the impact that holds the
+//! peak, and the safe zone.
 //!
-//! A part does not know which end of the product will strike first. At a distance s from the center it sits at −s or at
-//! s of the bar of [`respond`], and the worse of the two counts. For each instant the response is linear in the
-//! position, so that the peak is a convex function of it, largest at one of the ends: what an end survives every part
-//! survives, and the positions that survive are one interval about the center.
+//! The end of the product that strikes first is unknown. At a distance s from the center a part sits at −s or at s of
+//! the bar of [`respond`], and the worse of the two counts. For each instant the response is linear in the position, so
+//! that the peak is a convex function of it, largest at one of the ends: a part that survives at an end survives
+//! everywhere, and the positions where it survives are one interval about the center.
 
 pub use maps::{GainMap, Holders, SuspendedZones};
 
@@ -17,11 +17,11 @@ use clatter_shock::{
 };
 use std::f64::consts::TAU;
 
-/// [`three_way_rule`] at a distance of 0 to 1 half-lengths from the center, with the worse end first; the bar falls
-/// without spin.
+/// Returns the [`three_way_rule`] at a distance of 0 to 1 half-lengths from the center, with the worse end first; the
+/// bar falls without spin.
 ///
 /// # Errors
-/// As [`three_way_rule`].
+/// The errors of [`three_way_rule`].
 ///
 /// ```
 /// # use clatter::{Bar, Start};
@@ -51,7 +51,7 @@ pub fn rule_either_end(bar: &Bar, distance: f64, damping: DampingRatio, omegas: 
     })
 }
 
-/// The larger of each.
+/// Returns the larger of each factor.
 fn larger_factors(a: ImpulseFactors, b: ImpulseFactors) -> ImpulseFactors {
     ImpulseFactors {
         displacement: a.displacement.max(b.displacement),
@@ -59,24 +59,25 @@ fn larger_factors(a: ImpulseFactors, b: ImpulseFactors) -> ImpulseFactors {
     }
 }
 
-/// The worst that a bar does to any part of a damping ratio.
+/// The worst effect of a bar on any part of a damping ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Worst {
     /// Peak |A|/(ω v0).
     pub acceleration: f64,
-    /// Over that of one shock of 2 v0, the estimate of drop standards.
+    /// Peak over that of one shock of 2 v0, the estimate of drop standards.
     pub gain: f64,
-    /// Over that of one shock of (1 + e) v0, the same impact without clatter.
+    /// Peak over that of one shock of (1 + e) v0, the same impact without clatter.
     pub gain_over_flat: f64,
-    /// Ω = ω h0/v0 of the part that it happens to.
+    /// Ω = ω h0/v0 of the worst part.
     pub omega: f64,
 }
 
-/// The range of Ω that [`worst`] looks through: from parts that see the net change alone to parts a thousand times
+/// The range of Ω that [`worst`] searches: from parts that respond to the net change alone to parts a thousand times
 /// stiffer than 1.
 pub const OMEGAS: [f64; 2] = [1e-2, 1e3];
 
-/// Values in equal ratios over [`OMEGAS`], at least `per_octave` to an octave, both ends included; for 0 those alone.
+/// Returns values in equal ratios over [`OMEGAS`], at least `per_octave` to an octave, both ends included; for 0 the
+/// ends alone.
 #[must_use]
 pub fn omegas(per_octave: u16) -> Vec<f64> {
     let [low, high] = OMEGAS;
@@ -90,15 +91,16 @@ pub fn omegas(per_octave: u16) -> Vec<f64> {
     list
 }
 
-/// The largest peak acceleration over all parts: at the worse end of the bar, over Ω within [`OMEGAS`].
+/// Returns the largest peak acceleration over all parts: at the worse end of the bar, over Ω within [`OMEGAS`].
 ///
 /// # Accuracy
 ///
-/// The best of `per_octave` values of Ω, refined by golden section between its neighbors. A peak narrower than the
-/// steps could be missed; those of a train of n impacts are about 1/(n Ω) octaves wide or 1.4 ζ, whichever is more.
+/// The result is the best of `per_octave` values of Ω, refined by golden section between its neighbors. A peak narrower
+/// than the steps could be missed; those of a train of n impacts are about 1/(n Ω) octaves wide or 1.4 ζ, whichever is
+/// more.
 ///
 /// # Errors
-/// As [`three_way_rule`].
+/// The errors of [`three_way_rule`].
 ///
 /// ```
 /// # use clatter::Bar;
@@ -158,15 +160,15 @@ pub fn worst(bar: &Bar, damping: DampingRatio, per_octave: u16) -> Result<Worst,
     })
 }
 
-/// The safe zone of a suspended part: how far from the center, in half-lengths up to 1, no part gets a larger peak
-/// acceleration than one velocity shock of `threshold` v0 would give it, whichever end strikes first; `None` if not
-/// even the center is safe. `suspension` has its ω in v0/h0.
+/// Returns the safe zone of a suspended part: the distance from the center, in half-lengths up to 1, within which no
+/// part gets a larger peak acceleration than by one velocity shock of `threshold` v0, whichever end strikes first;
+/// `None` if not even the center is safe. `suspension` has its ω in v0/h0.
 ///
 /// For ζΩ → ∞ this is the safe zone of the paper (Eq. 5, [`clatter::Shocks::safe_zone`]), for Ω → 0 the positions whose net change
 /// of velocity is within the threshold.
 ///
 /// # Errors
-/// As [`respond`]; [`Error::Quantity`] for a threshold that is not finite and positive.
+/// The errors of [`respond`]; [`Error::Quantity`] for a threshold that is not finite and positive.
 ///
 /// ```
 /// # use clatter::{Bar, Start};
@@ -185,7 +187,7 @@ pub fn suspended_zone(bar: &Bar, suspension: &Suspension, threshold: f64) -> Res
         for position in [-distance, distance] {
             let (shocks, _) = shocks_at(bar, &Start::default(), position, suspension.omega())?;
             let peak = shocks.respond(suspension).acceleration_over_omega().magnitude();
-            // A few roundings, so that the threshold that is the peak itself is safe.
+            // The margin is a few roundings, so that a threshold equal to the peak itself is safe.
             if peak > allowed * (1.0 + 8.0 * f64::EPSILON) {
                 return Ok(false);
             }
@@ -206,11 +208,11 @@ pub fn suspended_zone(bar: &Bar, suspension: &Suspension, threshold: f64) -> Res
     Ok(Some(low))
 }
 
-/// The number of the impact that the peak acceleration follows, from 1, for a part at a signed position (−1 is the end
-/// that strikes first), and how many impacts the train has, as far as it was followed.
+/// Returns the number of the impact that the peak acceleration follows, from 1, for a part at a signed position (−1 is
+/// the end that strikes first), and the number of impacts of the train, as far as it was followed.
 ///
 /// # Errors
-/// As [`respond`].
+/// The errors of [`respond`].
 ///
 /// ```
 /// # use clatter::Bar;
@@ -227,21 +229,21 @@ pub fn impact_of_peak(bar: &Bar, position: f64, suspension: &Suspension) -> Resu
     Ok((train.response.absolute_acceleration.peak().interval + 1, train.shocks.as_slice().len()))
 }
 
-/// What a pulse of a shape does at most: the numbers of its damage boundary, free of units.
+/// The largest effects of a pulse of a shape: the numbers of its damage boundary, free of units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShapeFigures {
     /// The shape.
     pub shape: Shape,
     /// Largest |A| over the amplitude of the pulse, over all durations.
     pub amplification: f64,
-    /// Natural frequency times the shortest duration that has it; infinite if it is only tended to.
+    /// Natural frequency times the shortest duration that has it; infinite if the amplification only tends to it.
     pub frequency_duration: f64,
     /// Velocity change at the knee of the damage boundary over the critical one.
     pub knee: f64,
 }
 
 impl ShapeFigures {
-    /// For a damping ratio.
+    /// Computes the numbers for a damping ratio.
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, Shape};
@@ -252,7 +254,7 @@ impl ShapeFigures {
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
     /// # Errors
-    /// As [`DamageBoundary::new`].
+    /// The errors of [`DamageBoundary::new`].
     pub fn new(shape: Shape, damping: DampingRatio) -> Result<Self, Error> {
         let boundary = DamageBoundary::new(Suspension::new(TAU, damping)?, Limit::Acceleration(1.0), shape)?;
         let knee = boundary.knee_velocity_change();
@@ -265,10 +267,10 @@ impl ShapeFigures {
     }
 }
 
-/// Largest |A| over the amplitude of one pulse, at natural frequency times duration `frequency_duration`.
+/// Returns the largest |A| over the amplitude of one pulse, at natural frequency times duration `frequency_duration`.
 ///
 /// # Errors
-/// As [`Pulses::new`].
+/// The errors of [`Pulses::new`].
 ///
 /// ```
 /// # use clatter_shock::{DampingRatio, Shape};
@@ -283,11 +285,12 @@ pub fn amplification(shape: Shape, damping: DampingRatio, frequency_duration: f6
     Ok(Pulses::new(&[pulse])?.respond(&suspension).absolute_acceleration.magnitude())
 }
 
-/// The clatter as a train of half-sines of one contact time at a position: each impact gives the area of its velocity
-/// shock, beginning at the strike. Speeds and heights are those of `start`, in m/s and m. Longer contacts overlap.
+/// Returns the clatter as a train of half-sines of one contact time at a position: each impact gives the area of its
+/// velocity shock, beginning at the strike. Speeds and heights are those of `start`, in m/s and m. Longer contacts
+/// overlap.
 ///
 /// # Errors
-/// As [`respond`] and [`Pulses::new`].
+/// The errors of [`respond`] and [`Pulses::new`].
 ///
 /// ```
 /// # use clatter::{Bar, Start};
@@ -311,7 +314,7 @@ pub fn half_sine_train(bar: &Bar, start: &Start, position: f64, contact_s: f64) 
     Ok(shocks.as_slice().iter().map(of).collect())
 }
 
-/// `value` if it is finite and greater than zero.
+/// Returns `value` if it is finite and greater than zero.
 fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
     if value > 0.0 && value.is_finite() {
         Ok(value)

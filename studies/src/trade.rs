@@ -22,9 +22,9 @@ const EXAMPLES: [(&str, &str); 3] = [
     ("trade-laptop.svg", include_str!("../../tests/cases/bar-laptop.toml")),
 ];
 
-/// The four bars of the paper's Table 1 ([`DESIGNS`]) as drops to compare others with: 140 mm long, 4.43 m/s (from 1 m), 5°,
-/// standard gravity, contacts of 0.2 ms; the acceleration of a board with a mode at 230 Hz, Q = 10, near the end that strikes
-/// second (s = 0.9).
+/// Returns the four bars of the paper's Table 1 ([`DESIGNS`]) as drops to compare others with: 140 mm long, 4.43 m/s
+/// (from 1 m), 5°, standard gravity, contacts of 0.2 ms; the acceleration of a board with a mode at 230 Hz, Q = 10,
+/// near the end that strikes second (s = 0.9).
 ///
 /// # Errors
 /// None in practice: the numbers are valid.
@@ -33,7 +33,7 @@ pub fn bars() -> Result<[(Drop, Part, Limit); 4], clatter_assess::Error> {
     Ok([a?, b?, c?, d?])
 }
 
-/// One of them.
+/// Returns one of these bars.
 fn bar(q: f64, e: f64) -> Result<(Drop, Part, Limit), clatter_assess::Error> {
     let part = Suspension::new(TAU * 230.0, DampingRatio::from_quality_factor(10.0)?)?;
     // q = (L² − ρ²)/(L² + ρ²)
@@ -56,16 +56,16 @@ struct BarLadder {
     ladder: Ladder,
 }
 
-/// Why no cheaper model does, in words: limit by limit.
+/// Returns the reasons against cheaper models in words, limit by limit.
 fn reasons(ladders: &[LimitLadder]) -> Vec<String> {
     ladders.iter().map(|limit| words::reason(&limit.ladder.reason)).collect()
 }
 
-/// What every model gets wrong and what it costs, for the four bars of Table 1 (the peak acceleration of a board; the drops are
-/// those of [`bars`]) and for the worst drop of every limit of the three worked products: `trade.json`, a figure of the bars and
-/// one of each product.
+/// Returns the error and the cost of every model, for the four bars of Table 1 (the peak acceleration of a board; the
+/// drops are those of [`bars`]) and for the worst drop of every limit of the three worked products: `trade.json`, a
+/// figure of the bars and one of each product.
 ///
-/// Errors and strikes are the same from run to run; `seconds`, and with them `cheapest`, are of the machine.
+/// Errors and strikes are the same from run to run; `seconds`, and with them `cheapest`, depend on the machine.
 ///
 /// # Errors
 /// None in practice: all drops are valid.

@@ -1,8 +1,8 @@
-//! How fast each model tends to the one below it: the rows of the accuracy table.
+//! The order in which each model tends to the one below it: the rows of the accuracy table.
 
 use clatter_studies::{orders, residues};
 
-/// Not only between the last two steps, but all the way.
+/// The order holds between all steps, not only between the last two.
 #[test]
 fn every_model_tends_to_its_limit_in_the_order_that_theory_gives() {
     let rows = orders().expect("valid scenes");

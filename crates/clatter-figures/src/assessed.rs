@@ -4,8 +4,8 @@ use clatter_assess::{Assessment, Component, ComponentAssessment, Portrait, Produ
 
 use crate::{Area, FigureError, Place, plan, product};
 
-/// The product as a printed report shows it: a plate or a box from above, a bar from the side with where each part would be safe, which
-/// `portraits` know; of the others they may be left out.
+/// Draws the product as a printed report shows it: a plate or a box from above, a bar from the side with the safe zone
+/// of each part, which `portraits` hold; other portraits may be left out.
 ///
 /// ```
 /// use clatter_assess::{EXAMPLE, ProductFile};
@@ -46,7 +46,7 @@ pub fn assessed(file: &ProductFile, assessment: &Assessment, portraits: &[Portra
     product(body.arms_m(), body.gyration_m(), beyond_m, &place.collect::<Vec<_>>())
 }
 
-/// Where a part may be along a plate and across it, in m from the middle.
+/// Returns the range of a part along a plate and across it, in m from the middle.
 #[must_use]
 pub fn reach_m(component: &Component) -> [[f64; 2]; 2] {
     let ends = component.ends_m();

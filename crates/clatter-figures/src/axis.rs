@@ -1,4 +1,4 @@
-//! Axes, logarithmic or not, as plotters takes them, and numbers as short words.
+//! Axes for plotters, logarithmic or linear, and numbers as short words.
 
 use std::ops::Range;
 
@@ -11,11 +11,11 @@ pub struct Axis<'a> {
     pub low: f64,
     /// Its value at the high end.
     pub high: f64,
-    /// Whether it is logarithmic.
+    /// True for a logarithmic axis.
     pub log: bool,
-    /// In figure markup.
+    /// Title, in figure markup.
     pub title: &'a str,
-    /// Without ticks and grid.
+    /// True for an axis without ticks and grid.
     pub bare: bool,
 }
 
@@ -42,12 +42,13 @@ impl ValueFormatter<f64> for Axis<'_> {
 }
 
 impl<'a> Axis<'a> {
-    /// Logarithmic, as it is.
+    /// Creates a logarithmic axis over exactly this range.
     #[must_use]
     pub fn log(low: f64, high: f64, title: &'a str) -> Self {
         Self { low, high, log: true, title, bare: false }
     }
-    /// Logarithmic, widened to 1, 2 or 5 times powers of ten; at most `decades` down from the largest value.
+    /// Creates a logarithmic axis, widened to 1, 2 or 5 times powers of ten; at most `decades` down from the largest
+    /// value.
     #[must_use]
     pub fn log_over(values: impl Iterator<Item = f64>, decades: f64, title: &'a str) -> Self {
         let (low, high) = values
@@ -61,12 +62,13 @@ impl<'a> Axis<'a> {
         let (low, high) = if high < 8.0 * low { (step_down(0.4 * low), step_up(2.5 * high)) } else { (low, high) };
         Self::log(low.max(1e-307), high.min(1e307), title)
     }
-    /// In equal steps, as it is.
+    /// Creates a linear axis over exactly this range.
     #[must_use]
     pub fn linear(low: f64, high: f64, title: &'a str) -> Self {
         Self { low, high, log: false, title, bare: false }
     }
-    /// 0 at the low end, 1 at the high one; not finite for what a logarithm cannot show.
+    /// Returns the share of the way: 0 at the low end, 1 at the high one; not finite for a value that a logarithm
+    /// cannot show.
     pub(crate) fn unit(&self, v: f64) -> f64 {
         if self.log {
             (v.ln() - self.low.ln()) / (self.high.ln() - self.low.ln())
@@ -74,7 +76,7 @@ impl<'a> Axis<'a> {
             (v - self.low) / (self.high - self.low)
         }
     }
-    /// The value at a share of the way.
+    /// Returns the value at a share of the way.
     pub(crate) fn value(&self, unit: f64) -> f64 {
         let between = |a: f64, b: f64| a + unit * (b - a);
         if self.log { between(self.low.ln(), self.high.ln()).exp() } else { between(self.low, self.high) }
@@ -82,7 +84,7 @@ impl<'a> Axis<'a> {
     fn decades(&self) -> f64 {
         self.high.log10() - self.low.log10()
     }
-    /// Values with a label, and values with a grid line alone.
+    /// Returns the values with a label, and the values with a grid line alone.
     pub(crate) fn ticks(&self) -> (Vec<f64>, Vec<f64>) {
         if self.bare {
             return (Vec::new(), Vec::new());
@@ -118,7 +120,8 @@ impl<'a> Axis<'a> {
     }
 }
 
-/// Multiples of 1, 2 or 5 times a power of ten from `low` to `high`, four to nine of them; one if both are the same.
+/// Returns multiples of 1, 2 or 5 times a power of ten from `low` to `high`, four to nine of them; one if both are the
+/// same.
 pub(crate) fn round_values(low: f64, high: f64) -> Vec<f64> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {
@@ -132,20 +135,20 @@ pub(crate) fn round_values(low: f64, high: f64) -> Vec<f64> {
     all.filter(|v| *v <= high + 1e-9 * span).collect()
 }
 
-/// The largest 1, 2 or 5 times a power of ten at or below `v`.
+/// Returns the largest 1, 2 or 5 times a power of ten at or below `v`.
 fn step_down(v: f64) -> f64 {
     let decade = 10f64.powf(v.log10().floor());
     [5.0, 2.0, 1.0].into_iter().map(|k| k * decade).find(|s| *s <= v * (1.0 + 1e-9)).unwrap_or(0.5 * decade)
 }
 
-/// The smallest 1, 2 or 5 times a power of ten at or above `v`.
+/// Returns the smallest 1, 2 or 5 times a power of ten at or above `v`.
 #[must_use]
 pub fn step_up(v: f64) -> f64 {
     let decade = 10f64.powf(v.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|k| k * decade).find(|s| *s >= v * (1.0 - 1e-9)).unwrap_or(10.0 * decade)
 }
 
-/// A round value: plain from 0.001 to below 100 000, else with a power of ten.
+/// Returns a round value as text: plain from 0.001 to below 100 000, else with a power of ten.
 #[must_use]
 pub fn tick(v: f64) -> String {
     if v == 0.0 || (1e-3 * 0.999..0.999e5).contains(&v.abs()) {
@@ -159,7 +162,7 @@ pub fn tick(v: f64) -> String {
     if digit == "1" { power } else { format!("{digit}·{power}") }
 }
 
-/// An exponent as it stands above the line.
+/// Returns an exponent in raised digits.
 #[must_use]
 pub fn raised(exponent: &str) -> String {
     let sign = |c: char| match c {
@@ -172,7 +175,7 @@ pub fn raised(exponent: &str) -> String {
     exponent.chars().map(sign).collect()
 }
 
-/// Three significant digits, short.
+/// Returns a value with three significant digits, short.
 #[must_use]
 pub fn three(v: f64) -> String {
     if v == 0.0 || !(1e-3..1e5).contains(&v.abs()) {
@@ -208,7 +211,7 @@ mod tests {
 
     #[test]
     fn a_value_is_where_its_share_of_the_axis_is() {
-        // A decade of three, and a decade and a half of them; a quarter of a straight axis.
+        // The axes are a decade of three, a decade and a half of them, and a quarter of a straight axis.
         let (log, linear) = (Axis::log(1.0, 1000.0, ""), Axis::linear(-2.0, 6.0, ""));
         for (axis, value, unit) in [
             (&log, 1.0, 0.0),

@@ -13,9 +13,9 @@ use crate::style::{FONT, INK, Ink, LABEL, Pt, rgb};
 const GRID: &str = "#e3e7eb";
 /// Room for the ticks and the title of x, below the frame.
 const BELOW: f64 = 26.0;
-/// From the title of y to the far side of its letters.
+/// Distance from the title of y to the far side of its letters.
 const LETTERS: f64 = 6.5;
-/// Labels at most.
+/// The most labels.
 const LABELS: usize = 20;
 
 /// A frame on the page with its two axes.
@@ -25,26 +25,26 @@ pub struct Axes<'a> {
     pub corner: Pt,
     /// Width and height in pt.
     pub size: Pt,
-    /// To the right.
+    /// Axis to the right.
     pub x: Axis<'a>,
-    /// Upward.
+    /// Axis upward.
     pub y: Axis<'a>,
 }
 
-/// The same, drawn.
+/// A frame with its axes as drawn on the page.
 pub struct Chart<'a> {
     /// Upper left corner in pt.
     pub corner: Pt,
     /// Width and height in pt.
     pub size: Pt,
-    /// To the right.
+    /// Axis to the right.
     pub x: Axis<'a>,
-    /// Upward.
+    /// Axis upward.
     pub y: Axis<'a>,
     context: Option<ChartContext<'a, Page, Cartesian2d<Axis<'a>, Axis<'a>>>>,
 }
 
-/// A line as plotters has it.
+/// Returns a line style of plotters.
 pub(crate) fn styled(color: &str, width: f64) -> plotters::style::ShapeStyle {
     let [r, g, b] = rgb(color);
     RGBColor(r, g, b).stroke_width(units(width).unsigned_abs())
@@ -56,14 +56,14 @@ pub(crate) fn units(points: f64) -> i32 {
 }
 
 impl<'a> Axes<'a> {
-    /// White ground, grid, ticks and titles. The title of y stands at `off` to the left.
+    /// Draws white ground, grid, ticks and titles. The title of y stands at `off` to the left.
     #[must_use]
     pub fn on(self, paper: &mut Paper, off: f64) -> Chart<'a> {
         paper.rect(self.corner, self.size, Ink::fill("#ffffff"));
         self.built(paper, off, true)
     }
 
-    /// Ticks and titles alone. The title of y stands at `off` to the left.
+    /// Draws ticks and titles alone. The title of y stands at `off` to the left.
     #[must_use]
     pub fn without_grid(self, paper: &mut Paper, off: f64) -> Chart<'a> {
         self.built(paper, off, false)
@@ -120,31 +120,31 @@ impl std::fmt::Debug for Chart<'_> {
 }
 
 impl Chart<'_> {
-    /// On the page; not finite for what a logarithm cannot show.
+    /// Returns the place of a point on the page; not finite for a value that a logarithm cannot show.
     #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Pt {
         let ([left, top], [w, h]) = (self.corner, self.size);
         [left + w * self.x.unit(x), top + h * (1.0 - self.y.unit(y))]
     }
 
-    /// An element over the coordinates of the chart, on it.
+    /// Draws an element over the coordinates of the chart.
     pub(crate) fn draw(&self, paper: &mut Paper, pieces: Vec<Vec<(f64, f64)>>, what: What<'_>) {
         if let Some(chart) = &self.context {
             paper.draw(chart.plotting_area(), &Element { pieces, what });
         }
     }
 
-    /// The area within points (x, y).
+    /// Fills the area within points (x, y).
     pub fn area(&self, paper: &mut Paper, points: Vec<(f64, f64)>, fill: &str) {
         self.draw(paper, vec![points], What::Area(Ink::fill(fill)));
     }
 
-    /// The frame, above the series.
+    /// Draws the frame, above the series.
     pub fn border(&self, paper: &mut Paper) {
         paper.rect(self.corner, self.size, Ink::line(INK, 0.6));
     }
 
-    /// A curve through points (x, y), cut at the frame: plotters would hold it at the edge.
+    /// Draws a curve through points (x, y), cut at the frame: plotters would hold it at the edge.
     pub fn curve(&self, paper: &mut Paper, points: impl Iterator<Item = (f64, f64)>, ink: Ink<'_>) {
         let (x, y) = (self.x, self.y);
         let pieces = cut(points.map(|(a, b)| [x.unit(a), y.unit(b)]));
@@ -154,12 +154,12 @@ impl Chart<'_> {
         }
     }
 
-    /// A straight line across the whole frame at one y.
+    /// Draws a straight line across the whole frame at one y.
     pub fn level(&self, paper: &mut Paper, y: f64, ink: Ink<'_>) {
         self.curve(paper, [(self.x.low, y), (self.x.high, y)].into_iter(), ink);
     }
 
-    /// A mark, if it lies in the frame.
+    /// Draws a mark, if it lies in the frame.
     pub fn mark(&self, paper: &mut Paper, x: f64, y: f64, fill: &str) {
         let inside = |axis: &Axis<'_>, v| (-1e-9..=1.0 + 1e-9).contains(&axis.unit(v));
         if inside(&self.x, x) && inside(&self.y, y) {
@@ -172,7 +172,7 @@ impl Chart<'_> {
     }
 }
 
-/// The pieces of a curve within the unit square; what is not finite parts them.
+/// Returns the pieces of a curve within the unit square; values that are not finite part them.
 fn cut(points: impl Iterator<Item = Pt>) -> Vec<Vec<Pt>> {
     let mut pieces: Vec<Vec<Pt>> = Vec::new();
     let mut last: Option<Pt> = None;
@@ -191,7 +191,7 @@ fn cut(points: impl Iterator<Item = Pt>) -> Vec<Vec<Pt>> {
     pieces
 }
 
-/// The part of a straight line within the unit square (Liang and Barsky 1984).
+/// Returns the part of a straight line within the unit square (Liang and Barsky 1984).
 fn inside(a: Pt, b: Pt) -> Option<[Pt; 2]> {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for k in 0..2 {

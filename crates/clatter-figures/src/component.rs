@@ -1,4 +1,4 @@
-//! What one part goes through: over time in its worst drop, and at worst over the tilt.
+//! The load of one part: over time in its worst drop, and at worst over the tilt.
 
 use clatter_assess::Verdict;
 
@@ -10,22 +10,23 @@ use crate::paper::{Paper, SMALL};
 use crate::product::{fit, shade};
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, RUST, width};
 
-/// Frame of both figures of a part: low, so that a page holds two parts. Above it is what its lines mean.
+/// Frame of both figures of a part: low, so that a page holds two parts. The key of its lines is above it.
 const FRAME: [f64; 2] = [176.0, 76.0];
 const CORNER: [f64; 2] = [44.0, 16.0];
 
 const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.0) };
 
-/// How far above the curves a limit may lie and be drawn: one far away would press them flat, and is named instead.
+/// The largest limit that is drawn, over the largest value: one far away would press the curves flat, and is named
+/// instead.
 const SEEN: f64 = 3.0;
 
-/// Whether figures whose largest value is this one draw the limit.
+/// Returns whether figures with this largest value draw the limit.
 #[must_use]
 pub fn is_drawn(allowed: f64, largest: f64) -> bool {
     allowed <= SEEN * largest
 }
 
-/// What the lines above a frame mean, side by side.
+/// Draws the key of the lines above a frame, side by side.
 fn key(paper: &mut Paper, lines: &[(Ink<'_>, &str)]) {
     let mut x = CORNER[0];
     for (ink, text) in lines {
@@ -34,7 +35,7 @@ fn key(paper: &mut Paper, lines: &[(Ink<'_>, &str)]) {
     }
 }
 
-/// A response over time with its limit on both sides; impacts are ticks at the foot.
+/// Draws a response over time with its limit on both sides; impacts are ticks at the foot.
 ///
 /// `points` are (time, value), `impacts` their times, all in the units of the titles.
 pub fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&str; 2]) -> Result<String, FigureError> {
@@ -52,7 +53,7 @@ pub fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&s
     let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 46.0);
     let axes = axes.on(&mut paper, 36.0);
     axes.level(&mut paper, 0.0, Ink::line(GRAY, 0.5));
-    // Shorter than the room below the lower limit, so that no tick crosses it.
+    // The ticks are shorter than the room below the lower limit, so that no tick crosses it.
     for &t in impacts.iter().filter(|t| **t <= end) {
         let [x, y] = axes.at(t, -top);
         paper.line([x, y], [x, y - 3.5], Ink::line(RUST, 0.9));
@@ -70,7 +71,7 @@ pub fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&s
     paper.finish("Response over time in the worst drop")
 }
 
-/// The demand over the tilt, a curve for each end that may touch first, with the limit.
+/// Draws the demand over the tilt, a curve for each end that may touch first, with the limit.
 pub fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str; 2]) -> Result<String, FigureError> {
     let all = || curves.iter().flat_map(|c| &c.1).filter(|p| p.1.is_finite());
     let largest = all().map(|p| p.1).fold(0.0_f64, f64::max);
@@ -97,12 +98,12 @@ pub fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str
     paper.finish("Demand over the tilt")
 }
 
-/// Degrees all around, with a tick at each side of a plate.
+/// Returns the axis of degrees all around, with a tick at each side of a plate.
 fn around<'a>() -> Axis<'a> {
     Axis { bare: true, ..Axis::linear(0.0, 360.0, "") }
 }
 
-/// The ticks and title of [`around`], and which corner is the lowest in between.
+/// Draws the ticks and title of [`around`], and the name of the lowest corner in between.
 fn sides(paper: &mut Paper, chart: &Chart<'_>) {
     let foot = chart.corner[1] + chart.size[1];
     for k in 0..=4_u8 {
@@ -122,7 +123,8 @@ fn sides(paper: &mut Paper, chart: &Chart<'_>) {
     paper.text([chart.corner[0] + 0.5 * chart.size[0], foot + 22.0], "direction the plate rises to, degrees", LABEL);
 }
 
-/// The demand over the direction that a plate rises to, in degrees, with the limit; what the file does not give is dashed.
+/// Draws the demand over the direction that a plate rises to, in degrees, with the limit; directions that are not in
+/// the file are dashed.
 ///
 /// `points` are (direction, value, whether the file gives it).
 pub fn over_direction(points: &[(f64, f64, bool)], allowed: f64, title: &str) -> Result<String, FigureError> {
@@ -153,19 +155,19 @@ pub fn over_direction(points: &[(f64, f64, bool)], allowed: f64, title: &str) ->
     paper.finish("Demand over the direction of the tilt")
 }
 
-/// One line: what a part is asked at each tilt or direction, in degrees, as a share of what it stands.
+/// One line: the demand on a part at each tilt or direction, in degrees, as a share of its limit.
 #[derive(Debug)]
 pub struct Share<'a> {
-    /// Of the part.
+    /// Name of the part.
     pub name: &'a str,
-    /// Decides its color.
+    /// Verdict, which decides the color.
     pub verdict: Verdict,
-    /// Tilt or direction, share.
+    /// Tilt or direction, and share.
     pub points: Vec<(f64, f64)>,
 }
 
-/// What each part is asked, as a share of what it stands, over the tilt or, of a plate, over the direction; each line has its name at
-/// its right end.
+/// Draws the demand on each part, as a share of its limit, over the tilt or, for a plate, over the direction; each line
+/// has its name at its right end.
 pub fn shares(parts: &[Share<'_>], by_direction: bool) -> Result<String, FigureError> {
     let all = || parts.iter().flat_map(|p| &p.points).filter(|p| p.1.is_finite());
     let largest = all().map(|p| p.1).fold(1.0_f64, f64::max);
@@ -192,7 +194,7 @@ pub fn shares(parts: &[Share<'_>], by_direction: bool) -> Result<String, FigureE
         let y = last.map_or(0.0, |p| axes.at(p.0, 100.0 * p.1)[1]);
         ends.push((y, y, ink, name));
     }
-    // names apart, from the top down, then pushed back up from the foot
+    // Names are moved apart, from the top down, then pushed back up from the foot.
     ends.sort_by(|a, b| a.0.total_cmp(&b.0));
     let foot = axes.corner[1] + axes.size[1];
     let mut free = axes.corner[1] + 3.0;
@@ -226,11 +228,11 @@ mod tests {
     fn a_limit_out_of_reach_is_not_drawn_and_a_near_one_is_on_both_sides() {
         let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -1.0)];
         let limits = |allowed| history(&points, &[0.5], allowed, ["t", "a"]).unwrap().matches(LIMIT.dash).count();
-        // The third is that of the key.
+        // The third line is that of the key.
         assert_eq!([limits(100.0), limits(2.5)], [0, 3]);
     }
 
-    /// What the file does not give is dashed, up to the directions that it gives.
+    /// Directions that are not in the file are dashed, up to those that are.
     #[test]
     fn directions_that_are_not_given_are_dashed() {
         let drawn = |given: fn(f64) -> bool| {
@@ -238,7 +240,7 @@ mod tests {
             over_direction(&points, 1.5, "demand").unwrap()
         };
         let dashes = |drawn: &str| drawn.matches("\"3.5 2\"").count();
-        // One line before 60°, one after 180°, and that of the key.
+        // The dashes are one line before 60°, one after 180°, and that of the key.
         assert_eq!([dashes(&drawn(|_| true)), dashes(&drawn(|x| (60.0..=180.0).contains(&x)))], [0, 2 + 1]);
         assert!(drawn(|_| true).contains(">d</tspan>"), "the lowest corners");
     }

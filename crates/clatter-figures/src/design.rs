@@ -11,14 +11,14 @@ use crate::paper::{Paper, SMALL, What};
 use crate::plane::{percent, plane_axes};
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND};
 
-/// Which (q, e) are safe.
+/// The safe part of the plane of (q, e).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DesignPlane {
-    /// What has to be safe, and where it is.
+    /// Name of each part that has to be safe, and its border.
     pub borders: Vec<(String, DesignBorder)>,
     /// The product: q, and the low and high end of e.
     pub product: Option<(f64, [f64; 2])>,
-    /// How the drops of the product were followed, in a few words.
+    /// The model of the drops of the product, in a few words.
     pub model: String,
     /// Ranges of q and e that can be built.
     pub reach: Option<[[f64; 2]; 2]>,
@@ -35,17 +35,17 @@ pub enum DesignBorder {
     Grid {
         /// Values of q, and of e.
         side: usize,
-        /// allowed/demand − 1; none where it is not known.
+        /// allowed/demand − 1; none where it is unknown.
         margins: Vec<Option<f64>>,
     },
 }
 
-/// Safe, in the plane.
+/// Color of the safe part of the plane.
 const SAFE: &str = BLUES[2];
 const BORDER: Ink<'static> = Ink::line("#2c5a86", 0.9);
-/// Not known.
+/// Color of the unknown part.
 const UNKNOWN: &str = "#ffffff";
-/// Names longer than this are cut.
+/// Length beyond which names are cut.
 const LONGEST_NAME: usize = 26;
 
 fn drawn(border: &DesignBorder) -> Cells {
@@ -77,7 +77,7 @@ fn drawn(border: &DesignBorder) -> Cells {
     }
 }
 
-/// Where margins on a grid vanish, linear in the logarithm of allowed over demand.
+/// Returns the lines where margins on a grid vanish, linear in the logarithm of allowed over demand.
 fn grid(side: usize, margins: &[Option<f64>]) -> Cells {
     #[expect(clippy::cast_precision_loss, reason = "a small count")]
     let at = |i: usize| i as f64 / (side.max(2) - 1) as f64;
@@ -85,13 +85,13 @@ fn grid(side: usize, margins: &[Option<f64>]) -> Cells {
     cells([side; 2], |i, j| (at(j), at(i)), |i, j| margin(i, j).map(|m| m.ln_1p().clamp(-2.0, 2.0)))
 }
 
-/// A letter or number at a point.
+/// Draws a letter or number at a point.
 fn badge(paper: &mut Paper, [x, y]: Pt, text: &str) {
     paper.circle([x, y], 5.2, Ink { stroke: "#2c5a86", width: 0.6, ..Ink::fill("#ffffff") });
     paper.text([x, y + 2.6], text, Label { size: 7.5, ..LABEL });
 }
 
-/// Short strokes on the side of a border where something fails.
+/// Draws short strokes on the unsafe side of a border.
 fn barbs(paper: &mut Paper, chart: &Chart<'_>, lines: &[Shape]) {
     const APART: f64 = 8.0;
     let mut since = 0.5 * APART;
@@ -111,7 +111,7 @@ fn barbs(paper: &mut Paper, chart: &Chart<'_>, lines: &[Shape]) {
     }
 }
 
-/// Which inertia ratios and restitutions make the parts of a product safe.
+/// Draws the inertia ratios and restitutions that make the parts of a product safe.
 ///
 /// ```
 /// use clatter::design::{Goal, region};
@@ -140,7 +140,7 @@ pub fn plane(data: &DesignPlane) -> Result<String, FigureError> {
     for (_, drawn) in &parts {
         fill(&drawn.unknown, UNKNOWN);
     }
-    // What fails one part fails, whatever is known of the others.
+    // A design that is unsafe for one part is unsafe, even if others are unknown.
     for (_, drawn) in &parts {
         fill(&drawn.shapes, SAND);
     }
@@ -170,7 +170,7 @@ pub fn plane(data: &DesignPlane) -> Result<String, FigureError> {
         if parts.len() == 1 && data.product.is_none() {
             continue; // the legend has said it
         }
-        // where the number is farthest from other numbers, marks and the frame
+        // The number stands where it is farthest from other numbers, marks and the frame.
         let points = lines.iter().flatten().map(|(e, q)| chart.at(*e, *q));
         let room = |p: &Pt| {
             let edge = (0..2).map(|i| (p[i] - axes.corner[i]).min(axes.corner[i] + axes.size[i] - p[i]));
@@ -233,15 +233,15 @@ pub struct DesignFronts {
     pub threshold: f64,
     /// Zone that is wanted.
     pub wanted: f64,
-    /// At each e: the front among designs that meet the other goals, and without them.
+    /// Fronts at each e: among designs that meet the other goals, and without these.
     pub fronts: Vec<[Front; 2]>,
-    /// What the other goals are, in figure markup; empty if there are none.
+    /// The other goals, in figure markup; empty if there are none.
     pub others: String,
     /// Designs to compare with: name, q, and the zone they give.
     pub designs: Vec<(String, FrontPoint)>,
 }
 
-/// The front of the largest safe zone against the inertia ratio, for each restitution.
+/// Draws the front of the largest safe zone against the inertia ratio, for each restitution.
 pub fn fronts(data: &DesignFronts) -> Result<String, FigureError> {
     let largest = data.fronts.iter().filter_map(|[_, free]| free.largest()).map(|p| p.s).fold(data.wanted, f64::max);
     let title = format!("safe zone within {} *v*_0, per cent of the bar", data.threshold);

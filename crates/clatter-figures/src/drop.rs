@@ -14,19 +14,19 @@ use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, SAND, width};
 /// One drop in time, as [`drop`] draws it.
 #[derive(Debug, Clone, Copy)]
 pub struct Drop<'a> {
-    /// What the model keeps, in a few words.
+    /// Name of the model, in a few words.
     pub model: &'a str,
     /// Heights, velocities and, where contacts take time, accelerations and forces over time.
     pub rows: &'a [Row],
     /// The strikes.
     pub strikes: &'a [Strike],
-    /// How long each strike presses, where contacts take time; else empty.
+    /// The times of contact of each strike, where contacts take time; else empty.
     pub pulses: &'a [clatter_flight::Press],
-    /// How it ends.
+    /// The end of the motion.
     pub stop: Stop,
     /// Positions on the body, in [−1, 1], whose shocks are shown too.
     pub at: &'a [f64],
-    /// What they are called, such as "camera, 55 mm".
+    /// Names of these positions, such as "camera, 55 mm".
     pub called: &'a [String],
 }
 
@@ -45,7 +45,7 @@ struct Unit {
 }
 
 impl Unit {
-    /// In which `largest` lies between 0.5 and 500, if there is one.
+    /// Returns the unit in which `largest` lies between 0.5 and 500, if there is one.
     fn of(largest: f64) -> Self {
         const PREFIXES: [(f64, &str); 9] = [
             (1e-9, "G"),
@@ -73,7 +73,7 @@ struct Column {
     until_s: f64,
 }
 
-/// A frame in a column, and what its numbers are multiplied by.
+/// A frame in a column, and the factors of its numbers.
 struct Panel<'a> {
     chart: Chart<'a>,
     time: f64,
@@ -91,7 +91,7 @@ impl Panel<'_> {
     }
 }
 
-/// Of the points within each step, those that show: the first, the last, the lowest and the highest.
+/// Returns the visible points within each step: the first, the last, the lowest and the highest.
 pub(crate) fn thinned(points: &[(f64, f64)], step: f64) -> Vec<(f64, f64)> {
     let bucket = |p: &(f64, f64)| (p.0 / step).floor();
     let mut kept = Vec::new();
@@ -105,8 +105,9 @@ pub(crate) fn thinned(points: &[(f64, f64)], step: f64) -> Vec<(f64, f64)> {
     kept
 }
 
-/// Until when the first strikes are shown magnified: up to the first long pause after at least three of them, else to
-/// the last one before, and only if that leaves most of the time to the rest. The hardest strike is among them.
+/// Returns the end of the part that is magnified, 1.25 times the time t at which a long pause begins; `None` if there is
+/// no such pause. A pause is long if it follows at least three strikes and lasts beyond 1.6 t; if none does, the last
+/// pause is taken if it lasts beyond 2 t. Pauses count from the hardest strike on, as long as 7.5 t is before `end_s`.
 fn early(drop: &Drop<'_>, end_s: f64) -> Option<f64> {
     let hardness = |strike: &Strike| strike.delta_v_m_s.iter().fold(0.0_f64, |most, dv| most.max(dv.abs()));
     let strikes = drop.strikes.iter().map(hardness).enumerate();
@@ -129,15 +130,15 @@ fn early(drop: &Drop<'_>, end_s: f64) -> Option<f64> {
     before
 }
 
-/// Lowest and highest of some values and 0, with a margin.
+/// Returns the lowest and highest of some values and 0, with a margin.
 fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let (low, high) = values.filter(|v| v.is_finite()).fold((0.0, 0.0), |(a, b): (f64, f64), v| (a.min(v), b.max(v)));
     if high > low { [low - 0.06 * (high - low), high + 0.06 * (high - low)] } else { [-0.06, 1.0] }
 }
 
-/// A drop as a picture: heights of both ends over time with the strikes marked, the velocity shocks below, and, where
-/// contacts take time, forces and accelerations below these. Where the later strikes come much later than the first,
-/// the first stand beside the whole, magnified.
+/// Draws a drop: heights of both ends over time with the strikes marked, the velocity shocks below, and, where contacts
+/// take time, forces and accelerations below these. Where the later strikes come much later than the first, the first
+/// are drawn next to the whole, magnified.
 ///
 /// ```
 /// use clatter_flight::{Profile, Model, Scene};
@@ -176,7 +177,7 @@ pub fn drop(drop: &Drop<'_>) -> Result<String, FigureError> {
     paper.finish("Heights of both ends and velocity shocks over time")
 }
 
-/// What is drawn, how it ends, and what the lines mean.
+/// Draws the name of the model, the end of the motion, and the key of the lines.
 fn heading(paper: &mut Paper, drop: &Drop<'_>, pressed: bool) {
     let stop = match drop.stop {
         Stop::AtRest { .. } => "at rest at",
@@ -224,7 +225,7 @@ fn position_mark(k: usize) -> Ink<'static> {
     Ink { stroke: INK, width: 0.7, ..Ink::fill(FILLS[k % FILLS.len()]) }
 }
 
-/// A frame over the time of a column, with ticks and a title of its values.
+/// Draws a frame over the time of a column, with ticks and a title of its values.
 fn panel<'a>(
     paper: &mut Paper,
     column: Column,
@@ -261,7 +262,7 @@ fn heights(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2],
     panel.chart.border(paper);
 }
 
-/// The strikes of a column; of those that would lie on one another the hardest.
+/// Returns the strikes of a column; of those that would overlap only the hardest.
 fn shown<'a>(strikes: &'a [Strike], panel: &Panel<'_>) -> Vec<&'a Strike> {
     let until = panel.chart.x.high * (1.0 + 1e-9);
     let seen = strikes.iter().take_while(|strike| strike.time_s * panel.time <= until);
@@ -301,7 +302,7 @@ fn shocks(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2], 
     let mut last: Option<(usize, f64)> = None;
     for strike in strikes {
         let [mut x, ground] = panel.at(strike.time_s, 0.0);
-        // The other end's strike at this very time stays to be seen beside it.
+        // The other end's strike at this very time is moved aside to remain visible.
         if last.is_some_and(|(end, at)| end != strike.point && (x - at).abs() < 0.5) {
             x += 1.8;
         }
@@ -343,14 +344,14 @@ mod tests {
     use super::*;
     use clatter_flight::{Model, Profile, Scene};
 
-    /// Of points that lie closer than can be seen, the first, the last and both extremes are drawn, in order.
+    /// Of points that are too close to tell apart, the first, the last and both extremes are drawn, in order.
     #[test]
     fn a_curve_keeps_its_highs_and_lows() {
         let points: Vec<(f64, f64)> = (0..100).map(|i| (0.01 * f64::from(i), f64::from(i * 37 % 100))).collect();
         // 37 i is 0 and 99 of a hundred at i = 0 and 27, and 63 at the last.
         assert_eq!(thinned(&points, 1.0), [points[0], points[27], points[99]]);
         let turned: Vec<(f64, f64)> = points.iter().map(|(t, y)| (*t, 50.0 - (y - 20.0).abs())).collect();
-        // Least of all where y is 99, most where it is 20.
+        // The least is where y is 99, the largest where it is 20.
         assert_eq!(thinned(&turned, 1.0), [turned[0], turned[27], turned[60], turned[99]]);
     }
 

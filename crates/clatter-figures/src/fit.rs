@@ -18,12 +18,13 @@ const WIDE: f64 = 451.0;
 const HIGH: f64 = 112.0;
 const GAP: f64 = 44.0;
 const TOP: f64 = 30.0;
-/// Room between panels that the last one needs not.
+/// Room between panels that the last one does not need.
 const LAST: f64 = 12.0;
 const MEASURED: Ink = Ink::line(GRAY, 1.6);
 const COMPUTED: Ink = Ink::line(RUST, 0.9);
 
-/// Each record as a panel: what was measured, and the drop that is nearest to it, in time since its first touch.
+/// Draws each record as a panel: the measured values, and the drop that is nearest to them, in time since its first
+/// touch.
 ///
 /// ```
 /// use clatter_assess::fit::bounces;
@@ -48,7 +49,7 @@ pub fn fit(fit: &Fit) -> Result<String, FigureError> {
     paper.finish("Measured and computed drop")
 }
 
-/// What marks and lines mean, of those kinds that there are.
+/// Draws the key of the kinds of marks and lines that occur.
 fn legend(paper: &mut Paper, fit: &Fit) {
     let accelerations = fit.records.iter().filter(|record| record.curves.len() == 1).count();
     let mut x = LEFT;
@@ -87,7 +88,7 @@ fn frame<'a>(paper: &mut Paper, top: f64, [from, to]: [f64; 2], [low, high]: [f6
     Axes { corner: [LEFT, top], size: [WIDE, HIGH], x, y }.on(paper, 36.0)
 }
 
-/// Stems of computed strikes upward from the ground, of measured ones to their marks.
+/// Draws stems of computed strikes upward from the ground, and of measured ones to their marks.
 fn strikes(paper: &mut Paper, top: f64, record: &RecordFit, computed: &[(f64, End)]) {
     let since = |time_s: f64| time_s - record.first_touch_s;
     let times = || record.strikes.iter().map(|strike| since(strike.measured.time_s));
@@ -114,7 +115,7 @@ fn strikes(paper: &mut Paper, top: f64, record: &RecordFit, computed: &[(f64, En
     chart.border(paper);
 }
 
-/// Dots for heights that were measured, lines for what was computed and for accelerations.
+/// Draws dots for measured heights, and lines for computed values and for accelerations.
 fn values(paper: &mut Paper, top: f64, record: &RecordFit, factor: f64, title: &str) {
     let dots = record.curves.len() == 2;
     let all = || record.curves.iter().flatten();

@@ -1,4 +1,4 @@
-//! Values on a grid: where they are negative, and the lines on which they vanish.
+//! Values on a grid: the regions where they are negative, and the lines on which they vanish.
 
 /// A polygon of a plane, or a line.
 pub(crate) type Shape = Vec<(f64, f64)>;
@@ -6,16 +6,16 @@ pub(crate) type Shape = Vec<(f64, f64)>;
 /// The cells of a grid, cut where the values vanish.
 #[derive(Debug, Default)]
 pub(crate) struct Cells {
-    /// Where values are negative, in pieces that may overlap.
+    /// Regions of negative values, in pieces that may overlap.
     pub(crate) shapes: Vec<Shape>,
-    /// The lines that bound it; negative values are to the left of each.
+    /// The lines that bound these regions; negative values are to the left of each.
     pub(crate) lines: Vec<Shape>,
-    /// Where they are not known.
+    /// Regions of unknown values.
     pub(crate) unknown: Vec<Shape>,
 }
 
-/// Cuts each cell along straight lines. Of a grid point in row i and column j `place` is where it is, `value` its value, none where that
-/// is not known. Rows go upward and columns to the right.
+/// Cuts each cell along straight lines. For the grid point in row i and column j `place` returns its position, `value`
+/// its value, or none where that is unknown. Rows go upward and columns to the right.
 pub(crate) fn cells(
     [rows, columns]: [usize; 2],
     place: impl Fn(usize, usize) -> (f64, f64),
@@ -48,7 +48,7 @@ pub(crate) fn cells(
             if shape.len() > 2 {
                 cells.shapes.push(shape);
             }
-            // Around the cell one leaves what is negative and comes back to it.
+            // Around the cell one leaves the negative region and comes back to it.
             if values[0] >= 0.0 {
                 cuts.reverse();
             }

@@ -12,7 +12,7 @@ use crate::grid::cells;
 use crate::paper::{Paper, SMALL, What};
 use crate::style::{Anchor, BLUES, INK, Ink, LABEL, Label, SAND, rgb, width};
 
-/// What a quantity is called on the color bar, in figure markup.
+/// Returns the name of a quantity on the color bar, in figure markup.
 fn name(quantity: Quantity) -> String {
     match quantity {
         Quantity::Impacts => "number of impacts".into(),
@@ -25,19 +25,20 @@ fn name(quantity: Quantity) -> String {
     }
 }
 
-/// How values become colors: along an axis, which may end below the largest value.
+/// The map from values to colors: along an axis, which may end below the largest value.
 struct Scale {
     axis: Axis<'static>,
-    /// The largest value, where that lies beyond the axis.
+    /// The largest value, if it is beyond the axis.
     most: Option<f64>,
 }
 
-/// The scale ends where so much of the map lies below, if that saves half of the colors: a corner must not take them all.
+/// The share of the map below which the scale may end, if that saves half of the colors: a corner must not take them
+/// all.
 const CUT: f64 = 0.98;
 
 impl Scale {
-    /// Over the finite values. If none is negative and the positive ones span more than a factor of 30, logarithmic
-    /// from the smallest positive one on.
+    /// Creates the scale over the finite values. If none is negative and the positive ones span more than a factor of
+    /// 30, it is logarithmic from the smallest positive one on.
     fn of(values: &[f64]) -> Self {
         let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
         finite.sort_by(f64::total_cmp);
@@ -60,12 +61,12 @@ impl Scale {
         let saves = upper > whole.low && whole.unit(upper) < 0.5;
         if saves { Self { axis: up_to(upper), most: Some(high) } } else { Self { axis: whole, most: None } }
     }
-    /// Where a value lies between the ends, 0 to 1.
+    /// Returns the place of a value between the ends, 0 to 1.
     fn unit(&self, v: f64) -> f64 {
         let unit = self.axis.unit(v.clamp(self.axis.low, self.axis.high));
         if unit.is_finite() { unit } else { 0.5 }
     }
-    /// Those of contours: the ticks and, where they are even, the middles between them.
+    /// Returns the levels of contours: the ticks and, where they are even, the middles between them.
     fn levels(&self) -> Vec<f64> {
         let ticks = self.axis.ticks().0;
         let middles = ticks.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).filter(|_| !self.axis.log);
@@ -74,7 +75,7 @@ impl Scale {
     }
 }
 
-/// The palette as plotters mixes it.
+/// Returns the palette for plotters.
 pub(crate) fn palette() -> DerivedColorMap<RGBColor> {
     let colors = BLUES.map(|color| {
         let [r, g, b] = rgb(color);
@@ -83,14 +84,14 @@ pub(crate) fn palette() -> DerivedColorMap<RGBColor> {
     DerivedColorMap::new(&colors)
 }
 
-/// The color at 0 ≤ x ≤ 1 of the palette.
+/// Returns the color at 0 ≤ x ≤ 1 of the palette.
 #[expect(clippy::cast_possible_truncation, reason = "a share")]
 pub(crate) fn color(palette: &DerivedColorMap<RGBColor>, x: f64) -> [u8; 3] {
     let RGBColor(r, g, b) = palette.get_color(x as f32);
     [r, g, b]
 }
 
-/// Pixels as a PNG in base64; empty if there are none.
+/// Returns pixels as a PNG in base64; empty if there are none.
 pub(crate) fn png(width: usize, height: usize, pixels: &[u8]) -> String {
     let mut bytes = Vec::new();
     let (Ok(w), Ok(h)) = (u32::try_from(width), u32::try_from(height)) else { return String::new() };
@@ -101,12 +102,12 @@ pub(crate) fn png(width: usize, height: usize, pixels: &[u8]) -> String {
     if written.is_err() { String::new() } else { base64::engine::general_purpose::STANDARD.encode(&bytes) }
 }
 
-/// Pixels a grid point gets on a side, so that viewers which smooth do so within a point.
+/// Returns the pixels of a grid point on a side, so that viewers which smooth do so within a point.
 fn zoom(points: usize) -> usize {
     500usize.div_ceil(points.max(1)).min(64)
 }
 
-/// An axis whose first and last grid points lie half a cell inside the frame.
+/// Returns an axis whose first and last grid points lie half a cell inside the frame.
 fn axis(of: clatter::Axis, title: &str) -> Axis<'_> {
     #[expect(clippy::cast_precision_loss, reason = "a grid has far fewer than 2^53 points")]
     let last = of.points().max(1) as f64 - 1.0;
@@ -115,9 +116,10 @@ fn axis(of: clatter::Axis, title: &str) -> Axis<'_> {
     Axis::linear(low - half, high + half, title)
 }
 
-/// A map as a heat map with a color bar, a cell a grid point, and contours at the ticks of the bar, and between them, where the quantity is
-/// continuous; that of no safe zone is bold. Endless (+∞) is shown apart. The color bar is logarithmic where no value is negative and the
-/// positive ones span more than a factor of 30; where one corner would take most of the colors, it ends below it and says so.
+/// Draws a map as a heat map with a color bar, a cell a grid point, and contours at the ticks of the bar, and between
+/// them, where the quantity is continuous; that of no safe zone is bold. Endless (+∞) is shown apart. The color bar is
+/// logarithmic where no value is negative and the positive ones span more than a factor of 30; where one corner would
+/// take most of the colors, it ends below it, with a note.
 ///
 /// ```
 /// use clatter::{Axis, Map, Quantity};
@@ -151,7 +153,7 @@ pub fn map(map: &Map) -> Result<String, FigureError> {
     }
     let corners = vec![(axes.x.low, axes.y.high), (axes.x.high, axes.y.low)];
     chart.draw(&mut paper, vec![corners], What::Image(&png(ne * wide, nq * high, &pixels)));
-    // Numbers of impacts and what hangs on them change by steps, which the colors show.
+    // Numbers of impacts and quantities that depend on them change by steps, which the colors show.
     if !matches!(map.quantity, Quantity::Impacts | Quantity::Duration) {
         for level in scale.levels() {
             let place = |i: usize, j: usize| (map.e.value(j), map.q.value(i));
@@ -166,11 +168,11 @@ pub fn map(map: &Map) -> Result<String, FigureError> {
     paper.finish(title)
 }
 
-/// Where the color bar and its words begin.
+/// Left edges of the color bar and of its words.
 const BAR: f64 = 314.0;
 const WORDS: f64 = BAR + 17.0;
 
-/// What the bar does not hold: its color and its words.
+/// Returns color and words for the values beyond the bar.
 fn beyond(map: &Map, scale: &Scale) -> Vec<(&'static str, String)> {
     let mut beyond = Vec::new();
     if map.values.iter().any(|v| !v.is_finite()) {
@@ -182,7 +184,7 @@ fn beyond(map: &Map, scale: &Scale) -> Vec<(&'static str, String)> {
     beyond
 }
 
-/// The color bar with its ticks and title.
+/// Draws the color bar with its ticks and title.
 fn bar(
     paper: &mut Paper,
     map: &Map,
@@ -241,7 +243,7 @@ mod tests {
         assert!((1.9..2.1).contains(&scale.axis.high) && scale.unit(500.0) >= 1.0, "{:?}", scale.axis);
     }
 
-    /// Words of the legend end within the picture, whatever they say.
+    /// Words of the legend end within the picture, whatever their length.
     #[test]
     fn the_legend_is_not_cut() {
         let mut values: Vec<f64> = (0..1000).map(|k| 1.0 + f64::from(k) / 1000.0).collect();
@@ -251,12 +253,12 @@ mod tests {
         let drawn = map(&Map { quantity: Quantity::PeakEnd, q, e, values }).unwrap();
         let wide: f64 = drawn.split("viewBox=\"0 0 ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
         assert!(drawn.contains("2 % above"), "{drawn}");
-        // The typeface is at most a tenth wider than reckoned.
+        // The typeface is at most a tenth wider than the estimate.
         let needs = WORDS + 1.1 * width(&format!("2 % above, to {}", three(123_456.0)), SMALL.size);
         assert!(wide > needs, "{wide} for {needs}");
     }
 
-    /// The first of the pictures in a drawing: its width, and its pixels from the top left on.
+    /// Returns the width of the first picture in a drawing, and its pixels from the top left on.
     fn picture(drawn: &str) -> (usize, Vec<u8>) {
         let text = drawn.split("data:image/png;base64,").nth(1).unwrap().split('"').next().unwrap();
         let bytes = base64::engine::general_purpose::STANDARD.decode(text).unwrap();

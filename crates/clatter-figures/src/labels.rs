@@ -8,14 +8,14 @@ const LINE: f64 = 8.5;
 
 /// A label that has to stand near a point.
 #[derive(Debug)]
-pub(super) struct Wanted<'a> {
+pub(super) struct LabelRequest<'a> {
     pub(super) at: Pt,
-    /// Of what is drawn there.
+    /// Radius of the mark at the point.
     pub(super) radius: f64,
     pub(super) text: &'a str,
 }
 
-/// Where it stands.
+/// The place of a label.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Placed {
     corner: Pt,
@@ -23,7 +23,7 @@ pub(super) struct Placed {
 }
 
 impl Placed {
-    /// How far two boxes reach into one another; negative where they are apart.
+    /// Returns the overlap of two boxes; negative where they are apart.
     fn overlap(&self, other: &Self) -> f64 {
         let along = |k: usize| {
             let end = (self.corner[k] + self.size[k]).min(other.corner[k] + other.size[k]);
@@ -31,21 +31,21 @@ impl Placed {
         };
         along(0).min(along(1))
     }
-    /// Where its words begin, at their foot.
+    /// Returns the begin of its words, at their foot.
     pub(super) fn baseline(&self) -> Pt {
         [self.corner[0], self.corner[1] + 0.79 * LINE]
     }
-    /// The point nearest to `p`, and how far it is.
+    /// Returns the point nearest to `p`, and how far it is.
     fn nearest(&self, p: Pt) -> (Pt, f64) {
         let near: Pt = std::array::from_fn(|k| p[k].clamp(self.corner[k], self.corner[k] + self.size[k]));
         (near, (near[0] - p[0]).hypot(near[1] - p[1]))
     }
-    /// Where a line to the mark begins, if that is too far to be seen as its own.
-    pub(super) fn leader(&self, of: &Wanted<'_>) -> Option<Pt> {
+    /// Returns the begin of a line to the mark, if that is too far to be recognized as its own.
+    pub(super) fn leader(&self, of: &LabelRequest<'_>) -> Option<Pt> {
         let (near, far) = self.nearest(of.at);
         (far > of.radius + 5.0).then_some(near)
     }
-    /// Whether a line comes through the box.
+    /// Returns whether a line crosses the box.
     fn is_crossed(&self, [a, b]: [Pt; 2]) -> bool {
         (0..=40).any(|i| {
             let t = f64::from(i) / 40.0;
@@ -57,9 +57,9 @@ impl Placed {
     }
 }
 
-/// Boxes for all labels: apart from one another, from all marks and within the frame, each as near to its point as the
-/// ones before it leave, and clear of the lines where that is to be had.
-pub(super) fn arrange(wanted: &[Wanted<'_>], [from, to]: [Pt; 2], lines: &[[Pt; 2]]) -> Vec<Placed> {
+/// Returns boxes for all labels: apart from one another, from all marks and within the frame. Each is as near to its
+/// point as the ones before it leave, and clear of the lines where possible.
+pub(super) fn arrange(wanted: &[LabelRequest<'_>], [from, to]: [Pt; 2], lines: &[[Pt; 2]]) -> Vec<Placed> {
     let around = |p: Pt, r: f64| Placed { corner: [p[0] - r, p[1] - r], size: [2.0 * r, 2.0 * r] };
     let marks: Vec<Placed> = wanted.iter().map(|w| around(w.at, w.radius + 1.2)).collect();
     let (mut placed, mut leaders) = (Vec::<Placed>::new(), Vec::<[Pt; 2]>::new());
@@ -80,7 +80,7 @@ pub(super) fn arrange(wanted: &[Wanted<'_>], [from, to]: [Pt; 2], lines: &[[Pt; 
                 }
                 let (near, far) = label.nearest(w.at);
                 let crossed = lines.iter().filter(|line| label.is_crossed(**line)).count();
-                // A leader through what others say misleads.
+                // A leader through other words misleads.
                 let through = marks.iter().chain(&placed).filter(|other| other.is_crossed([near, w.at])).count();
                 let through = through.saturating_sub(1) // its own mark
                     + leaders.iter().filter(|leader| label.is_crossed(**leader)).count();
@@ -95,7 +95,7 @@ pub(super) fn arrange(wanted: &[Wanted<'_>], [from, to]: [Pt; 2], lines: &[[Pt; 
                 break;
             }
         }
-        // A frame without any room left: an empty box, and no words over others.
+        // In a frame without any room the box is empty, so that no words cover others.
         let label = best.map_or(Placed { corner: w.at, size: [0.0, 0.0] }, |(_, label)| label);
         leaders.extend(label.leader(w).map(|near| [near, w.at]));
         placed.push(label);
@@ -117,8 +117,8 @@ mod tests {
             let (heap, i) = (f64::from(k / 4), f64::from(k % 4));
             [40.0 + 70.0 * heap + 5.0 * i, 60.0 + 30.0 * heap + 4.0 * (i * 7.0 % 3.0)]
         };
-        let wanted: Vec<Wanted<'_>> =
-            (0..18).map(|k| Wanted { at: at(k), radius: MARK, text: "finite tilt, largest shock" }).collect();
+        let wanted: Vec<LabelRequest<'_>> =
+            (0..18).map(|k| LabelRequest { at: at(k), radius: MARK, text: "finite tilt, largest shock" }).collect();
         let labels = arrange(&wanted, [[0.0, 0.0], FRAME], &[]);
         for (i, a) in labels.iter().enumerate() {
             assert!(a.size[0] > 50.0, "label {i} has found a place");
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_frame_without_room_leaves_words_out() {
-        let wanted = [Wanted { at: [5.0, 5.0], radius: MARK, text: "closed form, net change" }];
+        let wanted = [LabelRequest { at: [5.0, 5.0], radius: MARK, text: "closed form, net change" }];
         let [label] = arrange(&wanted, [[0.0, 0.0], [10.0, 10.0]], &[])[..] else { panic!("one label") };
         assert!(label.size[0].abs() < f64::EPSILON, "{label:?}");
     }

@@ -1,4 +1,5 @@
-//! Error over cost: what every model gets wrong on one drop and how long it takes, the cheapest within the tolerance ringed.
+//! Error over cost: the error of every model on one drop and its time, with a ring around the cheapest within the
+//! tolerance.
 
 use clatter_assess::Model;
 use clatter_assess::ladder::{Ladder, Measured, Rung};
@@ -6,7 +7,7 @@ use clatter_assess::ladder::{Ladder, Measured, Rung};
 use crate::FigureError;
 use crate::axis::{Axis, step_up, tick};
 use crate::chart::Axes;
-use crate::labels::{SIZE, Wanted, arrange};
+use crate::labels::{LabelRequest, SIZE, arrange};
 use crate::paper::{Paper, SMALL};
 use crate::product::fit;
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND};
@@ -14,34 +15,34 @@ use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND};
 /// One panel.
 #[derive(Debug)]
 pub struct Panel<'a> {
-    /// What is measured, as it stands.
+    /// The measured quantity.
     pub title: String,
-    /// In which drop.
+    /// The drop.
     pub drop: String,
     /// The models on it.
     pub ladder: &'a Ladder,
-    /// Why no cheaper model will do, in parts apart by semicolons.
+    /// The reason against cheaper models, in parts apart by semicolons.
     pub reason: String,
-    /// What a model may get wrong.
+    /// Tolerance of the error.
     pub tolerance: f64,
 }
 
 /// Size of a frame, in pt, and the left edge of a frame in its column.
 const FRAME: Pt = [184.0, 98.0];
 const LEFT: f64 = 36.0;
-/// From the top of a panel to its frame, to the next panel, and from column to column.
+/// Distances from the top of a panel to its frame, to the next panel, and from column to column.
 const HEAD: f64 = 56.0;
 const PANEL: f64 = HEAD + FRAME[1] + 32.0;
 const COLUMN: f64 = 239.0;
-/// Height of the strip at its foot for errors that are below what the reference is good for.
+/// Height of the strip at the foot for errors below the accuracy of the reference.
 const STRIP: f64 = 16.0;
 /// Radius of a mark, and of the ring around the cheapest model.
 const MARK: f64 = 3.0;
 const RING: f64 = 5.4;
-/// Errors above this share say no more than that a model is of no use.
+/// The largest error in the picture: with a larger one a model is simply useless.
 const MOST: f64 = 1e2;
 
-/// Panels in two columns; one alone stands by itself.
+/// Draws panels in two columns; one alone stands by itself.
 pub fn panels(panels: &[Panel<'_>]) -> Result<String, FigureError> {
     let columns = if panels.len() < 2 { 1 } else { 2 };
     let rows = f64::from(u32::try_from(panels.len().div_ceil(columns)).unwrap_or(u32::MAX));
@@ -58,7 +59,7 @@ pub fn panels(panels: &[Panel<'_>]) -> Result<String, FigureError> {
     paper.finish("Error over cost of every model on one drop")
 }
 
-/// A model in words.
+/// Returns a model in words.
 #[must_use]
 pub fn words(model: Model) -> &'static str {
     match model {
@@ -71,8 +72,8 @@ pub fn words(model: Model) -> &'static str {
     }
 }
 
-/// The same of what answers a drop.
-fn of_rung(rung: Rung) -> &'static str {
+/// Returns the words for a rung of the ladder.
+fn rung_words(rung: Rung) -> &'static str {
     match rung {
         Rung::Model(model) => words(model),
         Rung::Bar => "bar along the length",
@@ -81,7 +82,7 @@ fn of_rung(rung: Rung) -> &'static str {
     }
 }
 
-/// The error axis: its low end, where the strip begins, its high end, as shares.
+/// Returns the ends of the error axis as shares: its low end, the begin of the strip, its high end.
 fn errors(ladder: &Ladder, tolerance: f64) -> [f64; 3] {
     let strip = ladder.reference.tolerance;
     let shown = ladder.models.iter().map(|m| m.error).filter(|error| *error <= MOST);
@@ -116,11 +117,15 @@ fn panel(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     };
     let is_cheapest = |m: &Measured| m.model == of.ladder.cheapest;
     let mut shown: Vec<&Measured> = of.ladder.models.iter().filter(|m| m.error <= MOST).collect();
-    // What matters most finds its place first.
+    // The most important label finds its place first.
     shown.sort_by_key(|m| !is_cheapest(m));
-    let wanted: Vec<Wanted<'_>> = shown
+    let wanted: Vec<LabelRequest<'_>> = shown
         .iter()
-        .map(|m| Wanted { at: place(m), radius: if is_cheapest(m) { RING } else { MARK }, text: of_rung(m.model) })
+        .map(|m| LabelRequest {
+            at: place(m),
+            radius: if is_cheapest(m) { RING } else { MARK },
+            text: rung_words(m.model),
+        })
         .collect();
     let lines = [100.0 * of.tolerance, 100.0 * strip].map(|y| {
         let y = axes.at(axes.x.low, y)[1];
@@ -145,11 +150,11 @@ fn panel(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     axes.border(paper);
 }
 
-/// What is drawn, in which drop, what is the cheapest, and why no cheaper one.
+/// Draws the quantity, the drop, the cheapest model, and the reason against cheaper ones.
 fn head(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     let room = LEFT + FRAME[0] - 4.0;
-    let cheapest = format!("Cheapest within {} %: {}", tick(100.0 * of.tolerance), of_rung(of.ladder.cheapest));
-    let useless = of.ladder.models.iter().filter(|m| m.error > MOST).map(|m| of_rung(m.model)).collect::<Vec<_>>();
+    let cheapest = format!("Cheapest within {} %: {}", tick(100.0 * of.tolerance), rung_words(of.ladder.cheapest));
+    let useless = of.ladder.models.iter().filter(|m| m.error > MOST).map(|m| rung_words(m.model)).collect::<Vec<_>>();
     let cheapest = match &useless[..] {
         [] => cheapest,
         names => format!("{cheapest}; off the scale: {}", names.join(", ")),
@@ -159,7 +164,7 @@ fn head(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
         vec![(of.title.as_str(), 9.0, INK), (of.drop.as_str(), SMALL.size, GRAY), (&cheapest, SMALL.size, RUST)];
     lines.extend(why.split("; ").map(|part| (part, SMALL.size, GRAY)));
     lines.retain(|line| !line.0.is_empty());
-    // The last stands above the frame, the others above it.
+    // The last line stands above the frame, the others above it.
     let mut y = top + HEAD - 6.0;
     for (text, size, color) in lines.into_iter().rev() {
         paper.plain([left + 4.0, y], &fit(text, room), Label { anchor: Anchor::Start, size, color, ..LABEL });
@@ -167,7 +172,7 @@ fn head(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     }
 }
 
-/// Square where the answer is a closed form, round where the drop is followed; darker with more physics.
+/// Draws a square where the answer is a closed form, a circle where the drop is followed; darker with more physics.
 fn mark(paper: &mut Paper, [x, y]: Pt, rung: Rung) {
     let fill = match rung {
         Rung::Model(Model::NetChange | Model::LargestShock) => "#ffffff",

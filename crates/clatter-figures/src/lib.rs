@@ -41,10 +41,10 @@ pub use plate::{Area, HeatMap, Landing, Strike, heat_map, landing, plan};
 pub use product::{Place, product};
 pub use record::{Trace, record};
 pub use ring::ring;
-pub use shock::{Against, Critical, beside, boundary, damage_boundary, rule, spectra, spectrum, two};
+pub use shock::{Against, Critical, boundary, damage_boundary, rule, spectra, spectrum, spectrum_compared, two};
 pub use surface::{Sheet, Surface, surface};
 
-/// What figures are drawn with: a page in points, charts on it, and how lines and words look.
+/// The tools of figures: a page in points, charts on it, and the style of lines and words.
 pub mod draw {
     pub use crate::axis::{Axis, step_up};
     pub use crate::chart::{Axes, Chart};
@@ -54,7 +54,7 @@ pub mod draw {
     pub use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, width};
 }
 
-/// Why a figure was not drawn: what plotters says.
+/// The error of plotters that kept a figure from being drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FigureError(pub(crate) String);
 

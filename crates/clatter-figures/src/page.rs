@@ -1,5 +1,5 @@
-//! Pages that plotters draws on: SVG in units of 1/100 pt, with what its own backend does not have: lines of any width and dash,
-//! labels at any angle with italics and subscripts, images, a title.
+//! Pages that plotters draws on: SVG in units of 1/100 pt, with elements that its own backend lacks: lines of any width
+//! and dash, labels at any angle with italics and subscripts, images, a title.
 
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -13,7 +13,7 @@ use plotters_backend::{
 
 use crate::style::{Anchor, FONT, Ink, Label, Pt, width};
 
-/// What every picture says of where it comes from.
+/// The origin in every picture.
 const MADE_BY: &str = concat!("clatter ", env!("CARGO_PKG_VERSION"));
 
 /// Units of a backend in a point.
@@ -28,19 +28,19 @@ pub(crate) struct Page {
 
 type Drawn = Result<(), DrawingErrorKind<Infallible>>;
 
-/// A coordinate, to 1/100 pt, without a negative zero.
+/// Returns a coordinate as text, to 1/100 pt, without a negative zero.
 fn pt(x: f64) -> String {
     let text = format!("{x:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }
 }
 
-/// Text as XML.
+/// Returns text as XML.
 pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// `*x*` is italic, `_x` or `_{xyz}` a subscript.
+/// Returns SVG for a text in figure markup: `*x*` is italic, `_x` or `_{xyz}` a subscript.
 fn markup(text: &str, size: f64) -> String {
     let mut out = String::new();
     let (mut italic, mut lowered) = (false, false);
@@ -96,7 +96,7 @@ impl Page {
         Self { size, body: Rc::default() }
     }
 
-    /// One path through pieces, each closed if `closed`.
+    /// Draws one path through pieces, each closed if `closed`.
     pub(crate) fn path<'a>(&self, pieces: impl IntoIterator<Item = &'a [Pt]>, closed: bool, ink: &Ink) {
         let mut d = String::new();
         for piece in pieces {
@@ -134,12 +134,12 @@ impl Page {
         self.outline(&format!("M{l} {}a{r} {r} 0 1 0 {k} 0a{r} {r} 0 1 0 -{k} 0Z", pt(y)), ink);
     }
 
-    /// Words in figure markup: `*x*` is italic, `_x` and `_{xyz}` are subscripts.
+    /// Writes words in figure markup: `*x*` is italic, `_x` and `_{xyz}` are subscripts.
     pub(crate) fn text(&self, at: Pt, text: &str, label: &Label) {
         self.set(at, &markup(text, label.size), label);
     }
 
-    /// Words as they are: a name that somebody gave. What XML cannot say is left out.
+    /// Writes a given name without markup. Characters that XML does not allow are left out.
     pub(crate) fn plain(&self, at: Pt, text: &str, label: &Label) {
         let clean: String = text.chars().filter(|c| !c.is_control() && !matches!(c, '\u{FFFE}' | '\u{FFFF}')).collect();
         self.set(at, &escape(&clean), label);
@@ -164,7 +164,7 @@ impl Page {
         let _ = writeln!(body, ">{inner}</text>");
     }
 
-    /// An image from one corner to the other, its pixels kept as they are.
+    /// Draws an image from one corner to the other, without smoothing of its pixels.
     pub(crate) fn image(&self, [x, y]: Pt, [right, foot]: Pt, png: &str) {
         let [x, y, w, h] = [x, y, right - x, foot - y].map(pt);
         let _ = writeln!(
@@ -174,7 +174,7 @@ impl Page {
         );
     }
 
-    /// The picture, with what it shows as its title and what is drawn as its description, and who made it.
+    /// Returns the picture with its title, a description of its content, and its origin.
     pub(crate) fn finish(self, title: &str, description: &str) -> String {
         let [w, h] = self.size.map(pt);
         let described =
@@ -187,7 +187,7 @@ impl Page {
         )
     }
 
-    /// What plotters draws itself: grids, axes and ticks.
+    /// Draws the elements of plotters itself: grids, axes and ticks.
     fn styled<S: BackendStyle>(&self, piece: &[BackendCoord], closed: bool, style: &S, filled: bool) {
         let BackendColor { rgb: (r, g, b), alpha } = style.color();
         if alpha > 0.0 {
@@ -237,7 +237,7 @@ impl DrawingBackend for Page {
     fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Drawn {
         let BackendColor { rgb: (r, g, b), .. } = style.color();
         let (size, color) = (style.size() / UNITS, format!("#{r:02x}{g:02x}{b:02x}"));
-        // The baseline below the point, in the direction of the words.
+        // The baseline is below the point, in the direction of the words.
         let down = size
             * match style.anchor().v_pos {
                 text_anchor::VPos::Top => 0.72,

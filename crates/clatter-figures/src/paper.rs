@@ -1,4 +1,5 @@
-//! A figure in the making: an area of plotters in points, y downward, and the one element that is drawn on it and on charts.
+//! A figure in progress: an area of plotters in points, y downward, and the one element that is drawn on it and on
+//! charts.
 
 use std::iter::Flatten;
 use std::slice::Iter;
@@ -14,13 +15,13 @@ use crate::axis::Axis;
 use crate::page::{Page, UNITS};
 use crate::style::{Anchor, GRAY, Ink, LABEL, Label, Pt};
 
-/// What plotters has no element for: lines with dashes, shapes in pieces, words in figure markup at any angle, images.
+/// An element that plotters lacks: lines with dashes, shapes in pieces, words in figure markup at any angle, images.
 pub(crate) struct Element<'a, P> {
     pub(crate) pieces: Vec<Vec<P>>,
     pub(crate) what: What<'a>,
 }
 
-/// What is drawn at or through its points.
+/// The content at or through the points of an element.
 pub(crate) enum What<'a> {
     Lines(Ink<'a>),
     /// One area, its pieces closed.
@@ -29,9 +30,9 @@ pub(crate) enum What<'a> {
     Circles(f64, Ink<'a>),
     /// Words in figure markup.
     Text(&'a str, Label<'a>),
-    /// Words as they are.
+    /// Words without markup.
     Plain(&'a str, Label<'a>),
-    /// From the first point to the last: a PNG in base64.
+    /// A PNG in base64, from the first point to the last.
     Image(&'a str),
 }
 
@@ -75,7 +76,7 @@ pub struct Paper {
     page: Page,
     pub(crate) root: DrawingArea<Page, Shift>,
     points: DrawingArea<Page, Cartesian2d<Axis<'static>, Axis<'static>>>,
-    /// What is drawn, in words.
+    /// Description of the content in words.
     described: Vec<String>,
     error: Option<FigureError>,
 }
@@ -87,7 +88,7 @@ impl std::fmt::Debug for Paper {
 }
 
 impl Paper {
-    /// A page of this width and height.
+    /// Creates a page of this width and height.
     #[must_use]
     pub fn new(width: f64, height: f64) -> Self {
         let page = Page::new([width, height]);
@@ -99,7 +100,7 @@ impl Paper {
         Self { page, root, points, described: Vec::new(), error: None }
     }
 
-    /// Says what is drawn, for readers that cannot see; in figure markup.
+    /// Adds a description of the content, in figure markup, for readers that cannot see.
     pub(crate) fn describe(&mut self, what: &str) {
         let plain = what.replace(['*', '_', '{', '}'], "");
         if !self.described.contains(&plain) {
@@ -107,12 +108,12 @@ impl Paper {
         }
     }
 
-    /// What a step of plotters gives; its failure is kept.
+    /// Returns the result of a step of plotters, and keeps its failure.
     pub(crate) fn keep<T>(&mut self, step: Result<T, impl std::fmt::Display>) -> Option<T> {
         step.map_err(|error| self.error.get_or_insert_with(|| FigureError(error.to_string())).clone()).ok()
     }
 
-    /// An element on an area of this page.
+    /// Draws an element on an area of this page.
     pub(crate) fn draw<P, C: CoordTranslate<From = P>>(
         &mut self,
         area: &DrawingArea<Page, C>,
@@ -128,27 +129,27 @@ impl Paper {
         self.keep(drawn);
     }
 
-    /// A line through points, or the area within them.
+    /// Draws a line through points, or the area within them.
     pub fn path(&mut self, points: &[Pt], closed: bool, ink: Ink<'_>) {
         self.here(points, if closed { What::Area(ink) } else { What::Lines(ink) });
     }
 
-    /// A straight line.
+    /// Draws a straight line.
     pub fn line(&mut self, from: Pt, to: Pt, ink: Ink<'_>) {
         self.path(&[from, to], false, ink);
     }
 
-    /// A rectangle from its upper left corner, with its width and height.
+    /// Draws a rectangle from its upper left corner, with its width and height.
     pub fn rect(&mut self, [x, y]: Pt, [w, h]: Pt, ink: Ink<'_>) {
         self.path(&[[x, y], [x + w, y], [x + w, y + h], [x, y + h]], true, ink);
     }
 
-    /// A circle of radius r.
+    /// Draws a circle of radius r.
     pub fn circle(&mut self, at: Pt, r: f64, ink: Ink<'_>) {
         self.here(&[at], What::Circles(r, ink));
     }
 
-    /// A line with a head at its end.
+    /// Draws a line with a head at its end.
     pub fn arrow(&mut self, from: Pt, to: Pt, color: &str, width: f64) {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let length = dx.hypot(dy).max(1e-9);
@@ -160,17 +161,18 @@ impl Paper {
         self.path(&[to, side(1.0), side(-1.0)], true, Ink::fill(color));
     }
 
-    /// Words in figure markup.
+    /// Writes words in figure markup.
     pub fn text(&mut self, at: Pt, text: &str, label: Label<'_>) {
         self.here(&[at], What::Text(text, label));
     }
 
-    /// Words as they are.
+    /// Writes words without markup.
     pub fn plain(&mut self, at: Pt, text: &str, label: Label<'_>) {
         self.here(&[at], What::Plain(text, label));
     }
 
-    /// What the lines of a figure mean, one below the other from `at` on. Returns where the next line would stand.
+    /// Draws the key of the lines of a figure, one below the other from `at` on, and returns the height of the next
+    /// line.
     pub fn key(&mut self, [x, mut y]: Pt, lines: &[(Ink<'_>, &str)]) -> f64 {
         for (ink, text) in lines {
             self.describe(&format!("a line: {text}"));
@@ -181,17 +183,17 @@ impl Paper {
         y
     }
 
-    /// A line of words below a key.
+    /// Writes a line of words below a key.
     pub fn note(&mut self, at: Pt, text: &str) {
         self.text(at, text, Label { anchor: Anchor::Start, color: GRAY, ..SMALL });
     }
 
-    /// An image from corner to corner: a PNG in base64.
+    /// Draws an image from corner to corner: a PNG in base64.
     pub(crate) fn image(&mut self, from: Pt, to: Pt, png: &str) {
         self.here(&[from, to], What::Image(png));
     }
 
-    /// The picture, with what it shows as its title.
+    /// Returns the picture with its title.
     ///
     /// # Errors
     /// The first failure of plotters.
@@ -203,5 +205,5 @@ impl Paper {
     }
 }
 
-/// Ticks and keys.
+/// Label of ticks and keys.
 pub const SMALL: Label<'static> = Label { size: 8.0, ..LABEL };

@@ -4,7 +4,7 @@ use crate::axis::Axis;
 use crate::chart::Axes;
 use crate::style::Pt;
 
-/// The plane as a chart, e to the right and q upward.
+/// Returns the plane as a chart, e to the right and q upward.
 #[must_use]
 pub fn plane_axes(corner: Pt, side: f64) -> Axes<'static> {
     Axes {
@@ -15,7 +15,7 @@ pub fn plane_axes(corner: Pt, side: f64) -> Axes<'static> {
     }
 }
 
-/// A share in per cent.
+/// Returns a share in per cent.
 #[must_use]
 pub fn percent(share: f64) -> String {
     let text = format!("{:.1}", 100.0 * share);

@@ -1,4 +1,4 @@
-//! A plate from above: where its parts sit, how its worst drop lands, and what a part would be asked anywhere on it.
+//! A plate from above: the places of its parts, the landing of its worst drop, and the demand on a part anywhere on it.
 
 use clatter_assess::{PlaceMap, Verdict};
 use clatter_flight::Plate;
@@ -14,19 +14,19 @@ use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST};
 /// A part on the plan.
 #[derive(Debug, Clone)]
 pub struct Area<'a> {
-    /// As the pages number it.
+    /// Number of the part on the pages.
     pub number: usize,
-    /// Of the part.
+    /// Name of the part.
     pub name: &'a str,
-    /// Where it may be along the plate and across it, from and to, in m from the middle.
+    /// Range of its place along the plate and across it, from and to, in m from the middle.
     pub reach_m: [[f64; 2]; 2],
-    /// Decides its color.
+    /// Verdict, which decides the color.
     pub verdict: Verdict,
-    /// What stands beside the name, such as the margin.
+    /// Text beside the name, such as the margin.
     pub word: &'a str,
 }
 
-/// Where the plan of a plate stands on the page: the length to the right, the width upward.
+/// The plan of a plate on the page: the length to the right, the width upward.
 struct View<'a> {
     plate: &'a Plate,
     sides_m: [f64; 2],
@@ -35,7 +35,7 @@ struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// In the middle of a room, as large as it goes.
+    /// Creates the view in the middle of a room, as large as possible.
     fn within(plate: &'a Plate, sides_m: [f64; 2], [left, top]: Pt, [wide, high]: Pt) -> Self {
         let [length, width] = sides_m;
         let scale = (wide / length).min(high / width);
@@ -46,13 +46,13 @@ impl<'a> View<'a> {
             scale,
         }
     }
-    /// A place in m from the middle, held on the plate.
+    /// Returns the page coordinates of a place in m from the middle, clamped to the plate.
     fn at(&self, place: [f64; 2]) -> Pt {
         let half = self.sides_m.map(|side| 0.5 * side);
         let [x, y] = [0, 1].map(|k| place[k].clamp(-half[k], half[k]));
         [self.corner[0] + self.scale * (x + half[0]), self.corner[1] + self.scale * (half[1] - y)]
     }
-    /// A place in m from the center of mass.
+    /// Returns the page coordinates of a place in m from the center of mass.
     fn about_center(&self, [x, y]: [f64; 2]) -> Pt {
         let [cx, cy] = self.center();
         self.at([x + cx, y + cy])
@@ -64,12 +64,12 @@ impl<'a> View<'a> {
     fn size(&self) -> Pt {
         self.sides_m.map(|side| self.scale * side)
     }
-    /// The corners a, b, c and d.
+    /// Returns the page coordinates of corners a, b, c and d.
     fn corners(&self) -> [Pt; 4] {
         let [x, y] = self.sides_m.map(|side| 0.5 * side);
         [[-x, -y], [x, -y], [x, y], [-x, y]].map(|corner| self.at(corner))
     }
-    /// The plate, and its feet where it has some.
+    /// Draws the plate, and its feet where it has some.
     fn outline(&self, paper: &mut Paper, fill: &str) {
         paper.rect(self.corner, self.size(), Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
         let apart = self.plate.sides_m();
@@ -79,10 +79,10 @@ impl<'a> View<'a> {
             }
         }
     }
-    /// The letters of the corners, beside the ends.
+    /// Writes the letters of the corners, beside the ends.
     fn letters(&self, paper: &mut Paper) {
         let high = self.size()[1];
-        // Those of a narrow plate keep apart.
+        // The letters of a narrow plate are moved apart.
         let apart = (0.5 * (13.5 - high)).max(0.0);
         for (k, [x, y]) in self.corners().into_iter().enumerate() {
             let (right, upper) = (k == 1 || k == 2, k >= 2);
@@ -91,7 +91,7 @@ impl<'a> View<'a> {
             paper.text([if right { x + 4.0 } else { x - 4.0 }, y], ["*a*", "*b*", "*c*", "*d*"][k], label);
         }
     }
-    /// A rectangle on the plate, or a mark where it is smaller than one.
+    /// Draws a rectangle on the plate, or a mark where it is smaller than one.
     fn area(&self, paper: &mut Paper, [[left, right], [front, back]]: [[f64; 2]; 2], ink: Ink<'_>) {
         let ([x, foot], [end, y]) = (self.at([left, front]), self.at([right, back]));
         if end - x < 3.0 && foot - y < 3.0 {
@@ -103,7 +103,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// The ground of a verdict.
+/// Returns the ground color of a verdict.
 fn ground(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Safe => "#e9f0f7",
@@ -116,8 +116,8 @@ fn ground(verdict: Verdict) -> &'static str {
 const ROOM: Pt = [260.0, 140.0];
 const ROW: f64 = 10.5;
 
-/// The plate, from edge to edge, with its center of mass, the lines of percussion of the corners or feet that it lands on, and its parts,
-/// which are listed at the right.
+/// Draws the plate, from edge to edge, with its center of mass, the lines of percussion of the corners or feet that it
+/// lands on, and its parts, which are listed at the right.
 pub fn plan(plate: &Plate, sides_m: [f64; 2], parts: &[Area<'_>]) -> Result<String, FigureError> {
     let [length, width] = sides_m;
     let (left, top) = (24.0, 10.0);
@@ -161,7 +161,8 @@ pub fn plan(plate: &Plate, sides_m: [f64; 2], parts: &[Area<'_>]) -> Result<Stri
     paper.finish("The plate from above, its parts, its center of mass and its lines of percussion")
 }
 
-/// The numbers of parts, none over another or over a mark: in the upper left of their rectangle, above a mark, else further along.
+/// Writes the numbers of parts, none over another or over a mark: in the upper left of their rectangle, above a mark,
+/// else further along.
 fn numbers(paper: &mut Paper, view: &View<'_>, parts: &[Area<'_>]) {
     let at = |part: &Area<'_>| {
         let [[from, to], [front, back]] = part.reach_m;
@@ -182,7 +183,7 @@ fn numbers(paper: &mut Paper, view: &View<'_>, parts: &[Area<'_>]) {
     }
 }
 
-/// The length in mm below a plan.
+/// Draws the length in mm below a plan.
 fn scale(paper: &mut Paper, view: &View<'_>, y: f64) {
     let length = view.plate.sides_m()[0];
     let ([left, wide], at) = ([view.corner[0], view.size()[0]], |mm: f64| view.at([1e-3 * mm, 0.0])[0]);
@@ -194,43 +195,43 @@ fn scale(paper: &mut Paper, view: &View<'_>, y: f64) {
     paper.text([left + wide + 13.0, y + 11.5], "mm", Label { anchor: Anchor::Start, ..SMALL });
 }
 
-/// A strike of a corner, as it is shown.
+/// A strike of a corner.
 #[derive(Debug, Clone, Copy)]
 pub struct Strike {
-    /// 0 to 3 for a to d.
+    /// Index of the corner, 0 to 3 for a to d.
     pub corner: usize,
-    /// When, in ms.
+    /// Time of the strike, in ms.
     pub time_ms: f64,
-    /// What it does to the velocity of the corner, in m/s.
+    /// Velocity change of the corner, in m/s.
     pub shock_m_s: f64,
 }
 
-/// How a plate lands.
+/// The landing of a plate.
 #[derive(Debug, Clone, Copy)]
 pub struct Landing<'a> {
-    /// Seen from above: the corners or feet that it lands on.
+    /// The plate of the corners or feet that it lands on, seen from above.
     pub plate: &'a Plate,
-    /// From edge to edge.
+    /// Sides from edge to edge.
     pub sides_m: [f64; 2],
-    /// In order of time, as many as are to be told.
+    /// The strikes to list, in order of time.
     pub strikes: &'a [Strike],
-    /// Where it rises to, in degrees.
+    /// Direction that it rises to, in degrees.
     pub direction_deg: f64,
-    /// Where the part may be, in m from the middle.
+    /// Range of the part, in m from the middle.
     pub reach_m: [[f64; 2]; 2],
-    /// The place in it that is asked most.
+    /// The place of the largest demand in it.
     pub place_m: [f64; 2],
-    /// The strike after which the peak comes, from 1.
+    /// Number of the strike before the peak, from 1.
     pub impact: usize,
 }
 
 /// Room of the pictures of a part, below one another as wide as its curves.
 const PAGE: Pt = [226.0, 122.0];
-/// Strikes of a corner that are told, and from line to line.
-const TOLD: usize = 3;
+/// The most strikes listed at a corner, and the distance from line to line.
+const SHOWN: usize = 3;
 const LINE: f64 = 9.5;
 
-/// The plate as it lands: at each corner its strikes by number, time and change of velocity.
+/// Draws the plate as it lands: at each corner its strikes by number, time and change of velocity.
 pub fn landing(of: &Landing<'_>) -> Result<String, FigureError> {
     let mut paper = Paper::new(PAGE[0], PAGE[1]);
     let view = View::within(of.plate, of.sides_m, [14.0, 36.0], [PAGE[0] - 28.0, PAGE[1] - 72.0]);
@@ -245,9 +246,9 @@ pub fn landing(of: &Landing<'_>) -> Result<String, FigureError> {
         let (right, upper) = (corner == 1 || corner == 2, corner >= 2);
         let own: Vec<usize> = (0..of.strikes.len()).filter(|i| of.strikes[*i].corner == corner).collect();
         let (x, anchor) = if right { (PAGE[0] - 2.0, Anchor::End) } else { (2.0, Anchor::Start) };
-        let rows = own.len().min(TOLD);
-        for (k, &i) in own.iter().take(TOLD).enumerate() {
-            let more = if k + 1 == TOLD && own.len() > TOLD { " …" } else { "" };
+        let rows = own.len().min(SHOWN);
+        for (k, &i) in own.iter().take(SHOWN).enumerate() {
+            let more = if k + 1 == SHOWN && own.len() > SHOWN { " …" } else { "" };
             let (line, color) = (words(i + 1, &of.strikes[i]) + more, if i + 1 == of.impact { RUST } else { INK });
             let y = if upper { head - LINE * count(rows - 1 - k) } else { foot + LINE * count(k) };
             paper.text([x, y], &line, Label { anchor, color, ..SMALL });
@@ -264,7 +265,7 @@ fn count(lines: usize) -> f64 {
 }
 
 fn words(number: usize, strike: &Strike) -> String {
-    // To a hundredth of a microsecond: a strike at the same time is later by a rounding.
+    // Times are rounded to a hundredth of a microsecond: a strike at the same time is later by a rounding.
     let time_ms = (1e5 * strike.time_ms).round() / 1e5;
     format!("{number}: {} ms, {} m/s", three(time_ms), three(strike.shock_m_s))
 }
@@ -273,49 +274,49 @@ fn order(strikes: &[Strike]) -> String {
     strikes.iter().map(|strike| ["a", "b", "c", "d"][strike.corner % 4]).collect::<Vec<_>>().join(" ")
 }
 
-/// Where the plate rises to, through its middle as far as its outline allows.
+/// Draws the direction that the plate rises to, through its middle as far as its outline allows.
 fn arrow(paper: &mut Paper, view: &View<'_>, direction_deg: f64) {
     let (sin, cos) = direction_deg.to_radians().sin_cos();
     let [wide, high] = view.size();
     let reach = (0.42 * wide / cos.abs().max(1e-9)).min(0.42 * high / sin.abs().max(1e-9));
     let [x, y] = view.at([0.0; 2]);
-    // What is too short for a head is none.
+    // An arrow too short for a head is left out.
     if reach > 6.0 {
         paper.arrow([x - reach * cos, y + reach * sin], [x + reach * cos, y - reach * sin], BLUES[6], 1.0);
     }
 }
 
-/// What a part would be asked anywhere on a plate.
+/// The demand on a part anywhere on a plate.
 #[derive(Debug, Clone, Copy)]
 pub struct HeatMap<'a> {
-    /// Seen from above: the corners or feet that it lands on.
+    /// The plate of the corners or feet that it lands on, seen from above.
     pub plate: &'a Plate,
-    /// From edge to edge.
+    /// Sides from edge to edge.
     pub sides_m: [f64; 2],
-    /// Shares of what is allowed, over the plate.
+    /// Demand over the limit, over the plate.
     pub map: &'a PlaceMap,
-    /// The same of its other limits, four at most, whose borders are dotted, dash-dotted, in thin and in long dashes.
+    /// Maps of the other limits, four at most, whose borders are dotted, dash-dotted, in thin and in long dashes.
     pub others: &'a [&'a PlaceMap],
-    /// What is allowed, in the unit of the title.
+    /// The limit, in the unit of the title.
     pub allowed: f64,
-    /// What the colors mean.
+    /// Quantity of the colors.
     pub title: &'a str,
-    /// Where the part may be, in m from the middle.
+    /// Range of the part, in m from the middle.
     pub reach_m: [[f64; 2]; 2],
-    /// The place in it that is asked most.
+    /// The place of the largest demand in it.
     pub place_m: [f64; 2],
 }
 
 /// Columns of pixels.
 const PIXELS: u16 = 160;
 
-/// A map over the plate in colors, with the border of what is allowed.
+/// Draws a map over the plate in colors, with the border where the limit is reached.
 pub fn heat_map(of: &HeatMap<'_>) -> Result<String, FigureError> {
     let mut paper = Paper::new(PAGE[0], PAGE[1]);
     let view = View::within(of.plate, of.sides_m, [14.0, 10.0], [138.0, PAGE[1] - 40.0]);
     let most = of.map.shares.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
     let least = of.map.shares.iter().copied().filter(|v| v.is_finite()).fold(most, f64::min);
-    // All alike would have no axis.
+    // Equal values would have no axis.
     let axis = Axis::linear(of.allowed * least.min(0.98 * most), of.allowed * most.max(f64::MIN_POSITIVE), of.title);
     let palette = palette();
     let [wide, high] = view.size();
@@ -349,7 +350,7 @@ pub fn heat_map(of: &HeatMap<'_>) -> Result<String, FigureError> {
     paper.finish("What the part would be asked anywhere on the plate, from above")
 }
 
-/// Where a share of a map is this one.
+/// Draws the line where a share of a map has this value.
 fn border(paper: &mut Paper, view: &View<'_>, map: &PlaceMap, level: f64, ink: Ink<'_>) {
     let place = |i: usize, j: usize| (map.along_m[j], map.across_m[i]);
     let above = |i: usize, j: usize| Some(map.share(j, i) - level).filter(|v| v.is_finite());
@@ -359,7 +360,7 @@ fn border(paper: &mut Paper, view: &View<'_>, map: &PlaceMap, level: f64, ink: I
     }
 }
 
-/// The colors with their values, what is allowed among them.
+/// Draws the colors with their values, the limit among them.
 fn bar(paper: &mut Paper, of: &HeatMap<'_>, axis: &Axis<'_>) {
     let ([left, top], high, palette) = ([184.0, 10.0], PAGE[1] - 40.0, palette());
     let strip: Vec<u8> = (0..=255u8).rev().flat_map(|i| color(&palette, f64::from(i) / 255.0)).collect();
@@ -378,7 +379,7 @@ fn bar(paper: &mut Paper, of: &HeatMap<'_>, axis: &Axis<'_>) {
     paper.describe(&what);
 }
 
-/// A share between the places of a map, along straight lines.
+/// Returns a share between the places of a map, along straight lines.
 fn between(map: &PlaceMap, [x, y]: [f64; 2]) -> f64 {
     let cell = |lines: &[f64], at: f64| {
         let next = lines.partition_point(|line| *line <= at).clamp(1, lines.len().max(2) - 1);
@@ -398,7 +399,7 @@ fn between(map: &PlaceMap, [x, y]: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Uniform, 100 by 50 mm.
+    /// Returns a uniform plate of 100 by 50 mm.
     fn plate() -> Plate {
         Plate::new([0.05, 0.05, 0.025, 0.025], [0.1, 0.05].map(|side: f64| side / 12_f64.sqrt())).unwrap()
     }
@@ -407,7 +408,7 @@ mod tests {
         Area { number, name: "part", reach_m, verdict: Verdict::Unsafe, word: "−3 %" }
     }
 
-    /// Where words that are exactly these stand.
+    /// Returns the place of a text that is exactly this.
     fn stands(drawn: &str, words: &str) -> Pt {
         let line = drawn
             .lines()
@@ -429,7 +430,7 @@ mod tests {
         assert!(drawn.contains("−3 %"), "{drawn}");
     }
 
-    /// Along the length, as far as the plate goes: 20 mm are 52 pt, from the middle at 154 pt.
+    /// The scale runs along the length, as far as the plate goes: 20 mm are 52 pt, from the middle at 154 pt.
     #[test]
     fn the_scale_goes_along_the_whole_plate() {
         let drawn = plan(&plate(), plate().sides_m(), &[part(1, [[0.0, 0.01]; 2])]).unwrap();
@@ -480,7 +481,7 @@ mod tests {
             let line: Vec<f64> = along_m.iter().map(|x| scale * (1.0 + 10.0 * x)).collect();
             let map = PlaceMap { shares: [&line[..]; 3].concat(), along_m, across_m, drops: 1 };
             let (reach_m, place_m) = ([[0.0, 0.01]; 2], [0.01; 2]);
-            // Of another limit, on the other side.
+            // This is the map of another limit, on the other side.
             let other =
                 PlaceMap { shares: map.shares.iter().map(|share| share - 0.3 * scale).collect(), ..map.clone() };
             heat_map(&HeatMap {

@@ -1,4 +1,4 @@
-//! The product drawn to scale from the side, where each part may sit, and where it sits.
+//! The product drawn to scale from the side, with the safe zone of each part and its place.
 
 use clatter_assess::Verdict;
 
@@ -11,21 +11,21 @@ use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, OCHRE, RUST, wid
 /// One part on the product.
 #[derive(Debug, Clone)]
 pub struct Place<'a> {
-    /// Of the part.
+    /// Name of the part.
     pub name: &'a str,
-    /// Along the bar from the middle towards end b, in m.
+    /// Begin of its range along the bar, from the middle towards end b, in m.
     pub from_m: f64,
-    /// To there.
+    /// End of its range, in m.
     pub to_m: f64,
-    /// Decides its color.
+    /// Verdict, which decides the color.
     pub verdict: Verdict,
-    /// What stands at the right, such as the margin.
+    /// Text at the right, such as the margin.
     pub word: &'a str,
-    /// Where the middle of the part could sit and be safe, in m; `None` for nowhere.
+    /// Safe zone of the middle of the part, in m; `None` if there is none.
     pub zone_m: Option<[f64; 2]>,
 }
 
-/// The color of a verdict, on the page as in the figures.
+/// Returns the color of a verdict, on the page as in the figures.
 pub(crate) fn shade(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Safe => BLUES[8],
@@ -34,7 +34,8 @@ pub(crate) fn shade(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The bar with its center of mass and centers of percussion, and a row a part; it goes on so far beyond the feet that are its ends.
+/// Draws the bar with its center of mass and centers of percussion, and a row a part; `beyond_m` is its overhang over
+/// the feet that are its ends.
 pub fn product(arms_m: [f64; 2], gyration_m: f64, beyond_m: f64, places: &[Place<'_>]) -> Result<String, FigureError> {
     let length = arms_m[0] + arms_m[1] + 2.0 * beyond_m;
     let (left, wide, row) = (92.0, 316.0, 17.0);
@@ -60,7 +61,7 @@ pub fn product(arms_m: [f64; 2], gyration_m: f64, beyond_m: f64, places: &[Place
     let mut over = vec![(at(center), "CM")];
     dot(&mut paper, center, INK);
     for (m, name) in [(center + square / arms_m[0], "*R*_a"), (center - square / arms_m[1], "*R*_b")] {
-        // a bar whose mass sits at its ends has no place that an impact leaves unshaken
+        // A bar whose mass sits at its ends has no place that an impact leaves at rest.
         if m.abs() <= 0.5 * length {
             dot(&mut paper, m, "#ffffff");
             over.push((at(m), name));
@@ -105,7 +106,7 @@ pub fn product(arms_m: [f64; 2], gyration_m: f64, beyond_m: f64, places: &[Place
     paper.finish("The product from the side, its parts and where each would be safe")
 }
 
-/// A name as it is, without the marks that figures read as markup, cut to `room` pt.
+/// Returns a name without the marks that figures read as markup, cut to `room` pt.
 pub(crate) fn fit(name: &str, room: f64) -> String {
     let plain: String = name.chars().map(|c| if matches!(c, '*' | '_') { ' ' } else { c }).collect();
     if width(&plain, SMALL.size) <= room {

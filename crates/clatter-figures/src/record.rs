@@ -11,26 +11,26 @@ use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST};
 pub struct Trace<'a> {
     /// Its name.
     pub name: &'a str,
-    /// What its values are, with their unit.
+    /// Quantity of its values, with their unit.
     pub title: &'a str,
     /// Time and value, in order of time, in the units of the titles.
     pub points: Vec<(f64, f64)>,
     /// Points that are marked.
     pub marks: Vec<(f64, f64)>,
-    /// A curve beside it, such as a pulse that fits, and its name.
+    /// A curve to compare with, such as a pulse that fits, and its name.
     pub beside: Option<(&'a str, Vec<(f64, f64)>)>,
 }
 
 const BESIDE: Ink = Ink { dash: "5 2", ..Ink::line(RUST, 1.1) };
 
-/// Channels beyond are left out, and it is said how many there are.
+/// The most channels that are drawn; a note gives the number of the others.
 const MOST: usize = 12;
 const FRAME: [f64; 2] = [400.0, 96.0];
-/// From one frame to the next.
+/// Distance from one frame to the next.
 const PITCH: f64 = FRAME[1] + 14.0;
 const CORNER: [f64; 2] = [52.0, 16.0];
 
-/// Channels over time, one below the other; `time` is the title of their times.
+/// Draws channels over time, one below the other; `time` is the title of their times.
 ///
 /// ```
 /// use clatter_figures::{Trace, record};
@@ -82,7 +82,8 @@ pub fn record(traces: &[Trace<'_>], time: &str) -> Result<String, FigureError> {
     paper.finish("Measured accelerations over time")
 }
 
-/// Points that draw the same line: of all that fall into half a point of the page the first, the lowest, the highest and the last.
+/// Returns points that draw the same line: of all that fall into half a point of the page the first, the lowest, the
+/// highest and the last.
 pub(crate) fn thinned(points: &[(f64, f64)], low: f64, high: f64) -> Vec<(f64, f64)> {
     let columns = 2.0 * FRAME[0];
     if points.len() < 8 * 800 || low >= high {

@@ -15,13 +15,13 @@ const INNER: f64 = 36.0;
 const OUTER: f64 = 124.0;
 /// Arcs are drawn in steps of this, in rad.
 const STEP: f64 = 0.02;
-/// Sectors are at least as wide, in rad: a tenth of a point.
+/// The least width of a sector, in rad: a tenth of a point.
 const NARROW: f64 = 1e-3;
-/// Rows of the list at most, and letters of a word.
+/// The most rows of the list, and letters of a word.
 const ROWS: usize = 16;
 const LETTERS: usize = 12;
 
-/// A direction of the ring, in rad: r = h_d/(h_b + h_d) from 0 to 1 as a quarter of a turn.
+/// Returns the angle of a direction of the ring, in rad: r = h_d/(h_b + h_d) from 0 to 1 as a quarter of a turn.
 fn angle(r: f64) -> f64 {
     libm::atan2(r, 1.0 - r)
 }
@@ -31,7 +31,7 @@ fn at(angle: f64, radius: f64) -> Pt {
     [MIDDLE[0] + radius * cos, MIDDLE[1] - radius * sin]
 }
 
-/// Points of an arc.
+/// Returns points of an arc.
 fn arc([from, to]: [f64; 2], radius: f64) -> Vec<Pt> {
     let steps = ((to - from).abs() / STEP).ceil().clamp(1.0, 1000.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1000")]
@@ -39,8 +39,9 @@ fn arc([from, to]: [f64; 2], radius: f64) -> Vec<Pt> {
     (0..=count).map(|k| at(from + (to - from) * f64::from(k) / steps, radius)).collect()
 }
 
-/// Every direction of tilt: of each order of corners a sector, as far out as its largest corner shock, darker the more strikes it
-/// has. Of a plate with its center of mass in the middle all four quarters, mirror images of one another; else that of corner a.
+/// Draws every direction of tilt: for each order of corners a sector, as far out as its largest corner shock, darker
+/// the more strikes it has. A plate with its center of mass in the middle has all four quarters, mirror images of one
+/// another; else that of corner a is drawn.
 ///
 /// # Errors
 /// [`FigureError`].
@@ -50,7 +51,7 @@ pub fn ring(plate: &Plate, atlas: &Atlas) -> Result<String, FigureError> {
     let radius = |shock: f64| INNER + (OUTER - INNER) * shock / most;
     let counts = || words.iter().map(|word| word.corners.len());
     let strikes = [counts().min().unwrap_or(0), counts().max().unwrap_or(0)];
-    // Corner a first, then b, c and d, each rising away from it.
+    // The quarters are those of corner a, then b, c and d, each rising away from it.
     let mirrors: [fn(f64) -> f64; 4] = [|x| x, |x| PI - x, |x| PI + x, |x| -x];
     let quarters = if plate.is_centered() { &mirrors[..] } else { &mirrors[..1] };
     for mirrored in quarters {
@@ -80,7 +81,8 @@ pub fn ring(plate: &Plate, atlas: &Atlas) -> Result<String, FigureError> {
     paper.finish("Where the plate rises to, and what each direction does: inside, the corner that strikes first")
 }
 
-/// Words one by one, but those that together are narrower than is seen: of these the highest shock is drawn.
+/// Returns words one by one, except those that are too narrow to be visible together: of these the highest shock is
+/// drawn.
 fn sectors(words: &[Word]) -> Vec<&[Word]> {
     let (mut all, mut from) = (Vec::new(), 0);
     for (k, word) in words.iter().enumerate() {
@@ -92,12 +94,12 @@ fn sectors(words: &[Word]) -> Vec<&[Word]> {
     all
 }
 
-/// Darker the more strikes a word has, between the least and the most.
+/// Returns the color of a word: darker the more strikes it has, between the least and the most.
 fn shade(word: &Word, [least, most]: [usize; 2]) -> &'static str {
     BLUES[2 + 4 * (word.corners.len() - least) / (most - least).max(1)]
 }
 
-/// The words, or the widest of them, with their directions and largest corner shocks.
+/// Lists the words, or the widest of them, with their directions and largest corner shocks.
 fn list(paper: &mut Paper, words: &[Word], flat: Ink<'_>, flat_v0: f64) {
     let left = 322.0;
     let start = Label { anchor: Anchor::Start, ..SMALL };

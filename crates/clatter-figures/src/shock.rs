@@ -20,7 +20,7 @@ const RESIDUAL: Ink = Ink { dash: "1.5 1.5", ..PRIMARY };
 const REQUIRED: Ink = Ink { dash: "5 2", ..Ink::line("#8a6d1f", 1.4) };
 const TOLERANCE: Ink = Ink { dash: "2 2", ..Ink::line("#8a6d1f", 0.8) };
 const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.2) };
-/// Spectra beside the one that is shown, in turn.
+/// Lines of other spectra, in turn.
 const OTHERS: [Ink; 6] = [
     Ink::line("#4c7a49", 1.2),
     Ink { dash: "6 2", ..Ink::line("#4c7a49", 1.2) },
@@ -34,7 +34,7 @@ pub const GUIDE: Ink = Ink { dash: "3 2.5", ..Ink::line(GRAY, 0.8) };
 /// Lines of four-coordinate paper that run aslant.
 const SLANT: Ink = Ink::line("#c6ced6", 0.4);
 
-/// The quantity and its unit, in figure markup.
+/// Returns the quantity and its unit, in figure markup.
 fn title(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::AbsoluteAcceleration => "absolute acceleration, gn",
@@ -45,7 +45,7 @@ fn title(quantity: Quantity) -> &'static str {
     }
 }
 
-/// A spectrum in the unit of its title: accelerations in g.
+/// Returns a spectrum in the unit of its title: accelerations in g.
 fn shown(spectrum: &Spectrum) -> Spectrum {
     let mut shown = spectrum.clone();
     let factor = factor(spectrum.quantity);
@@ -61,22 +61,22 @@ fn factor(quantity: Quantity) -> f64 {
     }
 }
 
-/// The frequencies in order, to draw a line through, and the values beside them.
+/// Returns frequencies in order, to draw a line through, with their values.
 fn pairs<'a>(spectrum: &'a Spectrum, values: &'a [f64], order: &'a [usize]) -> impl Iterator<Item = (f64, f64)> + 'a {
     order.iter().map(|&i| (spectrum.frequency_hz[i], values[i]))
 }
 
-/// What a spectrum is held against.
+/// The curves that a spectrum is compared with.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Against<'a> {
-    /// What it may not exceed.
+    /// Limit that it may not exceed.
     pub limit: Option<&'a LimitCurve>,
-    /// What it is to reach, with its tolerance.
+    /// Spectrum that it has to reach, with its tolerance.
     pub required: Option<&'a RequiredSpectrum>,
 }
 
 impl<'a> Against<'a> {
-    /// Its curves with their names; that of the tolerance, where there is one, has one name.
+    /// Returns its curves with their names; both edges of the tolerance have one name.
     fn curves(self) -> Vec<(&'a LimitCurve, Ink<'static>, Option<&'static str>)> {
         let mut curves = Vec::new();
         if let Some(required) = self.required {
@@ -92,8 +92,8 @@ impl<'a> Against<'a> {
     }
 }
 
-/// A shock response spectrum on log-log paper, with a limit and the least margin if there is one; the pseudo-velocity
-/// on four-coordinate paper, whose diagonals are relative displacement and acceleration.
+/// Draws a shock response spectrum on log-log paper, with a limit and the least margin if there is one; the
+/// pseudo-velocity is drawn on four-coordinate paper, whose diagonals are relative displacement and acceleration.
 ///
 /// ```
 /// use clatter_shock::{DampingRatio, Frequencies, Quantity, VelocityShock, VelocityShocks};
@@ -107,7 +107,7 @@ pub fn spectrum(s: &Spectrum, against: Against<'_>) -> Result<String, FigureErro
     draw(s, None, against, &[], false)
 }
 
-/// Several spectra of one quantity by their maximax, each with its name; the margin is that of the one that leaves least.
+/// Draws several spectra of one quantity by their maximax, each with its name; the margin is the least of all.
 pub fn spectra(all: &[(&Spectrum, &str)], against: Against<'_>) -> Result<String, FigureError> {
     let least = |spectrum: &Spectrum| {
         let margins = against.limit.map(|limit| limit.margins(spectrum)).unwrap_or_default();
@@ -119,17 +119,17 @@ pub fn spectra(all: &[(&Spectrum, &str)], against: Against<'_>) -> Result<String
     draw(all[worst].0, Some(all[worst].1), against, &others, false)
 }
 
-/// A smaller one with another spectrum of the quantity beside it, by its maximax, and its name: half as wide as a page.
-pub fn beside(s: &Spectrum, other: &Spectrum, name: &str) -> Result<String, FigureError> {
+/// Draws a spectrum and another one of the same quantity by its maximax, with its name: half as wide as a page.
+pub fn spectrum_compared(s: &Spectrum, other: &Spectrum, name: &str) -> Result<String, FigureError> {
     draw(s, None, Against::default(), &[(other, name)], true)
 }
 
-/// A smaller one of two spectra of one quantity by their maximax, each with its name: half as wide as a page.
+/// Draws two spectra of one quantity by their maximax, each with its name: half as wide as a page.
 pub fn two(one: (&Spectrum, &str), other: (&Spectrum, &str)) -> Result<String, FigureError> {
     draw(one.0, Some(one.1), Against::default(), &[other], true)
 }
 
-/// One spectrum, or by its name its maximax alone, and others.
+/// Draws one spectrum, or with a name its maximax alone, and others.
 fn draw(
     s: &Spectrum,
     name: Option<&str>,
@@ -235,7 +235,7 @@ fn draw(
     paper.finish(&format!("Shock response spectrum: {}", title(s.quantity)))
 }
 
-/// An arrow from the spectrum to its limit where the margin is least, and what it is.
+/// Draws an arrow from the spectrum to its limit where the margin is least, with the margin.
 fn least_margin(paper: &mut Paper, axes: &Chart<'_>, [x, y]: Pt, hz: f64, margin: Margin) {
     let (from, to) = (axes.at(hz, margin.demand), axes.at(hz, margin.allowed));
     if from.iter().chain(&to).all(|c| c.is_finite()) && (from[1] - to[1]).abs() > 6.0 {
@@ -247,7 +247,7 @@ fn least_margin(paper: &mut Paper, axes: &Chart<'_>, [x, y]: Pt, hz: f64, margin
     paper.note([x, y + 11.0], &format!("at {} Hz", three(hz)));
 }
 
-/// Axes whose decades are of one length, so that the other two coordinates run at 45°.
+/// Returns axes whose decades are of one length, so that the other two coordinates run at 45°.
 fn squared<'a>(x: Axis<'a>, y: Axis<'a>, room: Pt) -> (Axis<'a>, Axis<'a>, Pt) {
     let wide = (x.high / x.low).log10();
     // a decade of room for the labels at the top, and no strip of paper
@@ -260,7 +260,8 @@ fn squared<'a>(x: Axis<'a>, y: Axis<'a>, room: Pt) -> (Axis<'a>, Axis<'a>, Pt) {
     (x, Axis { low, high, ..y }, [decade * wide, decade * tall])
 }
 
-/// Lines of equal displacement and equal acceleration, a decade apart, with their values, clear of the points `drawn`.
+/// Draws lines of equal displacement and equal acceleration, a decade apart, with their values, clear of the points
+/// `drawn`.
 fn slants(paper: &mut Paper, axes: &Chart<'_>, drawn: &[Pt]) {
     let (x, y) = (axes.x, axes.y);
     let line = |paper: &mut Paper, at: &dyn Fn(f64) -> f64| {
@@ -276,7 +277,7 @@ fn slants(paper: &mut Paper, axes: &Chart<'_>, drawn: &[Pt]) {
             (value <= high).then_some(value)
         })
     };
-    // Labels at the upper ends of the displacements and the lower ends of the accelerations: never at one place.
+    // Labels stand at the upper ends of the displacements and the lower ends of the accelerations: never at one place.
     let turn = (axes.size[1] / (y.high / y.low).log10()).atan2(axes.size[0] / (x.high / x.low).log10()).to_degrees();
     let mut taken: Vec<(Pt, f64)> = Vec::new();
     let mut label = |paper: &mut Paper, hz: f64, v: f64, text: &str, turn: f64| {
@@ -324,7 +325,7 @@ fn slants(paper: &mut Paper, axes: &Chart<'_>, drawn: &[Pt]) {
     }
 }
 
-/// A power of ten in meters, with a prefix where there is one.
+/// Returns a power of ten in meters, with a prefix where there is one.
 fn length(m: f64) -> String {
     for (unit, name) in [(1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")] {
         let v = m / unit;
@@ -335,20 +336,20 @@ fn length(m: f64) -> String {
     format!("{} m", tick(m))
 }
 
-/// A damage boundary: acceleration over velocity change, log-log, `curve` from [`clatter_shock::DamageBoundary::curve`]
-/// and a shock at (velocity change, acceleration) on it.
+/// Draws a damage boundary: acceleration over velocity change, log-log, `curve` from
+/// [`clatter_shock::DamageBoundary::curve`] and a shock at (velocity change, acceleration) on it.
 pub fn damage_boundary(critical: Critical, curve: &[(f64, f64)], shock: [f64; 2]) -> Result<String, FigureError> {
     boundary(critical, curve, &[(shock, "this shock", RUST)], [330.0, 230.0])
 }
 
-/// Where a damage boundary turns.
+/// The critical values of a damage boundary.
 #[derive(Debug, Clone, Copy)]
 pub struct Critical {
-    /// In m/s.
+    /// Critical velocity change, in m/s.
     pub velocity_change: f64,
-    /// In m/s².
+    /// Critical acceleration, in m/s².
     pub acceleration: f64,
-    /// Velocity change in m/s from which on the acceleration alone decides; infinite where that is nowhere.
+    /// Velocity change in m/s from which on the acceleration alone decides; infinite if there is none.
     pub knee: f64,
 }
 
@@ -362,7 +363,7 @@ impl From<&DamageBoundary> for Critical {
     }
 }
 
-/// The same with any pulses, (velocity change, acceleration), name and color, in a frame of any size.
+/// Draws a damage boundary with any pulses, (velocity change, acceleration), name and color, in a frame of any size.
 pub fn boundary(
     critical: Critical,
     curve: &[(f64, f64)],
@@ -375,7 +376,7 @@ pub fn boundary(
     let curve: Vec<(f64, f64)> = curve.iter().map(|p| (p.0, in_g(p.1))).collect();
     let pulses: Vec<_> = pulses.iter().map(|([v, a], name, color)| ([*v, in_g(*a)], *name, *color)).collect();
     let last = curve.last().map_or(v, |p| p.0);
-    // without a knee the boundary comes down for ever, and the paper ends where it was followed to
+    // Without a knee the boundary falls for ever, and the paper ends with the curve.
     let drawn = |k: usize| pulses.iter().map(move |(at, ..)| at[k]).filter(|x| *x > 0.0 && x.is_finite());
     let least = |k: usize, other: f64| drawn(k).fold(other, |m, x| m.min(0.5 * x));
     let most = |k: usize, other: f64| drawn(k).fold(other, |m, x| m.max(2.0 * x));
@@ -433,7 +434,8 @@ pub fn boundary(
     paper.finish("Damage boundary: peak acceleration over velocity change of the base")
 }
 
-/// The three-way rule as one spectrum over ω h0/v0 with its asymptotes, and a component at (ω h0/v0, |A|/(ω v0)) on it.
+/// Draws the three-way rule as one spectrum over ω h0/v0 with its asymptotes, and a component at (ω h0/v0, |A|/(ω v0))
+/// on it.
 pub fn rule(rule: &Rule, component: [f64; 2]) -> Result<String, FigureError> {
     let high = |of: fn(&clatter_shock::RulePoint) -> f64| rule.points.iter().map(of).fold(0.0_f64, f64::max);
     let top = high(|p| p.acceleration).max(high(|p| p.displacement)).max(rule.standard.acceleration);

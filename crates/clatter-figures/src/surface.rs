@@ -20,7 +20,7 @@ pub struct Sheet {
     pub map: Map,
     /// Label, in figure markup.
     pub name: &'static str,
-    /// Where the label stands: q, e.
+    /// Place of the label: q, e.
     pub at: [f64; 2],
     /// Light and dark fill.
     pub fill: [[u8; 3]; 2],
@@ -29,27 +29,27 @@ pub struct Sheet {
 /// Sheets over the plane, lowest first, none crossing another.
 #[derive(Debug, Clone)]
 pub struct Surface {
-    /// From the lowest up.
+    /// The sheets, from the lowest up.
     pub sheets: Vec<Sheet>,
     /// Height at which they are cut.
     pub cut: f64,
     /// Title of the vertical axis, in figure markup.
     pub axis: &'static str,
-    /// What the figure shows.
+    /// Title of the figure.
     pub title: &'static str,
-    /// Degrees by which the plane is turned: 45 puts (0, 0) nearest.
+    /// Rotation of the plane in degrees: 45 puts (0, 0) nearest.
     pub azimuth: f64,
-    /// Degrees above the horizon.
+    /// Elevation of the eye in degrees above the horizon.
     pub elevation: f64,
 }
 
 /// A point (q, e, z).
 type P3 = [f64; 3];
 
-/// Where the middle of the box lies on the page, and the length of its sides, in pt.
+/// The middle of the box on the page, and the length of its sides, in pt.
 const CENTER: Pt = [128.0, 116.0];
 const SIDE: f64 = 130.0;
-/// Half the side of the area that plotters is given, in pt, and the share of it that its box takes.
+/// Half the side of the area for plotters, in pt, and the share of it that its box takes.
 const HALF: f64 = 106.0;
 const SHARE: f64 = 0.8;
 
@@ -88,12 +88,12 @@ impl<'a> View<'a> {
     fn on_chart([q, e, z]: P3) -> (f64, f64, f64) {
         (q, z, e)
     }
-    /// On the page, in pt.
+    /// Returns the place on the page, in pt.
     fn pt(&self, p: P3) -> Pt {
         let (x, y) = self.chart.plotting_area().map_coordinate(&Self::on_chart(p));
         [f64::from(x) / UNITS, f64::from(y) / UNITS]
     }
-    /// How far away it is.
+    /// Returns the distance from the eye.
     fn depth(&self, [q, e, z]: P3) -> i32 {
         self.chart.plotting_area().as_coord_spec().projected_depth(&q, &z, &e)
     }
@@ -101,7 +101,7 @@ impl<'a> View<'a> {
         let pieces = vec![points.iter().map(|p| Self::on_chart(*p)).collect()];
         paper.draw(self.chart.plotting_area(), &Element { pieces, what });
     }
-    /// Towards the light, over the left shoulder of the eye, as (q, e, z).
+    /// Returns the direction towards the light, over the left shoulder of the eye, as (q, e, z).
     fn light(&self) -> P3 {
         let (right, back, up) = (-0.45, -0.4, 0.8);
         let (sin, cos) = self.azimuth.sin_cos();
@@ -109,7 +109,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// The part of a polygon below the cut. 1/z is close to linear beside the pole at q = e = 1, and finite there.
+/// Returns the part of a polygon below the cut. 1/z is close to linear near the pole at q = e = 1, and finite there.
 fn below(polygon: &[P3], cut: f64) -> Vec<P3> {
     let mut out = Vec::new();
     for (i, a) in polygon.iter().enumerate() {
@@ -181,7 +181,7 @@ fn nearest(points: usize, x: f64) -> usize {
     (x * (points - 1) as f64).round() as usize
 }
 
-/// Cosine between the normal and the light, 0 to 1, of a polygon in the box of the figure.
+/// Returns the cosine between the normal and the light, 0 to 1, of a polygon in the box of the figure.
 fn brightness(shape: &[P3], cut: f64, light: P3) -> f64 {
     let scaled = |p: P3| [p[0], p[1], p[2] / cut];
     let mut n = [0.0; 3];
@@ -204,7 +204,7 @@ fn mix([light, dark]: [[u8; 3]; 2], x: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", c[0], c[1], c[2])
 }
 
-/// Axes with ticks and titles, at the near edges of the floor and the leftmost corner: those of plotters lie over one another.
+/// Draws axes with ticks and titles, at the near edges of the floor and the leftmost corner: those of plotters overlap.
 fn front(paper: &mut Paper, view: &View<'_>, data: &Surface) {
     let nearer = |a: P3, b: P3| if view.depth(a) < view.depth(b) { 0.0 } else { 1.0 };
     let near_q = nearer([0.0, 0.5, 0.0], [1.0, 0.5, 0.0]);

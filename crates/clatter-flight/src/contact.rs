@@ -5,26 +5,27 @@
 //! presses without damping, else found by [`roots`](crate::roots), by bounds of the derivatives that hold from any moment on.
 //!
 //! # Lever arms
-//! A phase has constant lever arms, and a constant acceleration by turning: those of the mean angle as its forces weigh it.
-//! At its end the pose follows in exact geometry. What that gets wrong is measured beside each phase, by how far the body
-//! turns and how much it is pushed; phases are cut where it would be more than the precision asked allows. What the energy
-//! of the body changes by without reason is summed in [`Motion::energy_error`]; a flight ends where that is no longer
-//! small, and one phase that changes it by as much is an error.
+//! A phase has constant lever arms, and a constant acceleration by turning: those of the mean angle, weighed by its
+//! forces. At its end the pose follows in exact geometry. The error of this is estimated in each phase, from the turn
+//! of the body and the impulses on it; phases are cut where it would exceed the wanted precision. The unexplained
+//! changes of the energy of the body are summed in [`Motion::energy_error`]; a flight ends where that sum is no longer
+//! small, and one phase with as large a change is an error.
 //!
 //! # A point in its dent
 //! A hysteretic contact that parts below the ground leaves the ground of that contact where it was. It touches there again, as a
 //! new press with the lever arm that it then has, until it has been above the ground.
 //!
-//! A point that alone presses and rings on its line of unloading by less than its weight, or more slowly than the precision
-//! times the largest approach, is laid down: it stays where it is until its force falls to zero or another point strikes. With
-//! e = 0 the line of unloading is upright, and every point lies as it has loaded.
+//! A point that alone presses and rings on its line of unloading by less than its weight, or more slowly than the
+//! precision times the largest approach, is laid down: it stays where it is until its force falls to zero or another
+//! point strikes. With e = 0 the line of unloading is upright, and every point lies at its largest depth.
 //!
 //! # Rest
-//! The flight is at rest where the energy left allows no point to be faster than the precision times the largest
-//! approach, or no more force than some times the weight. [`Stop::AtRest`](crate::Stop::AtRest) bounds what rings on.
+//! The flight is at rest where the remaining energy allows no point to be faster than the precision times the largest
+//! approach, or no more force than some times the weight. [`Stop::AtRest`](crate::Stop::AtRest) bounds the later
+//! ringing.
 
 mod eigen;
-mod felt;
+mod excitation;
 mod law;
 mod level;
 mod mode;
@@ -49,26 +50,26 @@ pub(crate) use planar::Planar;
 pub(crate) use pose::{Pose, solve};
 pub(crate) use run::Run;
 
-/// How long a strike presses.
+/// The times of contact of a strike.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Press {
-    /// When it touches.
+    /// Time of touching.
     pub from_s: f64,
-    /// When it parts; infinite where it presses still as the flight ends.
+    /// Time of parting; infinite where the point still presses at the end of the flight.
     pub until_s: f64,
 }
 
-/// What a body with contacts that take time does between its strikes.
+/// The motion of a body with contacts that take time, between its strikes.
 #[derive(Debug, Clone)]
 pub(crate) struct Phases<const N: usize, P: Pose<N>> {
     precision: f64,
-    /// That of each point.
+    /// Contact of each point.
     pub(crate) contacts: [Contact; N],
-    /// When the motion ends, and whether at rest.
+    /// End of the motion, and whether it is at rest.
     end_s: f64,
     rests: bool,
     list: Vec<(f64, Phase<P, N>)>,
-    /// The body just before the motion ends, and as it ends, at rest without what was left of its motion.
+    /// The body just before the end of the motion, and at its end, at rest without the rest of its motion.
     last: P,
     pub(crate) end: P,
     /// The forces on it if it is at rest.
@@ -93,8 +94,8 @@ pub struct Sample<const N: usize = 2> {
 }
 
 impl Sample<4> {
-    /// The same of a body with these points; none of one with others.
-    fn of_points<const N: usize>(&self) -> Option<Sample<N>> {
+    /// Returns the sample of a body with these points alone; `None` for one with others.
+    fn with_points<const N: usize>(&self) -> Option<Sample<N>> {
         let of = |all: &[f64; 4]| all[..].try_into().ok();
         Some(Sample {
             height_m: of(&self.height_m)?,
@@ -108,11 +109,11 @@ impl Sample<4> {
 }
 
 impl<const N: usize, P: Pose<N>> Phases<N, P> {
-    /// How long the longest lone contact takes.
+    /// Returns the duration of the longest lone contact.
     pub(crate) fn longest_s(&self) -> f64 {
         self.contacts.iter().fold(0.0, |longest, contact| longest.max(contact.time_s()))
     }
-    /// The shortest of the lone contacts that press in a phase; in flight the longest of all.
+    /// Returns the duration of the shortest lone contact that presses in a phase; in flight that of the longest of all.
     fn contact_s(&self, phase: &Phase<P, N>) -> f64 {
         let pressing = (0..N).filter(|&i| phase.presses(i)).map(|i| self.contacts[i].time_s());
         pressing.reduce(f64::min).unwrap_or_else(|| self.longest_s())
@@ -135,8 +136,8 @@ impl<const N: usize, P: Pose<N>> Phases<N, P> {
 }
 
 impl<const N: usize, P: Pose<N>> Motion<N, P> {
-    /// The body at a time since the first touch; beyond the end of the motion it stays at rest, or goes on as it was. None of instant
-    /// impacts of a bar.
+    /// Returns the body at a time since the first touch; beyond the end of the motion it stays at rest, or goes on as
+    /// it was. `None` for instant impacts of a bar.
     #[must_use]
     pub fn sample(&self, time_s: f64) -> Option<Sample<N>> {
         match &self.course {
@@ -144,7 +145,8 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
             Course::Contacts(phases) => Some(phases.sample(time_s)),
         }
     }
-    /// When each phase of contacts that take time begins, in order from 0. Within a phase every force is smooth.
+    /// Returns the begin of each phase of contacts that take time, in order from 0. Within a phase every force is
+    /// smooth.
     pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {
         self.phases().into_iter().flat_map(|phases| phases.list.iter().map(|(from, _)| *from))
     }
@@ -154,12 +156,13 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
 }
 
 impl<const N: usize> Scene<N> {
-    /// The motion of a body with any number of contact points, all of which take time; that of a bar is [`fly_until`](Scene::fly_until).
-    /// `enough` is asked before each event at which no point loads, and ends the motion there.
+    /// Returns the motion of a body with any number of contact points, all of which take time; that of a bar is
+    /// [`fly_until`](Scene::fly_until). `enough` is called before each event at which no point loads, and ends the
+    /// motion there.
     ///
     /// # Accuracy
-    /// Over the largest approach, each time that a point presses leaves the body with velocities that are wrong by less than
-    /// `precision`, and what is slower than `precision` is laid down.
+    /// Relative to the largest approach, each contact of a point leaves the body with velocities that are wrong by less
+    /// than `precision`, and motions slower than `precision` are laid down.
     ///
     /// # Errors
     /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Restitution`] unless the contact has the restitution of the
@@ -181,11 +184,12 @@ impl<const N: usize> Scene<N> {
         self.own_contacts_until(&[*contact; N], precision, enough)
     }
 
-    /// The same of a body with a contact of its own at each point: their restitutions count in place of that of the scene.
+    /// Returns the same motion of a body with a contact of its own at each point: their restitutions count in place of
+    /// that of the scene.
     ///
     /// # Accuracy
-    /// As [`contacts_until`](Self::contacts_until), but that the largest approach may be one of another point: softer contacts are as
-    /// exact as the stiffest.
+    /// It is that of [`contacts_until`](Self::contacts_until), except that the largest approach may be that of another
+    /// point: softer contacts are as exact as the stiffest.
     ///
     /// # Errors
     /// As [`contacts_until`](Self::contacts_until), by each of the contacts; [`Error::Laws`] unless all are hysteretic, where they differ.
@@ -209,7 +213,7 @@ impl<const N: usize> Scene<N> {
     ) -> Result<Motion<N>, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         alike(contacts)?;
-        // As the first that is refused says.
+        // The first contact that is refused gives the error.
         contacts.iter().try_for_each(|contact| self.check(contact))?;
         let log = Log::new(self.time_limit_s(), self.impact_limit());
         Run::new(Planar::start(self), log, contacts, precision).run(enough)
@@ -218,7 +222,7 @@ impl<const N: usize> Scene<N> {
     fn check(&self, contact: &Contact) -> Result<(), Error> {
         let reach = self.body().reach();
         let (length, gyration) = (self.body().length_m().max(reach), self.body().gyration_m());
-        // What is told as the bound is allowed.
+        // The bound itself is allowed.
         if gyration * (1.0 + 1e-12) < 0.05 * length {
             let (name, reason) = ("radius of gyration", "0.05 of the length for contacts that take time");
             let (value, bound) = (gyration, 0.05 * length);
@@ -235,7 +239,7 @@ impl<const N: usize> Scene<N> {
     }
 }
 
-/// Refuses contacts that differ, unless all are hysteretic: dashpots of which one is slower than another couple the modes of a phase,
+/// Refuses contacts that differ, unless all are hysteretic: dashpots with different delays couple the modes of a phase,
 /// which is then no sum of known functions.
 pub(crate) fn alike(contacts: &[Contact]) -> Result<(), Error> {
     let hysteretic = |contact: &Contact| contact.law().leaves_a_dent();
@@ -246,7 +250,7 @@ pub(crate) fn alike(contacts: &[Contact]) -> Result<(), Error> {
     }
 }
 
-/// Refuses a contact time beyond what speed and gravity allow at most, and below the shortest; for these reasons.
+/// Refuses a contact time above the bounds of speed and gravity, or below the shortest, for these reasons.
 pub(crate) fn check_time(
     value: f64,
     [of_speed, of_gravity]: [f64; 2],
@@ -255,7 +259,7 @@ pub(crate) fn check_time(
 ) -> Result<(), Error> {
     let refused =
         |bound, most, reason| Err(Error::Bound { name: "contact time", value, bound, most, unit: "s", reason });
-    // What is told as the bound is allowed.
+    // The bound itself is allowed.
     let (longest, beyond) = (of_speed.min(of_gravity), 1.0 + 1e-12);
     if value > longest * beyond {
         return refused(longest, true, if of_speed < of_gravity { by_speed } else { by_gravity });

@@ -23,13 +23,13 @@ use crate::{Motion, Scene, Stop, Strike};
 /// The body at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// Since the first touch.
+    /// Time since the first touch.
     pub time_s: f64,
     /// Heights of ends a and b; negative where a compliant contact is compressed.
     pub height_m: [f64; 2],
     /// Vertical velocities of ends a and b.
     pub velocity_m_s: [f64; 2],
-    /// What contacts that take time do; none where impacts are instant.
+    /// Accelerations and forces of contacts that take time; none where impacts are instant.
     pub forces: Option<Forces>,
 }
 
@@ -43,7 +43,7 @@ pub struct Forces {
 }
 
 impl Row {
-    /// Vertical velocity at position `s` in [−1, 1] along the body (−1 is end a).
+    /// Returns the vertical velocity at position `s` in [−1, 1] along the body (−1 is end a).
     #[must_use]
     pub fn velocity_at(&self, s: f64) -> f64 {
         between(self.velocity_m_s, s)
@@ -51,7 +51,7 @@ impl Row {
 }
 
 impl Forces {
-    /// Vertical acceleration at position `s` in [−1, 1] along the body (−1 is end a).
+    /// Returns the vertical acceleration at position `s` in [−1, 1] along the body (−1 is end a).
     #[must_use]
     pub fn acceleration_at(&self, s: f64) -> f64 {
         between(self.acceleration_m_s2, s)
@@ -66,18 +66,19 @@ fn between([a, b]: [f64; 2], s: f64) -> f64 {
 /// of the two ends' values there, for each of height, velocity, acceleration and force.
 pub const STRAIGHT: f64 = 1.0 / 1000.0;
 
-/// Halvings of an interval, at most: a kink ends in an interval this many powers of two shorter.
+/// The most halvings of an interval: a kink ends in an interval this many powers of two shorter.
 const HALVINGS: u32 = 12;
 
-/// Rows a compliant contact gets at least, over the time that a lone one takes.
+/// The least number of rows of a compliant contact, over the time that a lone one takes.
 const PULSE: u32 = 16;
 
 impl Motion {
-    /// Both ends at a time since the first touch, just after what happens then; beyond the end of the motion the body stays at rest, or
-    /// goes on as it was.
+    /// Returns both ends at a time since the first touch, just after the events at that time; beyond the end of the
+    /// motion the body stays at rest, or goes on as it was.
     ///
     /// # Accuracy
-    /// Of instant impacts exact in flight, and to 1e−9 of the length while the body turns about an end that lies.
+    /// For instant impacts it is exact in flight, and to 1e−9 of the length while the body turns about an end that
+    /// lies.
     #[must_use]
     pub fn at(&self, time_s: f64) -> Row {
         match &self.course {
@@ -96,14 +97,15 @@ impl Motion {
         }
     }
 
-    /// The rows of the motion.
+    /// Returns the rows of the motion.
     ///
-    /// They go on until the body lies still or the limit is reached; one that has bounced clear is followed for a seventh of the whole
-    /// more, and one that has come to rest on its springs for two contact times. A touch of contacts that take time is two rows at one
-    /// time too, because a dashpot's force begins with a jump.
+    /// They go on until the body lies still or the limit is reached. After a body has bounced clear they continue for a
+    /// seventh of the whole time, after one has come to rest on its springs for two contact times. A touch of contacts
+    /// that take time is two rows at one time too, because a dashpot's force begins with a jump.
     ///
     /// # Accuracy
-    /// At a strike that of the model, between strikes that of [`at`](Self::at). Straight lines between the rows: [`STRAIGHT`].
+    /// At a strike it is that of the model, between strikes that of [`at`](Self::at). Straight lines between the rows
+    /// keep [`STRAIGHT`].
     #[must_use]
     pub fn rows(&self) -> Box<dyn Iterator<Item = Row> + '_> {
         match &self.course {
@@ -136,7 +138,7 @@ impl Motion {
         }))
     }
 
-    /// Until when the rows of instant impacts go.
+    /// Returns the end of the rows of instant impacts.
     fn drawn_until_s(&self, scene: &Scene) -> f64 {
         match self.stop {
             // A seventh more; where all strikes fall on one instant, the time of a fall through the gap or the length.
@@ -198,7 +200,7 @@ fn after(strike: &Strike) -> Row {
     Row { time_s, height_m, velocity_m_s, forces: None }
 }
 
-/// Rows between two others, so that straight lines through all of them are good to [`STRAIGHT`].
+/// Adds rows between two others, so that straight lines through all of them are good to [`STRAIGHT`].
 fn refine(from: &Row, to: &Row, at: &impl Fn(f64) -> Row, halvings: u32, rows: &mut Vec<Row>) {
     let middle = 0.5 * (from.time_s + to.time_s);
     if halvings == 0 || middle <= from.time_s || middle >= to.time_s {

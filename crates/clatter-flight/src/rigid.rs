@@ -14,8 +14,8 @@ use crate::scene::Scene;
 pub(crate) use ballistic::Clock;
 pub(crate) use plate::Falls;
 
-/// The strikes by a model of instant impacts, as far as they are needed: before each but the first `enough` is asked. `ends`: the
-/// restitution of each end at real tilt, where it is not that of the scene.
+/// Returns the strikes by a model of instant impacts, as far as they are needed: `enough` is called before each but the
+/// first. `ends` is the restitution of each end at real tilt, where it is not that of the scene.
 pub(crate) fn strikes(
     scene: &Scene,
     model: Model,
@@ -46,8 +46,8 @@ impl Scene {
         }
     }
 
-    /// Twice the fastest approach after a strike, by the energy that the strike leaves: that of the end that is farther from the center
-    /// of mass, if all energy were in it.
+    /// Returns twice the fastest approach after a strike, by the energy after it: that of the end that is farther from
+    /// the center of mass, if all energy were in it.
     pub(crate) fn most_m_s(&self, model: Model, strike: &Strike) -> f64 {
         let body = self.body();
         let [a, b] = body.arms_m();
@@ -61,7 +61,7 @@ impl Scene {
 }
 
 impl Motion {
-    /// Heights of both ends by instant impacts, and their rates, just after what happens at this time.
+    /// Returns the heights of both ends by instant impacts, and their rates, just after the events at this time.
     pub(crate) fn ends_of_impacts(&self, scene: &Scene, time_s: f64) -> ([f64; 2], [f64; 2]) {
         if matches!(self.stop, Stop::AtRest { time_s: rest, .. } if time_s >= rest) {
             return ([0.0; 2], [0.0; 2]);

@@ -1,14 +1,14 @@
-//! First zeros that cannot be missed: advance by what bounds on the derivatives prove.
+//! First zeros that cannot be missed: each step is proven by bounds on the derivatives.
 //!
 //! Where f ≥ 0 with slope s, and f″ ≥ −M from here on, f stays positive up to the root of `f + s x − ½ M x²`. Within a
 //! reach r of that order the second derivative b at hand proves more, with |f‴| ≤ J from here on:
 //! `f ≥ f + s x − ½ (J r/3 − b) x²`. Stepping there again and again never passes a zero, whatever f does in between,
 //! and near a simple zero the error of a step is of the order of `J x³`: one order more than Newton's. The zero is
 //! approached from the left and taken once; there is no tolerance, the steps end when they no longer change the time.
-//! What decides is the value computed for f, so an f written without cancellation gives a zero of any size to its last
-//! digits. Where f only grazes zero, within the rounding of f, either answer is right.
+//! The computed value of f decides, so an f written without cancellation gives a zero of any size to its last digits.
+//! Where f only grazes zero, within the rounding of f, either answer is right.
 
-/// The largest step that is proven to stay above zero; infinite where nothing pulls down.
+/// Returns the largest step that is proven to stay above zero; infinite where nothing pulls down.
 pub(crate) fn safe_step(f: f64, slope: f64, bound: f64) -> f64 {
     // `hypot` takes five times as long, and only tiny speeds need it.
     let square = slope * slope + 2.0 * bound * f;
@@ -20,26 +20,26 @@ pub(crate) fn safe_step(f: f64, slope: f64, bound: f64) -> f64 {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     pub(crate) by: f64,
-    /// How far beyond it the zero is at most; infinite where that is not known.
+    /// Bound on the distance of the zero beyond it; infinite where that is not known.
     pub(crate) short: f64,
 }
 
 impl Step {
-    /// A step that says nothing about the zero.
+    /// Creates a step that bounds no zero.
     pub(crate) fn clear(by: f64) -> Self {
         Self { by, short: f64::INFINITY }
     }
-    /// The longer one.
+    /// Returns the longer one.
     pub(crate) fn max(self, other: f64) -> Self {
         if other > self.by { Self::clear(other) } else { self }
     }
-    /// Whether nothing is left that a time `t` after it could tell.
+    /// Returns whether the zero is closer to a time `t` than a rounding of it.
     pub(crate) fn arrives(self, t: f64) -> bool {
         self.short <= 0.5 * f64::EPSILON * t
     }
 }
 
-/// The step with the bend f″ at hand and a bound on |f‴| besides.
+/// Returns the step by the bend f″ at hand and a bound on |f‴|.
 pub(crate) fn far_step([f, slope, bend]: [f64; 3], bound: f64, jerk: f64) -> Step {
     let mut step = Step::clear(safe_step(f, slope, bound));
     for _ in 0..REACHES {
@@ -49,7 +49,7 @@ pub(crate) fn far_step([f, slope, bend]: [f64; 3], bound: f64, jerk: f64) -> Ste
         if !(pull < bound && reach < f64::INFINITY) || square.is_subnormal() {
             break;
         }
-        // Pulled up there may be no zero, or two.
+        // With an upward pull there may be no zero, or two.
         let root = square.sqrt();
         let by = if square < 0.0 || slope > 0.0 && pull <= 0.0 {
             f64::INFINITY
@@ -60,7 +60,7 @@ pub(crate) fn far_step([f, slope, bend]: [f64; 3], bound: f64, jerk: f64) -> Ste
         };
         if by < reach {
             // f is J x² (x + r)/6 at most there, and falls at the rate of the root less J x (x/2 + r/3): half of it, or
-            // nothing is said.
+            // there is no bound.
             let falls = jerk * by * (0.5 * by + reach / 3.0) <= 0.5 * root;
             let short = if falls { jerk * by * by * (by + reach) / (3.0 * root) } else { f64::INFINITY };
             return if by < step.by { step } else { Step { by, short } };
@@ -70,25 +70,25 @@ pub(crate) fn far_step([f, slope, bend]: [f64; 3], bound: f64, jerk: f64) -> Ste
     step
 }
 
-/// A reach is doubled so many times at most.
+/// The most doublings of a reach.
 const REACHES: usize = 8;
 
 /// Steps towards a grazing zero shrink by a constant factor only; this many bring any f64 to its last digit.
 pub(crate) const STEPS: usize = 2000;
 
-/// Where a first zero is.
+/// The place of a first zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Zero {
-    /// Not before the cap.
+    /// No zero before the cap.
     Never,
-    /// Here.
+    /// The zero.
     At(f64),
-    /// Not before this: the search was given up there.
+    /// No zero before this time, at which the search was given up.
     Beyond(f64),
 }
 
 impl Zero {
-    /// The zero, or where the search was given up.
+    /// Returns the zero, or the end of a search that was given up.
     pub(crate) fn last(self) -> Option<f64> {
         match self {
             Self::Never => None,
@@ -97,7 +97,7 @@ impl Zero {
     }
 }
 
-/// First zero of f at or after `t` and before `cap`, where f is positive before.
+/// Returns the first zero of f at or after `t` and before `cap`, where f is positive before.
 ///
 /// `f(t)` gives the value and derivatives, `step(t, those)` a step that is proven to be free of zeros.
 pub(crate) fn first_zero<const N: usize>(

@@ -40,12 +40,12 @@ fn damping(zeta: f64) -> DampingRatio {
     DampingRatio::new(zeta).expect("damping")
 }
 
-/// 200 frequencies from 10 Hz to 10 kHz.
+/// Returns 200 frequencies from 10 Hz to 10 kHz.
 fn frequencies() -> Frequencies {
     Frequencies::list((0..200).map(|i| 10.0 * 1000_f64.powf(f64::from(i) / 199.0)).collect()).expect("frequencies")
 }
 
-/// Thirty shocks of alternating sign that fade, 1 to 3 ms apart.
+/// Returns thirty shocks of alternating sign that fade, 1 to 3 ms apart.
 fn shocks() -> VelocityShocks {
     let (mut time, mut size) = (0.0, 1.0);
     let list = (0_u32..30).map(|i| {
@@ -56,7 +56,7 @@ fn shocks() -> VelocityShocks {
     VelocityShocks::new(list.collect()).expect("shocks")
 }
 
-/// Eight half-sines of 0.3 ms within 100 ms: a drop.
+/// Returns eight half-sines of 0.3 ms within 100 ms: a drop.
 fn drop_pulses() -> Vec<Pulse> {
     (0..8)
         .map(|i| Pulse {
@@ -82,7 +82,7 @@ fn sampled(pulses: &[Pulse], dt: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The filter as textbooks have it, one frequency at a time: samples alone, no peak between them, no ring-down.
+/// Applies the filter as textbooks have it, one frequency at a time: samples alone, no peak between them, no ring-down.
 fn plain_filter(samples: &[f64], dt: f64, hz: f64, zeta: f64) -> f64 {
     let omega = TAU * hz;
     let (beta, theta) = ((1.0 - zeta * zeta).sqrt() * omega * dt, zeta * omega * dt);

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::time::{Duration, Instant};
 
-/// The answer and the least time.
+/// Returns the answer and the least time.
 fn smallest_time<T>(mut run: impl FnMut() -> T) -> (T, Duration) {
     let (begin, mut least, mut runs, mut answer) = (Instant::now(), Duration::MAX, 0, run());
     while runs < 5 || begin.elapsed().as_secs_f64() < 0.3 {

@@ -33,5 +33,5 @@ pub const RECORD: Allowance = Allowance {
     range: "f/fs from 10⁻⁹ to 10",
 };
 
-/// All of them.
+/// All allowances.
 pub const TABLE: [Allowance; 4] = [FREE, PULSE, TRAIN, RECORD];

@@ -5,26 +5,28 @@ use crate::impulse::Run;
 use crate::{DampingRatio, Error, Response, Suspension, VelocityShock, VelocityShocks};
 use clatter::{Bar, Count, End, Impact, Start};
 
-/// What a component at a position of the bar goes through in one clatter.
+/// The response of a component at a position of the bar to one clatter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrainResponse {
     /// Peaks, in the units of the bar's start: velocities in v0, times in h0/v0. Interval i begins with impact i + 1.
     pub response: Response,
     /// Velocity shocks at the position, as far as they were followed.
     pub shocks: VelocityShocks,
-    /// Bound on what was left out of an endless (or very long) train: ωz and z′ are off by at most this, A/ω by at most
-    /// max(1, 2ζ) times this. Zero where every impact was followed, and at the center at q = 1, where none is felt.
+    /// Bound on the omitted rest of an endless (or very long) train: ωz and z′ are off by at most this, A/ω by at most
+    /// max(1, 2ζ) times this. Zero where every impact was followed, and at the center at q = 1, which no shock reaches.
     pub omitted: f64,
 }
 
-/// Impacts followed at most, whatever the bound: beyond, `omitted` says what is missing.
+/// The most impacts that are followed, whatever the bound: the rest is in `omitted`.
 const MOST_IMPACTS: usize = 1 << 20;
-/// What is left of an endless train counts no more below this share of the largest shock: far below one rounding.
+/// The share of the largest shock below which the rest of an endless train no longer counts: far below one rounding.
 const NEGLIGIBLE: f64 = f64::EPSILON / 256.0;
 
-/// Share of the velocity jump of the struck end that a position gets: ((1−q) ∓ (1+q)s)/2 from a strike at end a or b.
+/// Returns the share of the velocity jump of the struck end that reaches a position: ((1−q) ∓ (1+q)s)/2 from a strike
+/// at end a or b.
 ///
-/// Formed from 1 ∓ q, so that it does not cancel near the center of percussion more than the position itself does.
+/// It is formed from 1 ∓ q, so that it does not cancel near the center of percussion more than the position itself
+/// does.
 fn share(q: f64, position: f64, end: End) -> f64 {
     let toward = match end {
         End::A => -position,
@@ -40,18 +42,19 @@ fn check_position(position: f64) -> Result<(), Error> {
     Err(Error::Quantity { name: "position", value: position, allowed: "in [-1, 1]; -1 is the end that strikes first" })
 }
 
-/// Response of a component at `position` (−1 is the end that strikes first) to the whole clatter of a symmetric bar.
+/// Returns the response of a component at `position` (−1 is the end that strikes first) to the whole clatter of a
+/// symmetric bar.
 ///
 /// Each impact n of [`Bar::train`] is a velocity shock there: the jump of the struck end times ((1−q) ∓ (1+q)s)/2
 /// (Eq. 3 of the paper). `suspension` has its ω in units of v0/h0.
 ///
 /// # Endless trains
 ///
-/// They are followed until the sum of all shocks to come, bounded by a geometric series, is below ε/256 of the largest.
+/// They are followed until the sum of all later shocks, bounded by a geometric series, is below ε/256 of the largest.
 /// Where the gaps shrink much faster than the shocks (q near 1), the rest falls, to the resolution of time, on one
 /// instant: it acts there as the one change of velocity that brings the bar to rest. [`TrainResponse::omitted`] bounds
-/// what either leaves out. At q = 1 the center alone has a limit: it gets nothing of any impact, and stands still in a
-/// train of one shock of no size.
+/// the error of both. At q = 1 the center alone has a limit: no impact moves it, and it stands still in a train of one
+/// shock of size zero.
 ///
 /// # Errors
 ///
@@ -59,7 +62,7 @@ fn check_position(position: f64) -> Result<(), Error> {
 ///
 /// # Examples
 ///
-/// On a soft mount a clatter that ends at rest is one change of velocity, v0:
+/// On a soft mount a clatter that ends at rest acts as one change of velocity, v0:
 ///
 /// ```
 /// # use clatter::{Bar, Start};
@@ -82,11 +85,11 @@ pub fn respond(bar: &Bar, start: &Start, position: f64, suspension: &Suspension)
     Ok(TrainResponse { response, shocks, omitted })
 }
 
-/// The velocity shocks at a position, and a bound on what was left out (see [`respond`]) for components up to the
-/// angular frequency `omega_max`.
+/// Returns the velocity shocks at a position, and a bound on the omitted ones (see [`respond`]) for components up to
+/// the angular frequency `omega_max`.
 ///
 /// # Errors
-/// As [`respond`].
+/// The errors of [`respond`].
 pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Result<(VelocityShocks, f64), Error> {
     check_position(position)?;
     let (q, e) = (bar.symmetric()?.q(), bar.e());
@@ -96,7 +99,7 @@ pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Res
     }
     let largest_share = share(q, position.abs(), End::B);
     if largest_share <= 0.0 {
-        // Nothing of any impact comes here: the first stands for all, of which there may be no end.
+        // No impact moves this position: the first stands for all, which may be endless.
         let first = bar.train(start).next().map(|impact| VelocityShock { time: impact.time, delta_v: 0.0 });
         return Ok((VelocityShocks::new(first.into_iter().collect())?, 0.0));
     }
@@ -129,7 +132,7 @@ pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Res
         if rest <= NEGLIGIBLE * largest {
             return Ok((VelocityShocks::new(list)?, if train.peek().is_some() { rest } else { 0.0 }));
         }
-        // Time has run out of digits while the speeds still fall, in constant proportion: two more strikes show both
+        // Time has run out of digits while the speeds still fall, in constant proportion: two more strikes give both
         // states that the bar alternates between, then one jump brings it to rest.
         let resolution = 4.0 * f64::EPSILON * impact.time;
         let settled = (ratio - limit_ratio).abs() <= 1e-13 * limit_ratio && q < 1.0;
@@ -154,7 +157,7 @@ pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Res
     Ok((VelocityShocks::new(list)?, 0.0))
 }
 
-/// What one unit of velocity change does to a component at rest: the factors that turn a shock into a peak.
+/// The peaks of a component at rest after one unit of velocity change: the factors that turn a shock into a peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpulseFactors {
     /// Peak ω|z| / Δv.
@@ -164,7 +167,7 @@ pub struct ImpulseFactors {
 }
 
 impl ImpulseFactors {
-    /// The peaks ωz and A/ω of one shock of the velocity change `delta_v`, in its unit.
+    /// Returns the peaks ωz and A/ω of one shock of the velocity change `delta_v`, in its unit.
     ///
     /// ```
     /// # use clatter_shock::DampingRatio;
@@ -178,10 +181,10 @@ impl ImpulseFactors {
 }
 
 impl VelocityShocks {
-    /// Peaks ωz and A/ω of a component so soft that all shocks fall within a small part of its period (ω times the
-    /// length of the train → 0): the net change of velocity times the impulse factors. The acceleration passes through
-    /// the jumps 2ζΔv of the dashpot on the way, so that at strong damping the largest partial sum can stand above the
-    /// net.
+    /// Returns the peaks ωz and A/ω of a component so soft that all shocks fall within a small part of its period (ω
+    /// times the length of the train → 0): the net change of velocity times the impulse factors. The acceleration
+    /// passes through the jumps 2ζΔv of the dashpot on the way, so that at strong damping the largest partial sum can
+    /// stand above the net.
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, VelocityShock, VelocityShocks};
@@ -199,8 +202,8 @@ impl VelocityShocks {
         let jump = 2.0 * damping.get() * self.largest_partial_sum();
         ImpulseFactors { acceleration: net.acceleration.max(jump), ..net }
     }
-    /// Peaks ωz and A/ω of a component so stiff that it is at rest again before the next shock (ζω times each gap → ∞):
-    /// the largest single shock times the impulse factors. `None` at ζ = 0, where nothing comes to rest.
+    /// Returns the peaks ωz and A/ω of a component so stiff that it is at rest again before the next shock (ζω times
+    /// each gap → ∞): the largest single shock times the impulse factors. `None` at ζ = 0, where nothing comes to rest.
     #[must_use]
     pub fn stiff_limit(&self, damping: DampingRatio) -> Option<ImpulseFactors> {
         (damping.get() > 0.0).then(|| damping.impulse_factors().times(self.largest()))
@@ -208,7 +211,7 @@ impl VelocityShocks {
 }
 
 impl DampingRatio {
-    /// Peak of one velocity shock: ω|z|/Δv = e^(−ζ acos ζ/β) for ζ < 1, and |A|/(ωΔv).
+    /// Returns the peak of one velocity shock: ω|z|/Δv = e^(−ζ acos ζ/β) for ζ < 1, and |A|/(ωΔv).
     ///
     /// ```
     /// # use clatter_shock::DampingRatio;
@@ -233,18 +236,19 @@ impl DampingRatio {
 /// shock).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rule {
-    /// One point for each Ω asked.
+    /// One point for each given Ω.
     pub points: Vec<RulePoint>,
-    /// Ω → 0: the net change of velocity times the impulse factors. The acceleration passes through the jumps 2ζΔv of
-    /// the dashpot on the way, so that at strong damping the largest partial sum of the shocks can stand above the net.
+    /// Limit for Ω → 0: the net change of velocity times the impulse factors. The acceleration passes through the jumps
+    /// 2ζΔv of the dashpot on the way, so that at strong damping the largest partial sum of the shocks can stand above
+    /// the net.
     pub soft: ImpulseFactors,
-    /// ζΩ → ∞: the largest single shock times the impulse factors. The last strikes of an endless train come within any
-    /// period, so that there the limit is only crept up to, like a small power of 1/Ω. `None` at ζ = 0, where shocks
-    /// add up by phase for ever.
+    /// Limit for ζΩ → ∞: the largest single shock times the impulse factors. The last strikes of an endless train come
+    /// within any period, so that its peaks approach the limit only like a small power of 1/Ω. `None` at ζ = 0, where
+    /// shocks add up by phase for ever.
     pub stiff: Option<ImpulseFactors>,
-    /// What standards assume: one shock of 2 v0, times the impulse factors.
+    /// The assumption of standards: one shock of 2 v0, times the impulse factors.
     pub standard: ImpulseFactors,
-    /// Bound on what an endless train leaves out, over all points.
+    /// Bound on the omitted rest of an endless train, over all points.
     pub omitted: f64,
 }
 
@@ -261,11 +265,12 @@ pub struct RulePoint {
     pub gain: f64,
 }
 
-/// The rule for a bar, a position and a damping ratio, at the given Ω. v0 is the speed of the end that strikes first.
+/// Returns the rule for a bar, a position and a damping ratio, at the given Ω. v0 is the speed of the end that strikes
+/// first.
 ///
 /// # Errors
-/// As [`respond`]; [`Error::Entry`] for an Ω that is not finite and positive; [`Error::Quantity`] for a flat drop (no
-/// Ω).
+/// The errors of [`respond`]; [`Error::Entry`] for an Ω that is not finite and positive; [`Error::Quantity`] for a flat
+/// drop (no Ω).
 pub fn three_way_rule(
     bar: &Bar,
     start: &Start,

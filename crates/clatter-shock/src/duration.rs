@@ -1,4 +1,4 @@
-//! How long a shock lasts, by MIL-STD-810.
+//! Effective durations of a shock, by MIL-STD-810.
 
 use crate::Error;
 use crate::samples::{check, float, peak};
@@ -19,14 +19,14 @@ pub struct EffectiveDuration {
 const THIRD: f64 = 1.0 / 3.0;
 /// Share of the peak root mean square above which T_E counts.
 const TENTH: f64 = 0.1;
-/// Averaging times that fit, in T_E.
+/// Averaging times that are allowed, in T_E.
 const AVERAGING: std::ops::RangeInclusive<f64> = 0.1..=0.2;
-/// The one in their middle that is tried.
+/// Averaging time of a trial, as a share of the duration so far: the middle of that range.
 const MIDDLE: f64 = 0.15;
 /// Trials of the averaging time. Each next one moves T_E by less than half as much, unless another shock comes in.
 const TRIALS: usize = 20;
 
-/// Effective durations of the shock in a history that holds one shock.
+/// Returns the effective durations of the shock in a history that holds one shock.
 ///
 /// ```text
 /// Tₑ    the shortest time that holds all |a| above a third of the largest one        (MIL-STD-810F, method 516.5)
@@ -36,7 +36,7 @@ const TRIALS: usize = 20;
 /// Tₑ counts on straight lines between the samples. The root mean square at a time is that of the samples around it; the
 /// history is zero before and after. The averaging time begins with 15 % of Tₑ and becomes 15 % of the T_E found until it
 /// lies in 10 to 20 % of it; where that does not come about in 20 trials, or one sample is longer, the last one holds, and
-/// `averaging_s` tells. For an exponential decay T_E is 2.1 Tₑ and the part of an averaging time.
+/// `averaging_s` gives it. For an exponential decay T_E is 2.1 Tₑ and the part of an averaging time.
 ///
 /// # Validity
 ///
@@ -89,14 +89,14 @@ pub fn effective_duration(acceleration: &[f64], step_s: f64) -> Result<Effective
     Ok(EffectiveDuration { third_of_peak_s, tenth_of_rms_s: length * step_s, averaging_s: float(window) * step_s })
 }
 
-/// A number of samples, one at least and `most` at most.
+/// Returns a number of samples, one at least and `most` at most.
 fn samples(wanted: f64, most: usize) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and the samples there are")]
     let whole = wanted.round().clamp(1.0, float(most)) as usize;
     whole
 }
 
-/// Samples from the first to the last time at which |a| is at the level, on straight lines.
+/// Returns samples from the first to the last time at which |a| is at the level, on straight lines.
 fn above(acceleration: &[f64], level: f64) -> f64 {
     let size = |i: usize| acceleration[i].abs();
     let within = |i: &usize| size(*i) >= level;
@@ -112,7 +112,8 @@ fn above(acceleration: &[f64], level: f64) -> f64 {
     float(last - first) + before + after
 }
 
-/// Samples from the first to the last running root mean square of `window` samples above a tenth of the largest.
+/// Returns samples from the first to the last running root mean square of `window` samples above a tenth of the
+/// largest.
 fn active(sums: &[f64], window: usize) -> f64 {
     let n = sums.len() - 1;
     // The window that ends before sample `end`, cut where the history begins and ends.
@@ -132,12 +133,12 @@ mod tests {
     #[test]
     fn a_decay_lasts_as_its_formulas_say() {
         let (step, tau) = (1e-5, 0.01);
-        // From sample 1000 on; 12 time constants leave 6e-6 of it.
+        // The decay begins with sample 1000; 12 time constants leave 6e-6 of it.
         let record: Vec<f64> = (0..13_000)
             .map(|i| if i < 1000 { 0.0 } else { -700.0 * (-(float(i) - 1000.0) * step / tau).exp() })
             .collect();
         let got = effective_duration(&record, step).expect("a shock");
-        // Up within one sample, of which two thirds are above a third.
+        // It rises within one sample, of which two thirds are above a third.
         let want = tau * 3.0_f64.ln() + 2.0 / 3.0 * step;
         // A straight line instead of the exponential: (h/τ)²/8 of the value, by the slope 1/(3τ).
         assert!((got.third_of_peak_s - want).abs() < step * step / tau, "{got:?} {want}");

@@ -1,7 +1,7 @@
 //! Eight numbers at a time: sine, cosine and exponential without branches, for the vector instructions of the machine.
 //!
-//! Power series after an exact reduction, in fused multiply-adds throughout: the results do not depend on how many
-//! numbers one instruction takes, nor on the machine; one without such instructions is slower.
+//! They are power series after an exact reduction, in fused multiply-adds throughout: the results do not depend on how
+//! many numbers one instruction takes, nor on the machine; one without such instructions is slower.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
@@ -9,12 +9,12 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 pub(crate) const WIDTH: usize = 8;
 pub(crate) type Many = [f64; WIDTH];
 
-/// What the doubles nearest to π/2 and ln 2 leave.
+/// Differences between π/2 and ln 2 and the doubles nearest to them.
 const FRAC_PI_2_LO: f64 = 6.123_233_995_736_766e-17;
 const LN_2_LO: f64 = 2.319_046_813_846_299_6e-17;
-/// Adding it rounds to a whole number, which then stands in the last bits: 1.5·2⁵².
+/// Adding this number rounds to a whole number, which then stands in the last bits: 1.5·2⁵².
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// Exponents beyond leave nothing, and no number too small for full speed.
+/// The exponent beyond which the exponential counts as 0, so that no number gets too small for full speed.
 const FADED: f64 = 600.0;
 /// Largest angle of [`sin_cos`].
 pub(crate) const LARGEST_ANGLE: f64 = 1e12;
@@ -31,7 +31,7 @@ const INVERSE_FACTORIAL: [f64; 18] = {
     table
 };
 
-/// Σ termsᵢ tⁱ.
+/// Returns Σ termsᵢ tⁱ.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
 fn series<const N: usize>(terms: [f64; N], t: Many) -> Many {
@@ -44,7 +44,8 @@ fn series<const N: usize>(terms: [f64; N], t: Many) -> Many {
     sum
 }
 
-/// Sine and cosine of `angle` + `lo`, for angles up to [`LARGEST_ANGLE`] and |lo| far below one: within 2 ε.
+/// Returns the sine and cosine of `angle` + `lo`, for angles up to [`LARGEST_ANGLE`] and |lo| far below one: within 2
+/// ε.
 #[inline(always)]
 pub(crate) fn sin_cos(angle: Many, lo: Many) -> (Many, Many) {
     const F: [f64; 18] = INVERSE_FACTORIAL;
@@ -56,7 +57,7 @@ pub(crate) fn sin_cos(angle: Many, lo: Many) -> (Many, Many) {
         r[l] = n.mul_add(-FRAC_PI_2_LO, n.mul_add(-FRAC_PI_2, angle[l])) + lo[l];
         square[l] = r[l] * r[l];
     }
-    // |r| ≤ π/4: what the series leave out is below 10⁻¹⁸.
+    // For |r| ≤ π/4 the omitted terms are below 10⁻¹⁸.
     let odd = series([-F[3], F[5], -F[7], F[9], -F[11], F[13], -F[15], F[17]], square);
     let even = series([-F[2], F[4], -F[6], F[8], -F[10], F[12], -F[14], F[16]], square);
     let (mut sine, mut cosine) = ([0.0; WIDTH], [0.0; WIDTH]);
@@ -71,8 +72,8 @@ pub(crate) fn sin_cos(angle: Many, lo: Many) -> (Many, Many) {
     (sine, cosine)
 }
 
-/// e^(−(y + lo)) and that less 1, for y ≥ 0, infinite too, and |lo| far below one: each within 2 ε of itself where lo = 0.
-/// Beyond y = 600 they are 0 and −1.
+/// Returns e^(−(y + lo)) and that less 1, for y ≥ 0, infinite too, and |lo| far below one: each within 2 ε of itself
+/// where lo = 0. Beyond y = 600 they are 0 and −1.
 #[inline(always)]
 pub(crate) fn decay(y: Many, lo: Many) -> (Many, Many) {
     const F: [f64; 18] = INVERSE_FACTORIAL;
@@ -84,7 +85,7 @@ pub(crate) fn decay(y: Many, lo: Many) -> (Many, Many) {
         r[l] = n.mul_add(-LN_2_LO, n.mul_add(-LN_2, x)) - if y[l] < FADED { lo[l] } else { 0.0 };
         power[l] = f64::from_bits(rounded.to_bits().wrapping_add(1023) << 52);
     }
-    // |r| ≤ ln 2/2: what the series leaves out is below 10⁻¹⁷.
+    // For |r| ≤ ln 2/2 the omitted terms are below 10⁻¹⁷.
     let p = series([F[2], F[3], F[4], F[5], F[6], F[7], F[8], F[9], F[10], F[11], F[12], F[13]], r);
     let (mut whole, mut less) = ([0.0; WIDTH], [0.0; WIDTH]);
     for l in 0..WIDTH {
@@ -103,7 +104,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
-        /// The stated 2 ε, one more for the function compared with.
+        /// The functions keep the stated 2 ε; one more is allowed for those they are compared with.
         #[test]
         fn functions_are_those_of_the_standard_library(exponent in -9.0..12.0_f64, lo in -1e-9..1e-9_f64) {
             let x = 10_f64.powf(exponent);

@@ -2,32 +2,33 @@
 
 use crate::{Error, Frequencies, Pulse, Pulses, Shape, Spectrum};
 
-/// A pulse that asks of no component less than a spectrum does, and by how much it asks for more.
+/// A pulse whose spectrum is nowhere below a given one, and its excess.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnvelopingPulse {
-    /// From time zero; its amplitude is positive.
+    /// The pulse, from time zero; its amplitude is positive.
     pub pulse: Pulse,
-    /// The most by which its spectrum is above, in dB, and where.
+    /// The largest excess of its spectrum, in dB.
     pub most_db: f64,
-    /// Frequency of that, Hz.
+    /// Frequency of the largest excess, Hz.
     pub most_hz: f64,
-    /// The mean over the frequencies, in dB.
+    /// Mean excess over the frequencies, in dB.
     pub mean_db: f64,
 }
 
-/// Durations that are tried at first, to the octave, and steps on either side of the best in each closer look.
+/// Durations to the octave in the first search, and steps on either side of the best one in each finer search.
 const PER_OCTAVE: f64 = 8.0;
 const CLOSER: i32 = 8;
 
 impl EnvelopingPulse {
-    /// The pulse of a shape with the least amplitude at its duration, and of all durations the one whose spectrum is above the given
-    /// one by least on average, in dB over its frequencies. A spectrum of zero has none.
+    /// Returns the pulse of a shape whose spectrum is above the given one by the least mean excess, in dB over its
+    /// frequencies, of all durations, each with its least amplitude. A spectrum of zero has none.
     ///
     /// # Method
-    /// The spectrum s of a pulse of unit amplitude depends on its duration D alone; A(D) = max S/s over the frequencies. The mean of
-    /// 20 log₁₀(A s/S) is looked for on a grid of durations, 8 to the octave, from a hundredth of the shortest period to ten of the
-    /// longest, then twice eight times closer: D is good to 0.1 %. Frequencies where the spectrum is zero do not count.
+    /// The spectrum s of a pulse of unit amplitude depends on its duration D alone; A(D) = max S/s over the
+    /// frequencies. The mean of 20 log₁₀(A s/S) is minimized on a grid of durations, 8 to the octave, from a hundredth
+    /// of the shortest period to ten of the longest, then twice on a grid eight times finer: D is good to 0.1 %.
+    /// Frequencies where the spectrum is zero do not count.
     ///
     /// # Examples
     /// The spectrum of a half-sine is enveloped by that half-sine:
@@ -44,16 +45,16 @@ impl EnvelopingPulse {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Pulses::new`] for a shape that is none.
+    /// Those of [`Pulses::new`] for an invalid shape.
     pub fn of(spectrum: &Spectrum, shape: Shape) -> Result<Option<Self>, Error> {
-        let asked: Vec<(f64, f64)> = spectrum
+        let given: Vec<(f64, f64)> = spectrum
             .frequency_hz
             .iter()
             .copied()
             .zip(spectrum.maximax.iter().copied())
             .filter(|(_, level)| *level > 0.0 && level.is_finite())
             .collect();
-        let hz: Vec<f64> = asked.iter().map(|(hz, _)| *hz).collect();
+        let hz: Vec<f64> = given.iter().map(|(hz, _)| *hz).collect();
         let (low, high) = hz.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), hz| (low.min(*hz), high.max(*hz)));
         if hz.is_empty() {
             return Ok(None);
@@ -63,8 +64,8 @@ impl EnvelopingPulse {
             let unit = Pulse { shape, amplitude: 1.0, duration, start: 0.0 };
             let answer = Pulses::new(&[unit])?.spectrum(&frequencies, spectrum.damping, spectrum.quantity);
             let amplitude =
-                asked.iter().zip(&answer.maximax).map(|((_, level), of_unit)| level / of_unit).fold(0.0, f64::max);
-            let over = asked
+                given.iter().zip(&answer.maximax).map(|((_, level), of_unit)| level / of_unit).fold(0.0, f64::max);
+            let over = given
                 .iter()
                 .zip(&answer.maximax)
                 .map(|((hz, level), of_unit)| (*hz, 20.0 * libm::log10(amplitude * of_unit / level)));
@@ -76,7 +77,7 @@ impl EnvelopingPulse {
                 }
             }
             #[expect(clippy::cast_precision_loss, reason = "a number of frequencies")]
-            let mean_db = sum / asked.len() as f64;
+            let mean_db = sum / given.len() as f64;
             let pulse = Pulse { amplitude, ..unit };
             Ok::<_, Error>(Self { pulse, most_db: most.1, most_hz: most.0, mean_db })
         };
@@ -133,7 +134,7 @@ mod tests {
             #[expect(clippy::cast_precision_loss, reason = "a number of frequencies")]
             let mean = over.iter().sum::<f64>() / over.len() as f64;
             assert!((mean - found.mean_db).abs() < 1e-9, "{shape:?}: {mean} {}", found.mean_db);
-            // No duration beside it has less above.
+            // No duration beside it has a smaller excess.
             for factor in [0.5, 0.9, 0.97, 1.03, 1.1, 2.0] {
                 let other = Pulse { amplitude: 1.0, duration: factor * found.pulse.duration, ..found.pulse };
                 let of_unit = of(&[other]);

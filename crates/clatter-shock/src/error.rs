@@ -1,4 +1,4 @@
-//! The one error type of the crate: what was given, where, and what is allowed.
+//! The one error type of the crate. Each error holds the given value, its place and the allowed range.
 
 /// A value that describes no suspension and no shock, or samples that are no history. Each message names the value and the range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -13,7 +13,7 @@ pub enum Error {
     /// A number outside its range.
     #[error("{name} = {value:?} is not {allowed}")]
     Quantity {
-        /// What the value stands for, with its unit.
+        /// The quantity, with its unit.
         name: &'static str,
         /// The value.
         value: f64,
@@ -27,7 +27,7 @@ pub enum Error {
         list: &'static str,
         /// Its entry, from 1.
         entry: usize,
-        /// What the value stands for.
+        /// The quantity.
         name: &'static str,
         /// The value.
         value: f64,
@@ -75,7 +75,7 @@ pub enum Error {
     /// A curve of fewer than two points.
     #[error("{0} has {points}; it needs two at least", points = if *.1 == 1 { "one point" } else { "no points" })]
     Points(&'static str, usize),
-    /// An endless train at q = 1, asked for at a position off center.
+    /// The response off center to an endless train at q = 1.
     #[error(
         "at q = 1 and position {position:?} the bar strikes for ever without losing speed, so the response has no limit; only the center (position 0) has one"
     )]
@@ -83,7 +83,7 @@ pub enum Error {
         /// Position on the bar.
         position: f64,
     },
-    /// A history whose velocity change is zero, as far as roundings tell.
+    /// A history whose velocity change is zero, to roundings.
     #[error(
         "the velocity change of the history is zero, both directions cancel: it has no damage boundary over velocity change, only a critical acceleration"
     )]
@@ -96,14 +96,14 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// A history too short for what is asked.
+    /// A history too short for the analysis.
     #[error("{what} needs {needed} samples at least; the record has {samples}")]
     Short {
-        /// What is asked.
+        /// The analysis.
         what: &'static str,
-        /// How many samples there are.
+        /// Number of samples.
         samples: usize,
-        /// How many it takes.
+        /// Number of samples needed.
         needed: usize,
     },
     /// A history that never changes.
@@ -112,7 +112,7 @@ pub enum Error {
     /// Shock tests that show no critical level.
     #[error("the {0} trials show no critical level: some level without damage must lie below the lowest with damage")]
     Trials(&'static str),
-    /// No half-sine of the shock table does the same to the component.
+    /// No half-sine of the shock table has the same effect on the component.
     #[error(
         "no half-sine of this shock table is equivalent: {}",
         if nearest.is_finite() {
@@ -128,7 +128,7 @@ pub enum Error {
     NoEquivalent {
         /// Smallest relative mismatch in displacement; infinite if the table reaches the acceleration with no pulse.
         nearest: f64,
-        /// The mismatch that was allowed.
+        /// The largest mismatch that was allowed.
         tolerance: f64,
     },
     /// An invalid bar or drop.
@@ -136,14 +136,15 @@ pub enum Error {
     Bar(#[from] clatter::Error),
 }
 
-/// A share in percent, three digits of it; what is above a limit is rounded up, not to look as if it held.
+/// Returns a share in percent, with three digits; a share above a limit is rounded up, so that it does not look as if
+/// the limit held.
 fn percent(share: f64, round: fn(f64) -> f64) -> f64 {
     let percent = 100.0 * share;
     let digit = libm::pow(10.0, libm::log10(percent).floor() - 2.0);
     format!("{:.2e}", round(percent / digit) * digit).parse().unwrap_or(percent)
 }
 
-/// `value` if it is finite and greater than zero.
+/// Returns `value` if it is finite and greater than zero.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
     if value > 0.0 && value.is_finite() {
         Ok(value)

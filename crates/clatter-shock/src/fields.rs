@@ -1,4 +1,4 @@
-//! What is checked on construction, as serde writes and reads it: by the fields that are given, checked again.
+//! Fields of the types that are checked on construction, as serde writes and reads them. Reading checks them again.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! Spectra of evenly sampled records: the ramp-invariant recursive filter of ISO 18431-4, many frequencies at a time.
 //!
 //! Between samples the acceleration is taken to be linear, and for such a history the filter is exact. It carries the
-//! quantity asked for and one more coordinate, u and v, less what the newest sample adds at once:
+//! wanted quantity and one more coordinate, u and v, less the immediate effect of the newest sample:
 //!
 //! ```text
 //! (u, v)ₖ₊₁ = (u, v)ₖ + N (u, v)ₖ + c aₖ,    qₖ₊₁ = uₖ₊₁ + d aₖ₊₁
@@ -23,18 +23,18 @@ use std::f64::consts::TAU;
 
 /// Samples between two bounds.
 const BLOCK: usize = 32;
-/// The same as a number.
+/// The number of samples in a block as a float.
 const STEPS: f64 = 32.0;
 /// Samples gone through for one group of frequencies before the next: they stay in the nearest cache.
 const CHUNK: usize = 4096;
-/// From so many samples on it is worth while to prepare for whole blocks at once.
+/// The number of samples from which on it pays to prepare for whole blocks at once.
 const WORTH: usize = 4 * BLOCK;
 /// Smaller numbers would slow the machine down; they are far below one rounding of anything that is compared.
 const TINY: f64 = 1e-280;
 /// Smaller extremes are not compared by their squares.
 const SMALLEST: f64 = 1e-140;
 
-/// A shock response spectrum in the making: samples in, in pieces of any size; memory does not grow.
+/// A shock response spectrum in progress. Samples come in pieces of any size; memory does not grow.
 #[derive(Debug, Clone)]
 pub struct SpectrumFilter {
     frequencies: Frequencies,
@@ -43,10 +43,10 @@ pub struct SpectrumFilter {
     modes: Modes,
     groups: Vec<Group>,
     previous: Option<f64>,
-    /// Time of the first sample, and how many steps there have been.
+    /// Time of the first sample, and the number of steps since.
     start_s: f64,
     steps: usize,
-    /// As long as the softest oscillator may need them.
+    /// Integrals of the record, kept as long as the softest oscillator may need them.
     integrals: Option<Integrals>,
 }
 
@@ -60,25 +60,25 @@ struct Group {
     d: Many,
     u: Many,
     v: Many,
-    /// What u, v and the newest sample give to x and to y.
+    /// Factors of u, v and the newest sample in x and in y.
     back: [[Many; 3]; 2],
-    /// Extremes so far, of the samples at least; infinite where there is no oscillator.
+    /// Extremes so far, at least those of the samples; infinite where there is no oscillator.
     high: Many,
     low: Many,
     reach: Reach,
     oscillators: Vec<Oscillator>,
 }
 
-/// How far a quantity can go within a block.
+/// Bounds on the change of a quantity within a block.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 struct Reach {
-    /// What it changes by within a block, at most, over √(x² + y²), and bound on itself over that.
+    /// Bound on its change within a block over √(x² + y²), and bound on itself over that.
     drift: Many,
     most: f64,
-    /// What x and y give to it.
+    /// Factors of x and y in it.
     of: [f64; 2],
-    /// What a jump of velocity changes it by at once.
+    /// Change by a unit jump of velocity.
     push: f64,
     /// Time between samples.
     dt: f64,
@@ -104,26 +104,26 @@ struct Recursion {
     d: f64,
 }
 
-/// What one frequency needs beside the filter.
+/// The data of the oscillator of one frequency, apart from those of the filter.
 #[derive(Debug, Clone)]
 struct Oscillator {
     theta: f64,
     row: usize,
     recursion: Recursion,
-    /// From (u, v) back to (x, w).
+    /// Matrix from (u, v) back to (x, w).
     back: [[f64; 2]; 2],
-    /// What the newest sample adds to (x, w) at once.
+    /// Immediate effect of the newest sample on (x, w).
     newest: Motion,
-    /// The same in (u, v).
+    /// The same effect on (u, v).
     at_once: [f64; 2],
     /// 1/ω and 1/(ωθ).
     inverse: [f64; 2],
-    /// See [`share_of_bend`].
+    /// Share of the bend, see [`share_of_bend`].
     share: f64,
     range: Range,
 }
 
-/// Samples gone through at a time, the one before them, and bounds on each block of them and on all.
+/// Samples that are processed at a time, the one before them, and bounds on each block of them and on all.
 struct Chunk<'a> {
     previous: f64,
     samples: &'a [f64],
@@ -141,7 +141,7 @@ struct Input {
     jump: f64,
 }
 
-/// Where a block begins, and its largest and smallest sample, that before it included, of each oscillator.
+/// State at the begin of a block, and its largest and smallest sample, that before it included, of each oscillator.
 #[derive(Clone, Copy)]
 struct Block {
     /// Its number, from 0.
@@ -166,7 +166,7 @@ impl Input {
 }
 
 impl Input {
-    /// Of all blocks together.
+    /// Returns the bounds for all blocks together.
     fn all(blocks: &[Self]) -> Self {
         blocks.iter().fold(Self { before: 0.0, sum: 0.0, peak: 0.0, jump: 0.0 }, |all, b| Self {
             before: 0.0,
@@ -182,7 +182,7 @@ impl Oscillator {
         let phase = Phase::product(omega, dt);
         let theta = phase.hi;
         let (step, ramp) = modes.driven(phase);
-        // Forcing is −a/ω; of a step, the newer sample drives `newest`, the older one the rest of the constant.
+        // The forcing is −a/ω; in a step, the newer sample drives `newest`, the older one the rest of the constant.
         let scale = -omega.recip();
         let newest = Motion { x: scale * (ramp.x1 / theta), w: scale * (ramp.w1 / theta) };
         let older = Motion { x: scale * ramp.x0 - newest.x, w: scale * ramp.w0 - newest.w };
@@ -216,31 +216,31 @@ impl Oscillator {
         let recursion = Recursion { n: [n[0][0], n[0][1], n[1][0], n[1][1]], c: input, d: at_once[0] };
         Self { theta, row, recursion, back, newest, at_once, inverse, share, range: Range::default() }
     }
-    /// The motion at a sample, from the filter's coordinates and that sample.
+    /// Returns the motion at a sample, from the filter's coordinates and that sample.
     fn motion(&self, u: f64, v: f64, a: f64) -> Motion {
         let [x, w] = self.back;
         Motion { x: x[0] * u + x[1] * v + self.newest.x * a, w: w[0] * u + w[1] * v + self.newest.w * a }
     }
-    /// How far the quantity can rise between samples, above all of them, where it reaches `q` at samples and the motion
-    /// begins with `m`: θ²/8 of the largest bend, which q″ = −q − 2ζq′ + (input) bounds.
+    /// Returns a bound on the rise of the quantity between samples, above all of them, where it reaches `q` at samples
+    /// and the motion begins with `m`: θ²/8 of the largest bend, which q″ = −q − 2ζq′ + (input) bounds.
     #[inline]
     fn bump(&self, modes: &Modes, q: f64, m: Motion, input: &Input) -> f64 {
         let y = m.w - modes.sigma * m.x;
         // |x| and |y| stay within v: √(x² + y²) grows by no more than |f|.
         let v = m.x.abs() + y.abs() + self.theta * input.sum * self.inverse[0];
         let (f, slope) = (input.peak * self.inverse[0], input.jump * self.inverse[1]);
-        self.share * (q + modes.bend_beside(self.row, v, f, slope))
+        self.share * (q + modes.bend_bound(self.row, v, f, slope))
     }
-    /// How far some step of a block can rise between its samples, if that may pass the largest value so far; `l` is the
-    /// oscillator’s place.
+    /// Returns the bound on the rise of a block between its samples, if that may pass the largest value so far; `l` is
+    /// the index of the oscillator.
     fn may_rise(&self, modes: &Modes, l: usize, b: &Block, input: &Input) -> Option<f64> {
         let m = self.motion(b.u[l], b.v[l], input.before);
         let q = modes.quantity(self.row, m).abs().max(b.high[l]).max(-b.low[l]);
         let bump = self.bump(modes, q, m, input);
         (b.high[l] + bump > self.range.high.value || b.low[l] - bump < self.range.low.value).then_some(bump)
     }
-    /// Goes through the steps of a block one by one; none of them rises by more than `most` between its samples. The
-    /// block begins with step number `block`.
+    /// Visits the steps of a block one by one; none of them rises by more than `most` between its samples. The block
+    /// begins with step number `block`.
     fn refine(&mut self, segment: &mut Segment, l: usize, most: f64, (block, steps): (usize, &Steps), samples: &[f64]) {
         let modes = segment.modes();
         let (mut high, mut low) = (self.range.high.value - most, self.range.low.value + most);
@@ -290,7 +290,8 @@ impl Group {
                 to[l] = from;
             }
             (group.c[0][l], group.c[1][l], group.d[l]) = (c[0], c[1], d);
-            // Until the first sample: what it will add at once is taken off (times that sample).
+            // Until the first sample, its immediate effect is subtracted (for a sample of 1; the first sample scales
+            // it).
             (group.u[l], group.v[l]) = (-oscillator.at_once[0], -oscillator.at_once[1]);
             for (i, x) in [[1.0, 0.0], [-modes.sigma, 1.0]].into_iter().enumerate() {
                 let of = |m: [f64; 2]| x[0] * m[0] + x[1] * m[1];
@@ -305,7 +306,7 @@ impl Group {
         }
         group
     }
-    /// Takes in some samples, the first of which ends step number `first`.
+    /// Processes some samples, the first of which ends step number `first`.
     fn run(&mut self, modes: &Modes, first: usize, chunk: &Chunk<'_>) {
         let start = [self.u, self.v];
         let &Chunk { previous, samples, inputs, .. } = chunk;
@@ -338,7 +339,7 @@ impl Group {
                 }
             }
         };
-        // Blocks beyond these values may hold a new extreme; oscillators that are not there have none.
+        // Blocks beyond these values may hold a new extreme; empty places have none.
         let (mut high, mut low) = ([f64::INFINITY; WIDTH], [f64::NEG_INFINITY; WIDTH]);
         for (l, oscillator) in self.oscillators.iter_mut().enumerate() {
             let (highest, lowest) = (&blocks[scanned.highest[l]], &blocks[scanned.lowest[l]]);
@@ -354,7 +355,7 @@ impl Group {
             let most = oscillator.bump(modes, q, m, &chunk.total);
             (high[l], low[l]) = (-most, most);
         }
-        // Where the samples are largest the peak is likely, and rules out most of the rest.
+        // The peak is likely in the blocks of the largest samples, and rules out most of the others.
         for likely in [&scanned.highest, &scanned.lowest] {
             for l in 0..self.oscillators.len() {
                 search(self, l, &blocks[likely[l]]);
@@ -383,7 +384,7 @@ impl Group {
             (self.high[l], self.low[l]) = (oscillator.range.high.value, oscillator.range.low.value);
         }
     }
-    /// Whether no oscillator can reach a new extreme within a block, also between samples.
+    /// Returns whether no oscillator can reach a new extreme within a block, also between samples.
     ///
     /// √(x² + y²) grows by no more than the velocity that the acceleration adds; q stays below a multiple of it, and
     /// within reach of where it begins.
@@ -392,7 +393,7 @@ impl Group {
     fn stays(&self, input: &Input, high: &Many, low: &Many) -> bool {
         let Reach { of, most, drift, push, dt } = &self.reach;
         let added = dt * input.sum;
-        // Numbers, that no oscillator waits for another.
+        // These are numbers, so that no oscillator waits for another.
         let mut stays = [0; WIDTH];
         for l in 0..WIDTH {
             let coordinate =
@@ -407,16 +408,16 @@ impl Group {
         }
         !stays.contains(&0)
     }
-    /// The recursion over one block without its values.
+    /// Crosses one block by the recursion without its values.
     #[inline(always)]
     fn leap<S: pulp::Simd>(&mut self, simd: S, leap: &Leap, before: f64, samples: &[f64]) {
-        /// Sums side by side, so that none waits for another.
+        /// Number of sums side by side, so that none waits for another.
         const SUMS: usize = 4;
         let (across, (u, _), (v, _)) =
             (WIDTH / S::F64_LANES, S::as_mut_simd_f64s(&mut self.u), S::as_mut_simd_f64s(&mut self.v));
         let n = leap.n.each_ref().map(|n| S::as_simd_f64s(n).0);
         let (zero, tiny) = (simd.splat_f64s(0.0), simd.splat_f64s(TINY));
-        // In vectors of the machine by name: left to itself, the compiler splits these sums among scalars.
+        // The vectors of the machine are named: the compiler alone splits these sums among scalars.
         for i in 0..across {
             let mut sums = [[zero; 2]; SUMS];
             for (k, w) in leap.w.as_chunks::<SUMS>().0.iter().enumerate() {
@@ -435,7 +436,7 @@ impl Group {
             (u[i], v[i]) = (flush(next_u), flush(next_v));
         }
     }
-    /// Numbers too small for full speed are nothing.
+    /// Sets numbers too small for full speed to 0.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn flush(&mut self) {
@@ -444,7 +445,7 @@ impl Group {
             self.v[l] = if self.v[l].abs() < TINY { 0.0 } else { self.v[l] };
         }
     }
-    /// The recursion over one block.
+    /// Runs the recursion over one block.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn scan(&mut self, index: usize, before: f64, samples: &[f64]) -> Block {
@@ -459,8 +460,8 @@ impl Group {
         self.flush();
         block
     }
-    /// The recursion sample by sample, from (u, v): `each` is told the number of the sample and what u, v and the
-    /// quantity are there, at number 0 those at the sample before.
+    /// Runs the recursion sample by sample, from (u, v): `each` gets the number of the sample and u, v and the quantity
+    /// there, at number 0 those at the sample before.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn step_through(
@@ -490,9 +491,9 @@ impl Group {
     }
 }
 
-/// A block gone through once more: u, v and the quantity at each of its samples, and first at the one before.
+/// The steps of a block, computed once more: u, v and the quantity at each of its samples, and first at the one before.
 struct Steps {
-    /// Which block it is.
+    /// Index of the block.
     index: Option<usize>,
     /// The sample before it.
     before: f64,
@@ -508,7 +509,7 @@ impl Steps {
     }
 }
 
-/// Fills in the steps of a block, in the very numbers of the [`Scan`].
+/// Fills in the steps of a block, with the same numbers as the [`Scan`].
 struct Retrace<'a> {
     group: &'a Group,
     block: &'a Block,
@@ -536,12 +537,12 @@ impl Retrace<'_> {
     }
 }
 
-/// The samples of a block.
+/// Returns the samples of a block.
 fn block_of(samples: &[f64], i: usize) -> &[f64] {
     &samples[i * BLOCK..samples.len().min((i + 1) * BLOCK)]
 }
 
-/// One group through some samples, block by block, on the widest instructions of the machine.
+/// The run of one group through some samples, block by block, on the widest instructions of the machine.
 struct Scan<'a> {
     group: &'a mut Group,
     previous: f64,
@@ -549,7 +550,7 @@ struct Scan<'a> {
     inputs: &'a [Input],
 }
 
-/// The blocks that were gone through sample by sample, and which of them hold the largest and the smallest sample of
+/// The blocks that were computed sample by sample, and the indices of those with the largest and the smallest sample of
 /// each oscillator.
 struct Scanned {
     blocks: Vec<Block>,
@@ -601,7 +602,7 @@ impl Scan<'_> {
 #[repr(C, align(64))]
 struct Leap {
     n: [Many; 4],
-    /// Those of u, then those of v.
+    /// Weights of u, then those of v.
     w: [[f64; 2 * WIDTH]; BLOCK],
 }
 
@@ -634,7 +635,8 @@ impl Leap {
     }
 }
 
-/// Share of the bend that a rise between samples a phase θ apart can have: s/(1 − s) with s = θ²/8, infinite for s ≥ ½.
+/// Returns the share of the bend that a rise between samples a phase θ apart can have: s/(1 − s) with s = θ²/8,
+/// infinite for s ≥ ½.
 #[inline]
 pub(crate) fn share_of_bend(theta: f64) -> f64 {
     let share = 0.125 * theta * theta;
@@ -642,14 +644,13 @@ pub(crate) fn share_of_bend(theta: f64) -> f64 {
 }
 
 impl SpectrumFilter {
-    /// A filter for samples `dt` seconds apart.
+    /// Creates a filter for samples `dt` seconds apart.
     ///
     /// # Accuracy
     ///
-    /// Exact for a history that is linear between samples, but for rounding: from f·dt = 10⁻⁹ to 10, at any damping, for
-    /// samples of up to 10¹⁰⁰ m/s².
-    /// The component is at rest before the first sample; after the last the acceleration is zero and the ring-down is
-    /// complete.
+    /// The spectrum is exact for a history that is linear between samples, but for rounding: from f·dt = 10⁻⁹ to 10, at
+    /// any damping, for samples of up to 10¹⁰⁰ m/s². The component is at rest before the first sample; after the last
+    /// the acceleration is zero and the ring-down is complete.
     ///
     /// # Examples
     ///
@@ -685,7 +686,7 @@ impl SpectrumFilter {
             integrals: Some(Integrals::default()),
         })
     }
-    /// The same with the first sample at `start_s` in place of 0: times of peaks count from there.
+    /// Returns the filter with the first sample at `start_s` in place of 0: times of peaks count from there.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless it is finite.
@@ -696,7 +697,7 @@ impl SpectrumFilter {
         self.start_s = start_s;
         Ok(self)
     }
-    /// Takes in more samples of base acceleration.
+    /// Processes more samples of base acceleration.
     pub fn push(&mut self, samples: &[f64]) {
         let mut rest = samples;
         if self.previous.is_none()
@@ -728,7 +729,7 @@ impl SpectrumFilter {
         }
         self.previous = Some(previous);
     }
-    /// As long as it may serve.
+    /// Adds samples to the integrals, as long as these may serve.
     fn integrate(&mut self, mut before: f64, samples: &[f64]) {
         let Some(integrals) = &mut self.integrals else { return };
         let softest = self
@@ -745,7 +746,7 @@ impl SpectrumFilter {
             before = sample;
         }
     }
-    /// The spectrum, with the ring-down after the last sample.
+    /// Returns the spectrum, with the ring-down after the last sample.
     /// # Errors
     /// [`Error::Empty`] if no sample came.
     pub fn finish(self) -> Result<Spectrum, Error> {
@@ -760,7 +761,7 @@ impl SpectrumFilter {
             let oscillator = &group.oscillators[l];
             let soft = self.integrals.as_ref().filter(|integrals| integrals.suit(self.modes.zeta, oscillator.theta));
             let left = soft.map(|integrals| integrals.motion(&self.modes, oscillator.theta, group.reach.dt));
-            // Integrals may pass the floats where the motion does not.
+            // Integrals may overflow where the motion does not.
             let motion = match left.filter(|motion| (motion.x + motion.w).is_finite()) {
                 Some(motion) => motion,
                 None => oscillator.motion(group.u[l], group.v[l], last),

@@ -18,7 +18,7 @@ use num_complex::Complex64;
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-/// Terms of a series at most.
+/// The most terms of a series.
 const TERMS: usize = 60;
 /// 1/k, and 1/((k+1)(k+2)): divisions would take most of the time of a series.
 const RECIPROCAL: [[f64; 2]; TERMS + 1] = {
@@ -31,8 +31,8 @@ const RECIPROCAL: [[f64; 2]; TERMS + 1] = {
     table
 };
 
-/// Series up to (1 + 2ζ)τ = ½; beyond, the closed forms lose no more than two bits to their differences of terms of
-/// size τ.
+/// The largest (1 + 2ζ)τ of the series; beyond it, the closed forms lose no more than two bits to their differences of
+/// terms of size τ.
 const SERIES_REACH: f64 = 0.5;
 
 /// Phase of a sinusoid beyond which its power series would lose digits: a whole swing, of a haversine, loses nine bits.
@@ -41,12 +41,13 @@ const SERIES_SWING: f64 = 7.0;
 /// Phase βτ beyond which the turning points under a ramp are not visited one by one.
 const MANY_SWINGS: f64 = 128.0 * PI;
 
-/// From here on the steady motion is bounded at every frequency, and bounds on derivatives start from it.
+/// The damping ratio from which on the steady motion is bounded at every frequency, and bounds on derivatives start
+/// from it.
 const STRONG_DAMPING: f64 = 0.5;
 
-/// Panels of one segment that are halved at most; then the largest value seen so far counts. Bounds that lead so far
-/// know nothing of the motion any more: seen in ramps of 10⁸ swings and more alone, while ordinary pulses take tens of
-/// panels.
+/// The most panels of one segment that are halved; then the largest value so far counts. Bounds that lead so far know
+/// nothing of the motion any more: this was seen only in ramps of 10⁸ swings and more, while ordinary pulses take tens
+/// of panels.
 const PANELS: u32 = 100_000;
 
 /// Share of the forcing's terms below which their sum is bounded by itself at every damping.
@@ -67,7 +68,7 @@ impl Modes {
     pub(crate) fn is_short(&self, tau: f64) -> bool {
         (1.0 + 2.0 * self.zeta) * tau <= SERIES_REACH
     }
-    /// Free motion over τ, and the response from rest to a constant and to a ramp.
+    /// Returns the free motion over τ, and the responses from rest to a constant and to a ramp.
     pub(crate) fn driven(&self, phase: Phase) -> (Propagator, Ramp) {
         let tau = phase.hi;
         if self.is_short(tau) {
@@ -76,10 +77,10 @@ impl Modes {
         let step = self.propagator(phase);
         (step, self.long_ramp(tau, &step))
     }
-    /// Free motion over a short τ, and the response from rest to a constant and to a ramp: of one power series, which
-    /// costs less than the exponential and the sine.
+    /// Returns the free motion over a short τ, and the responses from rest to a constant and to a ramp, from one power
+    /// series, which costs less than the exponential and the sine.
     fn short(&self, tau: f64) -> (Propagator, Ramp) {
-        // Ramp response Σ u_k τ^k from u₃ = 1/6; its derivatives are the step and the impulse response.
+        // The ramp response is Σ u_k τ^k from u₃ = 1/6; its derivatives are the step and the impulse response.
         let (damp, square) = (2.0 * self.zeta * tau, tau * tau);
         let (mut older, mut u) = (0.0, 1.0 / 6.0);
         let (mut x1, mut x0, mut h) = (u, 3.0 * u, 6.0 * u);
@@ -100,8 +101,8 @@ impl Modes {
         let step = Propagator { c: 1.0 - x0 - self.sigma * h, s: h, k: 1.0 - x0 - self.rho * h };
         (step, Ramp { x0, w0: h + self.sigma * x0, x1, w1: x0 + self.sigma * x1 })
     }
-    /// Response from rest to a constant and to a ramp after a τ that is not short; `step` is the free motion over the
-    /// same τ.
+    /// Returns the responses from rest to a constant and to a ramp after a τ that is not short; `step` is the free
+    /// motion over the same τ.
     fn long_ramp(&self, tau: f64, step: &Propagator) -> Ramp {
         if self.kappa == 0.0 {
             let x0 = 1.0 - step.c - self.zeta * step.s;
@@ -118,8 +119,8 @@ impl Modes {
     }
 }
 
-/// The same to f = 1 and f = τ for eight phases of which some are long; `step` is the free motion over them. Where one
-/// is short, digits are lost.
+/// Responses from rest to f = 1 and f = τ for eight phases, some of them long; `step` is the free motion over them. A
+/// short phase loses digits.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ramps {
     pub(crate) x0: Many,
@@ -159,7 +160,7 @@ impl Ramps {
     }
 }
 
-/// (e^(−z) − 1 + z)/z² = 1/2 − z/6 + z²/24 − … for 0 ≤ z < ½.
+/// Returns (e^(−z) − 1 + z)/z² = 1/2 − z/6 + z²/24 − … for 0 ≤ z < ½.
 fn psi2(z: f64) -> f64 {
     let (mut term, mut sum) = (0.5, 0.5);
     for k in 3..18 {
@@ -210,7 +211,7 @@ pub(crate) struct Segment<'a> {
 pub(crate) struct Sample {
     tau: f64,
     pub(crate) m: Motion,
-    /// What is left of the forcing alone after a long time; infinite or no number at resonance without damping.
+    /// Steady motion under the forcing alone; infinite or not a number at resonance without damping.
     steady: Motion,
     f: f64,
     f_slope: f64,
@@ -230,7 +231,7 @@ impl<'a> Segment<'a> {
             last_end: None,
         }
     }
-    /// The system that moves.
+    /// Returns the system that moves.
     pub(crate) fn modes(&self) -> &'a Modes {
         self.modes
     }
@@ -243,7 +244,7 @@ impl<'a> Segment<'a> {
         self.bound = [highest, slope.abs(), 0.0];
     }
     /// Begins a segment of `length` in time at `start`, where the base's acceleration goes from `from` to `to` in a
-    /// line; its phase length.
+    /// line, and returns its phase length.
     pub(crate) fn begin_line(&mut self, start: Motion, omega: f64, length: f64, from: f64, to: f64) -> Phase {
         let span = Phase::product(omega, length);
         self.begin(start, -from / omega, -(to - from) / (omega * span.hi), span.hi);
@@ -264,12 +265,12 @@ impl<'a> Segment<'a> {
     fn is_free(&self) -> bool {
         self.constant == 0.0 && self.slope == 0.0 && self.sines.is_empty()
     }
-    /// The motion after τ.
+    /// Returns the motion after τ.
     pub(crate) fn sample(&self, phase: Phase) -> Sample {
         let tau = phase.hi;
         self.sample_turned(tau, &self.driven(phase), |sine, _| Complex64::cis(sine.nu * tau))
     }
-    /// The motion at the end, with e^(iντ) of each sinusoid given.
+    /// Returns the motion at the end, with e^(iντ) of each sinusoid given.
     pub(crate) fn sample_end(&mut self, phase: Phase, turned: impl Fn(usize) -> Complex64) -> Sample {
         let driven = match self.last_end {
             Some((last, pushed, driven)) if last == phase && (pushed || !self.is_pushed()) => driven,
@@ -281,7 +282,7 @@ impl<'a> Segment<'a> {
     fn is_pushed(&self) -> bool {
         self.constant != 0.0 || self.slope != 0.0
     }
-    /// Free motion and, where there is a linear part, the response to it.
+    /// Returns the free motion and, where there is a linear part, the response to it.
     #[inline]
     fn driven(&self, phase: Phase) -> (Propagator, Ramp) {
         if self.is_pushed() {
@@ -317,14 +318,14 @@ impl<'a> Segment<'a> {
         }
         s
     }
-    /// A motion, with what the linear part of the forcing gives beside it.
+    /// Returns the sample of a motion, with the linear part of the forcing.
     fn linear_sample(&self, tau: f64, m: Motion) -> Sample {
         let f = self.constant + self.slope * tau;
         let x = f - 2.0 * self.modes.zeta * self.slope;
         let steady = Motion { x, w: self.slope + self.modes.sigma * x };
         Sample { tau, m, steady, f, f_slope: self.slope }
     }
-    /// Value, slope and bend of quantity `k`.
+    /// Returns the value, slope and bend of quantity `k`.
     fn value(&self, k: usize, s: &Sample) -> f64 {
         self.modes.quantity(k, s.m)
     }
@@ -334,15 +335,15 @@ impl<'a> Segment<'a> {
     fn bend(&self, k: usize, s: &Sample) -> f64 {
         self.modes.quantity(k + 2, s.m) + self.modes.rows[k + 1][1] * s.f + self.modes.rows[k][1] * s.f_slope
     }
-    /// Bounds on |f|, |f′|, |f″| for a time `h` after `a`: where terms of the forcing cancel, as in the foot of a
-    /// haversine, far below those of the whole segment.
+    /// Returns bounds on |f|, |f′|, |f″| for a time `h` after `a`: where terms of the forcing cancel, as in the foot of
+    /// a haversine, far below those of the whole segment.
     fn forcing_bounds(&self, a: &Sample, h: f64) -> [f64; 3] {
         let [f0, f1, f2] = self.bound;
         let slope = a.f_slope.abs();
         [f0.min(a.f.abs() + h * (slope + 0.5 * h * f2)), f1.min(slope + h * f2), f2]
     }
-    /// Bounds on |q″| and |q‴| for a time `h` after `a` under forcing within these bounds: √(x² + y²) grows by no more
-    /// than |f|.
+    /// Returns bounds on |q″| and |q‴| for a time `h` after `a` under forcing within these bounds: √(x² + y²) grows by
+    /// no more than |f|.
     fn energy_bounds(&self, k: usize, a: &Sample, h: f64, [f0, f1, f2]: [f64; 3]) -> [f64; 2] {
         let modes = self.modes;
         let input = |j: usize| modes.rows[j][1].abs();
@@ -353,9 +354,9 @@ impl<'a> Segment<'a> {
             row(k + 3) + input(k + 2) * f0 + input(k + 1) * f1 + input(k) * f2,
         ]
     }
-    /// The same from `steady`, those of the steady motion, and what is not steady, which reaches `most`: it only swings
-    /// and decays, and below critical damping its derivatives all have one amplitude. (At resonance without damping
-    /// there is no steady motion.)
+    /// Returns the bounds on |q″| and |q‴| from `steady`, those of the steady motion, and `rest`, the free motion about
+    /// it, which reaches `most`: that only swings and decays, and below critical damping its derivatives all have one
+    /// amplitude. (At resonance without damping there is no steady motion.)
     fn steady_bounds_with(&self, k: usize, steady: [f64; 2], rest: Motion, most: f64, h: f64) -> [f64; 2] {
         let modes = self.modes;
         if modes.zeta < STRONG_DAMPING {
@@ -370,7 +371,7 @@ impl<'a> Segment<'a> {
         let row = |j: usize| (modes.rows[j][0].abs() * x + modes.rows[j][1].abs() * w).min(most);
         [row(k + 2) + steady[0], row(k + 3) + steady[1]]
     }
-    /// Bounds on q″ and q‴ of the steady motion.
+    /// Returns bounds on q″ and q‴ of the steady motion.
     fn steady_bounds(&self, k: usize) -> [f64; 2] {
         let mut bounds = [0.0; 2];
         for sine in &self.sines {
@@ -385,7 +386,7 @@ impl<'a> Segment<'a> {
         }
         bounds
     }
-    /// The motion at the begin.
+    /// Returns the sample at the begin.
     fn begin_sample(&self) -> Sample {
         let mut s = self.linear_sample(0.0, self.start);
         for sine in &self.sines {
@@ -393,11 +394,11 @@ impl<'a> Segment<'a> {
         }
         s
     }
-    /// The end of a segment of linear forcing whose motion is known.
+    /// Returns the sample at the end of a segment of linear forcing whose motion is known.
     pub(crate) fn sample_known(&self, tau: f64, m: Motion) -> Sample {
         self.linear_sample(tau, m)
     }
-    /// Takes the extremes of quantity `k` over the segment up to `end` into `range`, both ends included.
+    /// Notes the extremes of quantity `k` over the segment up to `end` in `range`, both ends included.
     ///
     /// # Method
     ///
@@ -435,15 +436,15 @@ impl<'a> Segment<'a> {
             self.linear_extremes(k, begin, end, interval, range);
         }
     }
-    /// Whether the bend of quantity `k`, here free motion, surely keeps its sign up to `end`: less than half a swing,
-    /// at whose ends it has one sign. (Of a longer decay that would be rounding.)
+    /// Returns whether the bend of quantity `k`, here free motion, surely keeps its sign up to `end`: less than half a
+    /// swing, at whose ends it has one sign. (For a longer decay that sign would be rounding.)
     fn keeps_its_bend(&self, k: usize, begin: &Sample, end: &Sample) -> bool {
         let (modes, span) = (self.modes, end.tau);
         modes.beta * span < PI && modes.zeta * span < 4.0 && self.bend(k, begin) * self.bend(k, end) > 0.0
     }
-    /// Linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ).
-    /// The bend of a quantity is free motion, so its zeros are known, and between two of them the slope vanishes once
-    /// at most.
+    /// Notes the extremes under linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y =
+    /// c₁, A/ω = −(c₀ + c₁τ). The bend of a quantity is free motion, so its zeros are known, and between two of them
+    /// the slope vanishes once at most.
     fn linear_extremes(&self, k: usize, mut a: Sample, end: &Sample, interval: usize, range: &mut Range) {
         let (modes, span) = (self.modes, end.tau);
         let (bent, swing) = (a.steady, a.swing());
@@ -454,8 +455,8 @@ impl<'a> Segment<'a> {
         };
         let (first, last) = (about(0.0), about(span));
         if self.slope == 0.0 {
-            // Of a soft part the static motion is far above the true one, which is then what the two leave: when it
-            // turns is known, how far it has come by then only from the begin.
+            // For a soft part the static motion is far above the true one, which is then the difference of two large
+            // motions: the time of its turning point is known, but its value there only from the begin.
             let slack = 8.0 * f64::EPSILON * first.abs();
             let seen = (range.low.value - first + slack, range.high.value - first - slack);
             modes.free_extremes(k, swing, span, seen, |tau, value| {
@@ -481,7 +482,7 @@ impl<'a> Segment<'a> {
                     return;
                 }
             }
-            // A zero beyond the floats is none.
+            // A zero beyond the range of floats does not count.
             let goes_on = next < span;
             let b = if goes_on { self.sample(Phase::product(1.0, next)) } else { *end };
             if self.turns_beyond(k, &a, &b, range) {
@@ -495,9 +496,9 @@ impl<'a> Segment<'a> {
             a = b;
         }
     }
-    /// What is not steady at `a`. Beyond critical damping the fast decay soon takes it below the rounding of the
-    /// difference, which bounds on derivatives, in powers of ρ, would then be made of: there it is the free motion from
-    /// the begin.
+    /// Returns the free motion about the steady one at `a`. Beyond critical damping the fast decay soon takes it below
+    /// the rounding of the difference, which would enter the bounds on derivatives in powers of ρ: there it is the free
+    /// motion from the begin.
     fn rest(&self, a: &Sample) -> Motion {
         let modes = self.modes;
         if modes.kappa == 0.0 {
@@ -505,8 +506,8 @@ impl<'a> Segment<'a> {
         }
         modes.propagator(Phase::product(1.0, a.tau)).apply(modes.p, self.begin_sample().swing())
     }
-    /// Whether quantity `k`, whose bend keeps its sign from `a` to `b`, turns in between, and may do so outside of
-    /// `range`: it does so no further out than where the tangents of both ends cross.
+    /// Returns whether quantity `k`, whose bend keeps its sign from `a` to `b`, turns in between, and may do so outside
+    /// of `range`: it turns no further out than the crossing of the tangents at both ends.
     fn turns_beyond(&self, k: usize, a: &Sample, b: &Sample, range: &Range) -> bool {
         let (sa, sb) = (self.slope(k, a), self.slope(k, b));
         if sa * sb >= 0.0 {
@@ -516,13 +517,13 @@ impl<'a> Segment<'a> {
         let crossing = qa + sa * ((qb - qa - sb * (b.tau - a.tau)) / (sa - sb));
         if sa > 0.0 { crossing > range.high.value } else { crossing < range.low.value }
     }
-    /// Halves the panel from `a` to `b` until nothing new can be in its parts, the likelier part first.
+    /// Halves the panel from `a` to `b` until its parts can hold nothing new, the likelier part first.
     ///
     /// Over many swings the motion stays within its amplitude of the steady one; `steady` bounds the bend of that, and
     /// the change of the bend.
     fn search(&self, k: usize, steady: [f64; 2], a: &Sample, b: &Sample, interval: usize, range: &mut Range) {
         let h = b.tau - a.tau;
-        // Rounding of what is compared decides nothing.
+        // Rounding of the compared values decides nothing.
         let scale = range.high.value.max(-range.low.value);
         let slack = 8.0 * f64::EPSILON * self.modes.size(k, a.m).max(self.modes.size(k, b.m)).max(scale);
         let (high, low) = (range.high.value + slack, range.low.value - slack);
@@ -581,7 +582,7 @@ impl<'a> Segment<'a> {
             }
         }
     }
-    /// Newton's iteration, kept between `a` and `b`, where the slope changes sign once.
+    /// Finds the turning point by Newton's iteration, kept between `a` and `b`, where the slope changes sign once.
     fn turning_point(&self, k: usize, a: &Sample, b: &Sample, interval: usize, range: &mut Range) {
         let (mut low, mut high) = (a.tau, b.tau);
         let (sa, sb) = (self.slope(k, a), self.slope(k, b));
@@ -599,7 +600,7 @@ impl<'a> Segment<'a> {
                 return;
             }
             range.note(interval, tau, value);
-            // What another step could still add.
+            // This bounds the gain of another step.
             if slope * slope <= 1e-17 * (bend * value).abs() {
                 return;
             }
@@ -614,7 +615,7 @@ impl<'a> Segment<'a> {
             }
         }
     }
-    /// Bound on |q‴|.
+    /// Returns a bound on |q‴|.
     fn jerk(&self, k: usize, s: &Sample) -> f64 {
         let modes = self.modes;
         let input = |j: usize| modes.rows[j][1].abs();
@@ -622,8 +623,8 @@ impl<'a> Segment<'a> {
     }
 }
 
-/// Where the slope vanishes, as a share of the way from one end to the other, `h` apart: a step from the chord on the
-/// cubic of both slopes and bends.
+/// Returns the zero of the slope, as a share of the way from one end to the other, `h` apart: a step from the chord on
+/// the cubic of both slopes and bends.
 fn first_guess([sa, sb]: [f64; 2], [ba, bb]: [f64; 2], h: f64) -> f64 {
     let chord = sa / (sa - sb);
     // The cubic is the chord and t (1 − t) (c (1 − t) − d t).
@@ -636,7 +637,7 @@ fn first_guess([sa, sb]: [f64; 2], [ba, bb]: [f64; 2], h: f64) -> f64 {
 }
 
 impl Sample {
-    /// Takes in a sinusoid whose phase is e^(iφ) = `now`.
+    /// Adds a sinusoid whose phase is e^(iφ) = `now`.
     #[inline]
     fn add(&mut self, sine: &Sine, now: Complex64, modes: &Modes) {
         self.f += sine.amplitude * now.im;
@@ -645,7 +646,7 @@ impl Sample {
         self.steady.x += sine.amplitude * x.im;
         self.steady.w += sine.amplitude * (modes.sigma * x.im + sine.nu * x.re);
     }
-    /// What is not steady, and only swings and decays.
+    /// Returns the free motion about the steady one, which only swings and decays.
     fn swing(&self) -> Motion {
         Motion { x: self.m.x - self.steady.x, w: self.m.w - self.steady.w }
     }
@@ -663,7 +664,7 @@ impl Sine {
         let steady = -across / apart;
         Self { amplitude, phase, nu, apart, across, steady, size: steady.norm_sqr().sqrt() }
     }
-    /// Response from rest to sin(φ + ντ) by its power series.
+    /// Returns the response from rest to sin(φ + ντ) by its power series.
     fn series(&self, modes: &Modes, tau: f64) -> Motion {
         let (damp, square, swing) = (2.0 * modes.zeta * tau, tau * tau, self.nu * tau);
         // Terms (ντ)^k/k! of the forcing, with the derivatives of the sine in turn.
@@ -686,7 +687,7 @@ impl Sine {
         let (x, y) = (x * square, y * tau);
         Motion { x, w: y + modes.sigma * x }
     }
-    /// The same by divided differences; `turned` is e^(iντ).
+    /// Returns the same response by divided differences; `turned` is e^(iντ).
     fn closed(&self, modes: &Modes, tau: f64, turned: Complex64, step: &Propagator) -> Motion {
         let z = self.apart * tau;
         let first = if z.norm_sqr() < 0.25 {
@@ -706,7 +707,7 @@ impl Sine {
     }
 }
 
-/// e^z − 1 without cancellation at small z.
+/// Returns e^z − 1 without cancellation at small z.
 fn exp_m1(z: Complex64) -> Complex64 {
     let (sin, half) = (libm::sin(z.im), libm::sin(0.5 * z.im));
     Complex64::new(libm::expm1(z.re) * libm::cos(z.im) - 2.0 * half * half, libm::exp(z.re) * sin)
@@ -717,8 +718,8 @@ mod tests {
     use super::*;
     use crate::DampingRatio;
 
-    /// Bounds beyond critical damping are those of the decay, not of what rounding leaves of it: they settle a
-    /// half-sine in some tens of panels at any damping.
+    /// Bounds beyond critical damping follow the decay, not its rounding error: they settle a half-sine in some tens of
+    /// panels at any damping.
     #[test]
     fn strong_damping_needs_no_more_panels() {
         for zeta in [1.5, 50.0, 1e4, 1e6, 1e9, 1e12] {

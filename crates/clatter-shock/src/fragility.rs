@@ -1,9 +1,10 @@
-//! What a component stands: limits and margins, the damage boundary, and the shock-table pulse that equals a clatter.
+//! Fragility of a component: limits and margins, the damage boundary, and the equivalent shock-table pulse of a
+//! clatter.
 
 use crate::{DampingRatio, Error, Pulse, Pulses, Response, Shape, Suspension};
 use std::f64::consts::TAU;
 
-/// A limit on what a component goes through.
+/// A limit on the response of a component.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Limit {
@@ -26,7 +27,7 @@ impl Limit {
             Self::RattleSpace(_) => response.relative_displacement.magnitude(),
         }
     }
-    /// How far a response stays from the limit.
+    /// Returns the margin of a response to the limit.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless the limit is finite and positive.
@@ -35,18 +36,18 @@ impl Limit {
     }
 }
 
-/// What is allowed and what is asked, in one unit: of a response, or of a velocity change of the base.
+/// An allowed value and a demand, in one unit: of a response, or of a velocity change of the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Margin {
     /// The limit.
     pub allowed: f64,
-    /// What is reached.
+    /// The value that is reached.
     pub demand: f64,
 }
 
 impl Margin {
-    /// allowed/demand − 1: negative where the limit is exceeded, infinite where nothing is asked.
+    /// Returns allowed/demand − 1: negative where the limit is exceeded, infinite where the demand is zero.
     ///
     /// ```
     /// # use clatter_shock::Margin;
@@ -58,12 +59,12 @@ impl Margin {
     pub fn ratio(&self) -> f64 {
         self.allowed / self.demand - 1.0
     }
-    /// 20 log₁₀(allowed/demand).
+    /// Returns 20 log₁₀(allowed/demand).
     #[must_use]
     pub fn decibel(&self) -> f64 {
         20.0 * libm::log10(self.allowed / self.demand)
     }
-    /// Whether the limit holds.
+    /// Returns whether the limit holds.
     #[must_use]
     pub fn is_safe(&self) -> bool {
         self.demand <= self.allowed
@@ -90,7 +91,7 @@ pub struct DamageBoundary {
 pub struct Trial {
     /// Velocity change or acceleration of the table.
     pub level: f64,
-    /// Whether the component was damaged.
+    /// True if the component was damaged.
     pub damaged: bool,
 }
 
@@ -98,7 +99,7 @@ pub struct Trial {
 const STEPS: f64 = 24.0;
 
 impl DamageBoundary {
-    /// From a suspension, a limit and a pulse shape.
+    /// Creates the boundary from a suspension, a limit and a pulse shape.
     ///
     /// # Examples
     ///
@@ -135,9 +136,10 @@ impl DamageBoundary {
             knee_duration: phase / omega,
         })
     }
-    /// From shock tests as in ASTM D3332: `velocity` with short pulses of rising velocity change, `acceleration` with
-    /// long rectangles of rising acceleration. Critical is the highest level below all damage; the boundary between is
-    /// that of the undamped component with both, whose knee is at π/2 of the critical velocity change.
+    /// Creates the boundary from shock tests as in ASTM D3332: `velocity` with short pulses of rising velocity change,
+    /// `acceleration` with long rectangles of rising acceleration. Critical is the highest level below all damage; the
+    /// boundary between is that of the undamped component with both, whose knee is at π/2 of the critical velocity
+    /// change.
     ///
     /// # Errors
     /// [`Error::Trials`] if a list has no level without damage below the lowest with damage, or no damage at all.
@@ -151,28 +153,28 @@ impl DamageBoundary {
         let undamped = DampingRatio::new(0.0)?;
         Self::new(Suspension::new(2.0 * a / dv, undamped)?, Limit::Acceleration(2.0 * a), Shape::Rectangle)
     }
-    /// Below it no pulse does damage, however high.
+    /// Returns the critical velocity change: below it no pulse does damage, however high.
     #[must_use]
     pub fn critical_velocity_change(&self) -> f64 {
         self.critical_velocity_change
     }
-    /// Below it no pulse does damage, however long.
+    /// Returns the critical acceleration: below it no pulse does damage, however long.
     #[must_use]
     pub fn critical_acceleration(&self) -> f64 {
         self.critical_acceleration
     }
-    /// Velocity change from which the critical acceleration alone decides; infinite if amplification only tends to its
-    /// largest value as pulses grow longer.
+    /// Returns the velocity change from which on the critical acceleration alone decides; infinite if amplification
+    /// only tends to its largest value as pulses grow longer.
     #[must_use]
     pub fn knee_velocity_change(&self) -> f64 {
-        // Also where the critical acceleration is too small for the floats, 0.
+        // This also holds where the critical acceleration underflows to 0.
         if self.knee_duration == f64::INFINITY {
             return f64::INFINITY;
         }
         self.shape.area() * self.critical_acceleration * self.knee_duration
     }
-    /// The boundary from the critical velocity change to the knee: `points` pairs of (velocity change, acceleration),
-    /// for durations in equal ratios. Where the knee is infinite it ends at ten periods.
+    /// Returns the boundary from the critical velocity change to the knee: `points` pairs of (velocity change,
+    /// acceleration), for durations in equal ratios. Where the knee is infinite it ends at ten periods.
     ///
     /// # Errors
     /// [`Error::Points`] below two points.
@@ -196,23 +198,25 @@ impl DamageBoundary {
             })
             .collect()
     }
-    /// Margin of one pulse of this shape: what the component stands over what it gets.
+    /// Returns the margin of one pulse of this shape: the limit over the response.
     ///
     /// # Errors
-    /// As [`Pulses::new`].
+    /// The errors of [`Pulses::new`].
     pub fn margin(&self, amplitude: f64, duration: f64) -> Result<Margin, Error> {
         let pulse = Pulse { shape: self.shape, amplitude, duration, start: 0.0 };
         self.limit.margin(&Pulses::new(&[pulse])?.respond(&self.suspension))
     }
 }
 
-/// Response over that to a steady acceleration of the pulse's amplitude, for ω = 1 and the duration `phase`.
+/// Returns the response over that to a steady acceleration of the pulse's amplitude, for ω = 1 and the duration
+/// `phase`.
 fn amplification(damping: DampingRatio, limit: Limit, shape: Shape, phase: f64) -> Result<f64, Error> {
     let pulse = Pulse { shape, amplitude: 1.0, duration: phase, start: 0.0 };
     Ok(limit.demand(&Pulses::new(&[pulse])?.respond(&Suspension::unit(damping))))
 }
 
-/// The largest amplification over all durations, and the shortest ωD that has it; infinite if it is only tended to.
+/// Returns the largest amplification over all durations, and the shortest ωD that has it; infinite if the amplification
+/// only tends to it.
 fn largest_amplification(damping: DampingRatio, limit: Limit, shape: Shape) -> Result<(f64, f64), Error> {
     let longest = 40.0 * TAU * (1.0 + damping.get());
     let step = Pulses::new(&[Pulse { shape: Shape::Rectangle, amplitude: 1.0, duration: longest, start: 0.0 }])?
@@ -226,7 +230,7 @@ fn largest_amplification(damping: DampingRatio, limit: Limit, shape: Shape) -> R
     };
     let step_overshoots = step_peak.value > 1.0 && step_peak.time < 0.5 * longest;
     if shape == Shape::Rectangle {
-        // All that a rectangle can do, a step has done at its first peak.
+        // A step reaches the largest response to a rectangle at its first peak.
         return Ok(if step_overshoots { (step_peak.value, step_peak.time) } else { (1.0, f64::INFINITY) });
     }
     // Very long pulses act like their steepest part: a step for the initial peak, else a slow rise.
@@ -257,7 +261,7 @@ fn largest_amplification(damping: DampingRatio, limit: Limit, shape: Shape) -> R
     Ok(if top > long { (top, phase) } else { (long, f64::INFINITY) })
 }
 
-/// What a shock table can do, in the units of the component; a limit may be infinite.
+/// The capacity of a shock table, in the units of the component; a limit may be infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ShockTable {
@@ -271,19 +275,20 @@ pub struct ShockTable {
     pub velocity_change: f64,
 }
 
-/// A half-sine that does to a component what another excitation does.
+/// A half-sine with the same effect on a component as another excitation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EquivalentPulse {
     /// The half-sine; it gives the component the same peak absolute acceleration.
     pub pulse: Pulse,
-    /// Its peak relative displacement over the one asked for, less 1.
+    /// Its peak relative displacement over the given one, less 1.
     pub displacement_mismatch: f64,
 }
 
 impl ShockTable {
-    /// The half-sine of this table that gives a component the same peak absolute acceleration as `response`, and the
-    /// same peak relative displacement to within `tolerance` (0.01: 1 %). Where many do, the one of least acceleration.
+    /// Returns the half-sine of this table that gives a component the same peak absolute acceleration as `response`,
+    /// and the same peak relative displacement to within `tolerance` (0.01: 1 %). Where many do, the one of least
+    /// acceleration.
     ///
     /// # Method
     ///
@@ -300,8 +305,8 @@ impl ShockTable {
     ///
     /// # Examples
     ///
-    /// Without damping A = ω²z whatever the pulse: all durations do, and least acceleration is asked where a half-sine
-    /// is amplified most, 1.768 times at 0.81 periods.
+    /// Without damping A = ω²z for every pulse: all durations do, and the acceleration is least where a half-sine is
+    /// amplified most, 1.768 times at 0.81 periods.
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, ShockTable, Suspension, VelocityShock, VelocityShocks};
@@ -315,9 +320,9 @@ impl ShockTable {
     /// ```
     /// # Errors
     ///
-    /// [`Error::NoEquivalent`] says that there is none, and how near the table comes; [`Error::Quantity`] unless 0 <
-    /// shortest ≤ longest, the limits are above 0 and `tolerance` is finite and above 0, and for a response that is at
-    /// rest or not finite.
+    /// [`Error::NoEquivalent`] if there is none, with the nearest mismatch; [`Error::Quantity`] unless 0 < shortest ≤
+    /// longest, the limits are above 0 and `tolerance` is finite and above 0, and for a response that is at rest or not
+    /// finite.
     pub fn equivalent_half_sine(
         &self,
         suspension: &Suspension,
@@ -354,11 +359,11 @@ struct Match<'a> {
     tolerance: f64,
 }
 
-/// Durations tried first, per octave, and per period up to so many periods.
+/// Durations of the first search, per octave, and per period up to so many periods.
 const DURATIONS: f64 = 48.0;
 const PER_PERIOD: f64 = 16.0;
 const PERIODS: f64 = 128.0;
-/// Durations tried first at most, for tables that no workshop has.
+/// The most durations of the first search, for tables that no workshop has.
 const MOST_DURATIONS: f64 = 1e4;
 
 impl Match<'_> {
@@ -391,7 +396,7 @@ impl Match<'_> {
         let nearest = list.iter().filter(|e| self.is_possible(e)).map(size).fold(f64::INFINITY, f64::min);
         Err(Error::NoEquivalent { nearest, tolerance: self.tolerance })
     }
-    /// The pulses of the durations tried first.
+    /// Returns the pulses of the first search.
     fn durations(&self) -> Result<Vec<EquivalentPulse>, Error> {
         let ShockTable { shortest, longest, .. } = *self.table;
         let period = TAU / self.suspension.omega();
@@ -405,7 +410,7 @@ impl Match<'_> {
         list.push(self.at(longest)?);
         Ok(list)
     }
-    /// The pulse of this duration that gives the acceleration.
+    /// Returns the pulse of this duration that gives the acceleration.
     fn at(&self, duration: f64) -> Result<EquivalentPulse, Error> {
         let mut pulse = Pulse { shape: Shape::HalfSine, amplitude: 1.0, duration, start: 0.0 };
         let unit = Pulses::new(&[pulse])?.respond(self.suspension);
@@ -419,7 +424,7 @@ impl Match<'_> {
     fn fits(&self, e: &EquivalentPulse) -> bool {
         self.is_possible(e) && e.displacement_mismatch.abs() <= self.tolerance
     }
-    /// Adds where ranges of pulses that fit end between two durations.
+    /// Adds the ends of ranges of fitting pulses between two durations.
     fn crossings(
         &self,
         one: &EquivalentPulse,
@@ -433,7 +438,7 @@ impl Match<'_> {
         }
         Ok(())
     }
-    /// How far a pulse is above each of the bounds.
+    /// Returns the excess of a pulse over one of the bounds.
     fn excess(&self, e: &EquivalentPulse, bound: usize) -> f64 {
         match bound {
             0 => e.displacement_mismatch - self.tolerance,
@@ -442,7 +447,7 @@ impl Match<'_> {
             _ => e.pulse.velocity_change() - self.table.velocity_change,
         }
     }
-    /// The last pulse within a bound, on the way from one that is to one that is not.
+    /// Returns the last pulse within a bound, between one within and one beyond it.
     fn crossing(
         &self,
         mut within: EquivalentPulse,
@@ -462,7 +467,7 @@ impl Match<'_> {
             *(if self.excess(&e, bound) <= 0.0 { &mut within } else { &mut beyond }) = e;
         }
     }
-    /// The least of some size between two durations, by a golden section.
+    /// Returns the pulse with the least value of a function between two durations, by a golden section.
     fn least(
         &self,
         (mut low, mut high): (f64, f64),

@@ -4,21 +4,22 @@ use crate::suspension::{Modes, Motion, Phase, Suspension};
 use crate::{Error, Quantity};
 
 impl Suspension {
-    /// What a component feels at each point of a history of its base, with straight lines between the points (s, acceleration): the
-    /// quantity with its sign, from rest at the first point on. Two points at one time are a jump.
+    /// Returns the response of a component at each point of a history of its base, with straight lines between the
+    /// points (s, acceleration): the quantity with its sign, from rest at the first point on. Two points at one time
+    /// are a jump.
     ///
     /// # Accuracy
-    /// Exact but for rounding: each line is crossed in closed form, as in the spectrum.
+    /// The response is exact but for rounding: each line is crossed in closed form, as in the spectrum.
     ///
     /// # Examples
-    /// A constant acceleration from rest on is followed without damping by z = −(1 − cos ωt) a/ω², so that the part feels 2 a half a
-    /// period later:
+    /// Without damping the response to a constant acceleration from rest is z = −(1 − cos ωt) a/ω², so that the
+    /// absolute acceleration of the part is 2 a half a period later:
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, Quantity, Suspension};
     /// let part = Suspension::from_hz(50.0, DampingRatio::new(0.0)?)?;
-    /// let felt = part.history(&[(0.0, 30.0), (5e-3, 30.0), (10e-3, 30.0)], Quantity::AbsoluteAcceleration)?;
-    /// assert!(felt[0] == 0.0 && (felt[1] - 30.0).abs() < 1e-12 && (felt[2] - 60.0).abs() < 1e-12);
+    /// let response = part.history(&[(0.0, 30.0), (5e-3, 30.0), (10e-3, 30.0)], Quantity::AbsoluteAcceleration)?;
+    /// assert!(response[0] == 0.0 && (response[1] - 30.0).abs() < 1e-12 && (response[2] - 60.0).abs() < 1e-12);
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
     ///
@@ -29,9 +30,9 @@ impl Suspension {
         let (modes, omega) = (Modes::new(self.damping()), self.omega());
         let (row, factor) = quantity.row(omega);
         let mut motion = Motion { x: 0.0, w: 0.0 };
-        let mut felt = Vec::with_capacity(points.len());
+        let mut response = Vec::with_capacity(points.len());
         let mut last = points.first().copied().unwrap_or_default();
-        // Samples that are even in time are crossed alike.
+        // Samples that are even in time share one propagator.
         let mut driven = (f64::NAN, modes.driven(Phase::product(omega, 0.0)));
         for (i, &(time, a)) in points.iter().enumerate() {
             for (name, value) in [("time", time), ("acceleration", a)] {
@@ -57,10 +58,10 @@ impl Suspension {
                     w: moved.w + from * ramp.w0 + slope * ramp.w1,
                 };
             }
-            felt.push(factor * modes.quantity(row, motion));
+            response.push(factor * modes.quantity(row, motion));
             last = (time, a);
         }
-        Ok(felt)
+        Ok(response)
     }
 }
 
@@ -68,7 +69,8 @@ impl Suspension {
 mod tests {
     use crate::{DampingRatio, Error, Quantity, Suspension};
 
-    /// z″ + 2ζω z′ + ω² z = −a in steps of 1 µs (classical Runge–Kutta): it shares nothing with the closed form.
+    /// Integrates z″ + 2ζω z′ + ω² z = −a in steps of 1 µs (classical Runge–Kutta): it shares nothing with the closed
+    /// form.
     fn in_small_steps(omega: f64, zeta: f64, points: &[(f64, f64)]) -> Vec<[f64; 2]> {
         let mut z = [0.0, 0.0];
         let mut all = vec![z];
@@ -107,7 +109,7 @@ mod tests {
                 [Quantity::RelativeDisplacement, Quantity::RelativeVelocity, Quantity::AbsoluteAcceleration].map(of);
             for (i, [plain_z, plain_v]) in in_small_steps(omega, zeta, &points).into_iter().enumerate() {
                 let plain_a = -2.0 * zeta * omega * plain_v - omega * omega * plain_z;
-                // Of the largest, 900 m/s²: the small steps are good to some 1e-9 of it.
+                // The errors are relative to the largest, 900 m/s²: the small steps are good to some 1e-9 of it.
                 assert!((z[i] - plain_z).abs() * omega * omega < 1e-6, "{hz} Hz {zeta}, point {i}: {} {plain_z}", z[i]);
                 assert!((v[i] - plain_v).abs() * omega < 1e-6, "{hz} Hz {zeta}, point {i}: {} {plain_v}", v[i]);
                 assert!(

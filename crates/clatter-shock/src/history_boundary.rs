@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 pub struct HistoryBoundary {
     suspension: Suspension,
     history: History,
-    /// The limit as an acceleration: that of the part, or ω² times its free space.
+    /// The limit as an acceleration: that of the part, or ω² times its rattle space.
     allowed: f64,
     factor: f64,
     critical_acceleration: f64,
@@ -29,7 +29,7 @@ pub struct HistoryBoundary {
     knee_scale: f64,
 }
 
-/// Samples with straight lines between, and what they are measured by.
+/// Samples with straight lines between, and their scales.
 #[derive(Debug, Clone, PartialEq)]
 struct History {
     times_s: Vec<f64>,
@@ -42,20 +42,21 @@ struct History {
     velocity_change: Option<f64>,
 }
 
-/// Frequencies tried first, per octave, and per 1/T up to so many of them.
+/// Frequencies of the first search, per octave, and per 1/T up to so many of them.
 const PER_OCTAVE: f64 = 48.0;
 const PER_PERIOD: f64 = 8.0;
 const PERIODS: f64 = 64.0;
-/// Frequencies between two neighbors that the search goes on with, and how often: each time the distance falls to two
-/// ninths, in the end to 10⁻⁹ of a frequency, where a peak is flat to all digits.
+/// Frequencies between two neighbors in each round of the search, and the number of rounds: each round shrinks the
+/// distance to two ninths, in the end to 10⁻⁹ of a frequency, where a peak is flat to all digits.
 const BETWEEN: u8 = 8;
 const ROUNDS: usize = 12;
-/// Values nearer to the largest than that are as large: roundings of the spectrum.
+/// Relative difference below which values count as equal: roundings of the spectrum.
 const FLAT: f64 = 1e-12;
 
 impl HistoryBoundary {
-    /// From a suspension, a limit and samples of base acceleration (s, m/s²), linear between; the part and the base are
-    /// at rest before and the base is in uniform motion after. Two samples at one time are a jump.
+    /// Creates the boundary from a suspension, a limit and samples of base acceleration (s, m/s²), linear between; the
+    /// part and the base are at rest before and the base is in uniform motion after. Two samples at one time are a
+    /// jump.
     ///
     /// # Accuracy
     ///
@@ -66,11 +67,12 @@ impl HistoryBoundary {
     ///
     /// # Cost
     ///
-    /// That of a spectrum of some 500 frequencies for a short history, and 50 more for each doubling of its samples.
+    /// It costs as much as a spectrum of some 500 frequencies for a short history, and of 50 more for each doubling of
+    /// its samples.
     ///
     /// # Examples
     ///
-    /// A rectangle: the knee is at π/2 times the critical velocity change (1.57 in ASTM D3332).
+    /// For a rectangle the knee is at π/2 times the critical velocity change (1.57 in ASTM D3332).
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, HistoryBoundary, Limit, Suspension};
@@ -85,8 +87,8 @@ impl HistoryBoundary {
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
     /// # Errors
-    /// As [`Pulses::piecewise_linear`]; [`Error::Quantity`] unless the limit is finite and positive, and for a history
-    /// that is zero throughout.
+    /// The errors of [`Pulses::piecewise_linear`]; [`Error::Quantity`] unless the limit is finite and positive, and for
+    /// a history that is zero throughout.
     pub fn new(suspension: Suspension, limit: Limit, points: &[(f64, f64)]) -> Result<Self, Error> {
         let allowed = limit.allowed()?;
         let (omega, factors) = (suspension.omega(), suspension.damping().impulse_factors());
@@ -107,26 +109,28 @@ impl HistoryBoundary {
             factor,
         })
     }
-    /// Below it the history does no damage, however short; `None` if its velocity change is zero, as far as roundings
-    /// tell: then it does none by its velocity change, and short ones do less and less.
+    /// Returns the velocity change below which the history does no damage, however short; `None` if its velocity change
+    /// is zero, to roundings: then it does no damage by its velocity change, and short histories do less
+    /// and less.
     #[must_use]
     pub fn critical_velocity_change(&self) -> Option<f64> {
         self.history.velocity_change.map(|_| self.allowed / (self.suspension.omega() * self.factor))
     }
-    /// Below this largest acceleration the history does no damage, however long.
+    /// Returns the largest acceleration below which the history does no damage, however long.
     #[must_use]
     pub fn critical_acceleration(&self) -> f64 {
         self.critical_acceleration
     }
-    /// Velocity change of the shortest history that does damage at the critical acceleration; infinite if amplification
-    /// only tends to its largest value as the history grows longer, `None` if the velocity change is zero.
+    /// Returns the velocity change of the shortest history that does damage at the critical acceleration; infinite if
+    /// amplification only tends to its largest value as the history grows longer, `None` if the velocity change is
+    /// zero.
     #[must_use]
     pub fn knee_velocity_change(&self) -> Option<f64> {
         let unit = self.history.velocity_change?.abs() / self.history.peak;
         Some(self.critical_acceleration * unit * self.knee_scale)
     }
-    /// The boundary from short histories to the knee: `points` pairs of (velocity change, acceleration), for scales of
-    /// time in equal ratios. Where the knee is infinite it ends at ten periods.
+    /// Returns the boundary from short histories to the knee: `points` pairs of (velocity change, acceleration), for
+    /// scales of time in equal ratios. Where the knee is infinite it ends at ten periods.
     ///
     /// # Errors
     /// [`Error::Points`] below two points; [`Error::NoVelocityChange`] for a history whose velocity change is zero.
@@ -137,7 +141,7 @@ impl HistoryBoundary {
         let history = &self.history;
         let velocity_change = history.velocity_change.ok_or(Error::NoVelocityChange)?.abs();
         let (omega, steps) = (self.suspension.omega(), points - 1);
-        // The part moves by a thousandth of a radian in the shortest.
+        // The shortest history moves the phase of the part by a thousandth of a radian.
         let first = 1e-3 / (omega * history.duration);
         let last = if self.knee_scale.is_finite() { self.knee_scale } else { 10.0 * TAU / (omega * history.duration) };
         let last = last.max(first);
@@ -148,18 +152,18 @@ impl HistoryBoundary {
                 first * libm::pow(last / first, share)
             })
             .collect();
-        let asked = history.spectrum(scales.iter().map(|s| s * omega / TAU).collect())?;
-        let point = |(s, asked): (&f64, f64)| {
-            let c = self.allowed / asked;
+        let maximax = history.spectrum(scales.iter().map(|s| s * omega / TAU).collect())?;
+        let point = |(s, maximax): (&f64, f64)| {
+            let c = self.allowed / maximax;
             (c * s * velocity_change, c * history.peak)
         };
-        Ok(scales.iter().zip(asked).map(point).collect())
+        Ok(scales.iter().zip(maximax).map(point).collect())
     }
 }
 
 impl History {
     fn new(points: &[(f64, f64)], quantity: Quantity, damping: DampingRatio) -> Result<Self, Error> {
-        // For the checks alone.
+        // This call only checks the points.
         Pulses::piecewise_linear(points)?;
         let (times_s, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let peak = values.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
@@ -176,25 +180,26 @@ impl History {
         let duration = times_s[times_s.len() - 1] - times_s[0];
         Ok(Self { times_s, values, quantity, damping, duration, peak, velocity_change })
     }
-    /// What it asks of parts of these natural frequencies.
+    /// Returns the responses of parts of these natural frequencies.
     fn spectrum(&self, hz: Vec<f64>) -> Result<Vec<f64>, Error> {
         let mut filter = UnevenFilter::new(Frequencies::list(hz)?, self.damping, self.quantity);
         filter.push(&self.times_s, &self.values)?;
         Ok(filter.finish()?.maximax)
     }
-    /// The largest value of the spectrum and the lowest frequency that has it; infinite if it is only tended to.
+    /// Returns the largest value of the spectrum and the lowest frequency that has it; infinite if the spectrum only
+    /// tends to it.
     fn largest(&self) -> Result<(f64, f64), Error> {
         let hz = self.frequencies();
-        let asked = self.spectrum(hz.clone())?;
-        let best = (0..hz.len()).max_by(|a, b| asked[*a].total_cmp(&asked[*b])).unwrap_or(0);
-        let mut top = (hz[best], asked[best]);
+        let maximax = self.spectrum(hz.clone())?;
+        let best = (0..hz.len()).max_by(|a, b| maximax[*a].total_cmp(&maximax[*b])).unwrap_or(0);
+        let mut top = (hz[best], maximax[best]);
         let (mut low, mut high) = (hz[best.saturating_sub(1)], hz[(best + 1).min(hz.len() - 1)]);
         for _ in 0..ROUNDS {
             let step = (high - low) / f64::from(BETWEEN + 1);
             let between: Vec<f64> = (1..=BETWEEN).map(|i| low + f64::from(i) * step).collect();
-            for (hz, asked) in between.iter().zip(self.spectrum(between.clone())?) {
-                if asked > top.1 {
-                    top = (*hz, asked);
+            for (hz, maximax) in between.iter().zip(self.spectrum(between.clone())?) {
+                if maximax > top.1 {
+                    top = (*hz, maximax);
                 }
             }
             (low, high) = ((top.0 - step).max(low), (top.0 + step).min(high));
@@ -204,19 +209,19 @@ impl History {
         if !reached {
             return Ok((long, f64::INFINITY));
         }
-        // Where many frequencies have it, the lowest.
+        // If many frequencies have it, the lowest counts.
         let enough = top.1.max(long) * (1.0 - FLAT);
-        let first = asked.iter().position(|asked| *asked >= enough).map_or(top.0, |i| hz[i].min(top.0));
+        let first = maximax.iter().position(|maximax| *maximax >= enough).map_or(top.0, |i| hz[i].min(top.0));
         let below = hz.iter().copied().filter(|hz| *hz < first).fold(0.0, f64::max);
         Ok((top.1, self.lowest(below.max(0.5 * first), first, enough)?))
     }
-    /// The lowest frequency between two whose value is `enough`.
+    /// Returns the lowest frequency between two with a value of at least `enough`.
     fn lowest(&self, mut low: f64, mut high: f64, enough: f64) -> Result<f64, Error> {
         for _ in 0..ROUNDS {
             let step = (high - low) / f64::from(BETWEEN + 1);
             let between: Vec<f64> = (1..=BETWEEN).map(|i| low + f64::from(i) * step).collect();
-            for (hz, asked) in between.iter().zip(self.spectrum(between.clone())?) {
-                if asked >= enough {
+            for (hz, maximax) in between.iter().zip(self.spectrum(between.clone())?) {
+                if maximax >= enough {
                     high = *hz;
                     break;
                 }
@@ -225,7 +230,8 @@ impl History {
         }
         Ok(high)
     }
-    /// The frequencies tried first: from parts that feel the velocity change alone to such as follow each sample.
+    /// Returns the frequencies of the first search: from parts that respond to the velocity change alone to parts that
+    /// follow each sample.
     fn frequencies(&self) -> Vec<f64> {
         #[expect(clippy::cast_precision_loss, reason = "a number of samples")]
         let highest = 4.0 * self.times_s.len() as f64;
@@ -237,8 +243,8 @@ impl History {
         }
         hz
     }
-    /// What the history asks of ever stiffer parts: they follow each line, and swing beyond each jump; and whether a
-    /// jump it is that asks most.
+    /// Returns the response of ever stiffer parts, which follow each line and swing beyond each jump, and whether a
+    /// jump gives the largest one.
     fn long(&self) -> Result<(f64, bool), Error> {
         let long = 40.0 * TAU * (1.0 + self.damping.get());
         let step = [Pulse { shape: Shape::Rectangle, amplitude: 1.0, duration: long, start: 0.0 }];

@@ -12,9 +12,9 @@ use std::ops::RangeInclusive;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VelocityShock {
-    /// When.
+    /// Time of the jump.
     pub time: f64,
-    /// By how much the velocity of the base jumps.
+    /// Jump of the velocity of the base.
     pub delta_v: f64,
 }
 
@@ -25,13 +25,15 @@ pub struct VelocityShock {
 #[derive(Debug, Clone, PartialEq)]
 pub struct VelocityShocks {
     shocks: Vec<VelocityShock>,
-    /// Whether the last one is what many that come at one instant do together, and no shock of its own.
+    /// True if the last one stands for the sum of many shocks at one instant, and is no shock of its own.
     closes: bool,
 }
 
 const LIST: &str = "velocity shocks";
 
 impl VelocityShocks {
+    /// Creates a checked list of velocity shocks.
+    ///
     /// # Errors
     /// [`Error::Empty`], [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where times run back.
     pub fn new(shocks: Vec<VelocityShock>) -> Result<Self, Error> {
@@ -52,27 +54,29 @@ impl VelocityShocks {
         }
         Ok(Self { shocks, closes: false })
     }
-    /// The same with one more change of velocity, which an endless train does at one instant by ever smaller shocks.
+    /// Returns the list with one more change of velocity, the sum of the ever smaller shocks of an endless train at one
+    /// instant.
     pub(crate) fn closed_by(self, last: VelocityShock) -> Result<Self, Error> {
         let shocks = self.shocks.into_iter().chain([last]).collect();
         Ok(Self { closes: true, ..Self::new(shocks)? })
     }
-    /// The single shocks, without what an endless train does in its last instant together.
+    /// Returns the single shocks, without the sum of those of an endless train in its last instant.
     #[must_use]
     pub fn single(&self) -> &[VelocityShock] {
         &self.shocks[..self.shocks.len() - usize::from(self.closes)]
     }
-    /// The shocks, in order; of an endless train the last one may stand for all that are left.
+    /// Returns the shocks, in order; in an endless train the last one may stand for all later ones.
     #[must_use]
     pub fn as_slice(&self) -> &[VelocityShock] {
         &self.shocks
     }
-    /// Sum of all velocity changes.
+    /// Returns the sum of all velocity changes.
     #[must_use]
     pub fn net(&self) -> f64 {
         self.shocks.iter().map(|s| s.delta_v).sum()
     }
-    /// The largest sum of the first few velocity changes, in absolute value: how far the base's velocity strays.
+    /// Returns the largest sum of the first few velocity changes, in absolute value: the largest deviation of the
+    /// base's velocity.
     #[must_use]
     pub fn largest_partial_sum(&self) -> f64 {
         let mut sum = 0.0_f64;
@@ -81,12 +85,12 @@ impl VelocityShocks {
             m.max(sum.abs())
         })
     }
-    /// The largest single velocity change, in absolute value.
+    /// Returns the largest single velocity change, in absolute value.
     #[must_use]
     pub fn largest(&self) -> f64 {
         self.single().iter().fold(0.0, |m, s| m.max(s.delta_v.abs()))
     }
-    /// Peaks of the component's response, ring-down included.
+    /// Returns the peaks of the component's response, ring-down included.
     ///
     /// At each shock z′ jumps by −Δv and A by 2ζωΔv; between shocks the motion is free, and its turning points are
     /// known in closed form ([`Suspension::free`]), so nothing is sampled.
@@ -98,7 +102,7 @@ impl VelocityShocks {
     ///
     /// # Examples
     ///
-    /// One shock on an undamped component: ω z = Δv, A = ω Δv, a quarter of a period later.
+    /// One shock on an undamped component gives ω z = Δv and A = ω Δv, a quarter of a period later.
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, Suspension, VelocityShock, VelocityShocks};
@@ -118,7 +122,7 @@ impl VelocityShocks {
         }
         run.finish(|i| self.shocks[i].time)
     }
-    /// The peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way, as
+    /// Returns the peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way, as
     /// [`Pulses::peak_above`](crate::Pulses::peak_above).
     ///
     /// ```
@@ -148,7 +152,7 @@ impl VelocityShocks {
         range.note_free(&modes, row, m, f64::INFINITY, self.shocks.len() - 1);
         range.peak_above(above, omega, |i| self.shocks[i].time)
     }
-    /// Peaks of one quantity from the first to the last shock, and after it, for each angular frequency.
+    /// Returns the peaks of one quantity from the first to the last shock, and after it, for each angular frequency.
     pub(crate) fn peaks_at(&self, modes: &Modes, omegas: &[f64], k: usize) -> Vec<[Peaks; 2]> {
         let arch = pulp::Arch::new();
         let span = self.shocks[self.shocks.len() - 1].time - self.shocks[0].time;
@@ -165,7 +169,7 @@ impl VelocityShocks {
         }
         list
     }
-    /// The same at one frequency.
+    /// Returns the same peaks at one frequency.
     fn peaks(&self, modes: &Modes, omega: f64, k: usize) -> [Peaks; 2] {
         let (mut m, mut during) = (Motion::default(), Range::default());
         for (i, shock) in self.shocks.iter().enumerate() {
@@ -217,7 +221,7 @@ impl Run {
             let phase = gap(self.omega, last, time);
             self.note(phase.hi);
             self.m = self.modes.propagator(phase).apply(self.modes.p, self.m);
-            // The end of the interval, before the jump.
+            // This is the end of the interval, before the jump.
             for (k, range) in self.ranges.iter_mut().enumerate() {
                 range.note(self.number - 1, phase.hi, self.modes.quantity(k, self.m));
             }
@@ -226,7 +230,7 @@ impl Run {
         self.last = Some(time);
         self.number += 1;
     }
-    /// Takes in the free motion from the last shock over `span`.
+    /// Notes the free motion from the last shock over `span`.
     fn note(&mut self, span: f64) {
         for (k, range) in self.ranges.iter_mut().enumerate() {
             range.note_free(&self.modes, k, self.m, span, self.number - 1);
@@ -241,14 +245,14 @@ impl Run {
 /// Velocity changes whose squares are neither too small nor too large to compare.
 const TAME: RangeInclusive<f64> = 1e-100..=1e100;
 
-/// ω (to − from), exact in its second double where it is long.
+/// Returns ω (to − from), exact in its second double where it is long.
 #[inline]
 pub(crate) fn gap(omega: f64, from: f64, to: f64) -> Phase {
     let (dt, lo) = difference(from, to);
     Phase::product2(omega, dt, lo)
 }
 
-/// to − from in two doubles (Knuth's two-sum).
+/// Returns to − from in two doubles (Knuth's two-sum).
 #[inline]
 pub(crate) fn difference(from: f64, to: f64) -> (f64, f64) {
     let dt = to - from;
@@ -264,7 +268,8 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(400))]
-        /// Eight side by side, by series, as one by one, by the functions of the standard library.
+        /// Compares eight frequencies side by side, by series, with one at a time, by the functions of the standard
+        /// library.
         #[test]
         fn lanes_agree_with_one_frequency(
             list in prop::collection::vec((-6.0..3.0_f64, -10.0..10.0_f64, 0..4_u8), 1..40),

@@ -1,28 +1,29 @@
-//! What a record leaves of the motion of a soft part, where the filter of samples has too few digits.
+//! The motion of a soft part after a record, from integrals of the record, where the filter of samples has too few
+//! digits.
 
 use crate::suspension::{Modes, Motion};
 
 /// Phase of a record, times 1 + 2ζ, up to which the series is taken: its remainder is the fourth power of that.
 const SOFT: f64 = 1e-3;
 
-/// Integrals of a record over and over, by the time between samples: the first one in two doubles.
+/// Repeated integrals of a record, by the time between samples: the first one in two doubles.
 ///
-/// Where base velocity and displacement cancel in the end, roundings of the filter are far above what is left of the
-/// velocity of a part so soft that it hardly moved. To such a part, of phase θ a sample and at rest before,
+/// Where base velocity and displacement cancel in the end, roundings of the filter are far above the remaining velocity
+/// of a part so soft that it hardly moved. For such a part, of phase θ a sample and at rest before,
 /// ```text
 /// z″ + 2ζωz′ + ω²z = −a,    z′ = −dt Σ cₖθᵏIₖ,    ωz = −dt θ Σ cₖθᵏIₖ₊₁,    c₀ = 1,  cₖ = −2ζcₖ₋₁ − cₖ₋₂.
 /// ```
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Integrals {
-    /// Samples, less one.
+    /// Number of samples, less one.
     steps: f64,
-    /// What rounding leaves beside the first.
+    /// Rounding error of the first integral.
     rest: f64,
     of: [f64; 5],
 }
 
 impl Integrals {
-    /// Over the next step, in which the acceleration is linear.
+    /// Extends the integrals by the next step, in which the acceleration is linear.
     pub(crate) fn step(&mut self, from: f64, to: f64) {
         let [i0, i1, i2, i3, i4] = self.of;
         let rise = to - from;
@@ -42,7 +43,7 @@ impl Integrals {
         self.of = [first, higher[0], higher[1], higher[2], higher[3]];
         self.steps += 1.0;
     }
-    /// Whether the series holds for this phase a sample.
+    /// Returns whether the series holds for this phase a sample.
     pub(crate) fn suit(&self, zeta: f64, theta: f64) -> bool {
         (1.0 + 2.0 * zeta) * theta * self.steps < SOFT
     }

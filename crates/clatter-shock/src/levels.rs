@@ -4,7 +4,7 @@ use crate::samples::float;
 
 /// Blocks to a duration that suffice for a first estimate.
 const COARSE: f64 = 64.0;
-/// And for the result: a block average is off the value in its middle by (π/4096)²/24, below 1e-7.
+/// Blocks to a duration for the result: a block average is off the value in its middle by (π/4096)²/24, below 1e-7.
 const FINE: f64 = 4096.0;
 
 /// A history and its block averages.
@@ -26,30 +26,30 @@ impl<'a> Levels<'a> {
         let mut averages: Vec<Vec<f64>> = Vec::new();
         loop {
             let below = averages.last().map_or(record, Vec::as_slice);
-            // A pulse as long as the history has still blocks enough.
+            // A pulse as long as the history still has enough blocks.
             if float(below.len()) <= COARSE {
                 return Self { record, averages };
             }
             averages.push(below.chunks_exact(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect());
         }
     }
-    /// A history as a level of its own.
+    /// Returns a history as a level of its own.
     pub(crate) fn of_record(record: &'a [f64]) -> Level<'a> {
         Level { values: record, width: 1.0 }
     }
-    /// Time of the last sample.
+    /// Returns the time of the last sample.
     pub(crate) fn length(&self) -> f64 {
         float(self.record.len() - 1)
     }
-    /// The history itself.
+    /// Returns the history itself.
     pub(crate) fn finest(&self) -> Level<'_> {
         Levels::of_record(self.record)
     }
-    /// The level that has some 32 to 64 blocks in a duration, or fewer where the history has.
+    /// Returns the level that has some 32 to 64 blocks in a duration, or fewer where the history has.
     pub(crate) fn coarse(&self, duration: f64) -> Level<'_> {
         self.with_blocks(duration, COARSE)
     }
-    /// The one that has 2048 to 4096.
+    /// Returns the level that has some 2048 to 4096 blocks in a duration.
     pub(crate) fn fine(&self, duration: f64) -> Level<'_> {
         self.with_blocks(duration, FINE)
     }
@@ -66,7 +66,7 @@ impl<'a> Levels<'a> {
 }
 
 impl Level<'_> {
-    /// Times and values from one time to another, both included.
+    /// Returns the times and values from one time to another, both included.
     pub(crate) fn within(&self, first: f64, last: f64) -> impl Iterator<Item = (f64, f64)> {
         let offset = 0.5 * (self.width - 1.0);
         let index = |time: f64| (time - offset) / self.width;

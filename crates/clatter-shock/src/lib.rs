@@ -1,4 +1,4 @@
-//! What a train of shocks does to a suspended component, and what shocks a history holds.
+//! The response of a suspended component to a train of shocks, and the analysis of the shocks in a history.
 //!
 //! A component on a suspension is a single-degree-of-freedom system whose base is shaken:
 //!
@@ -20,11 +20,11 @@
 //! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`],
 //! [`HistoryBoundary`] and [`ShockTable`] turn these into margins.
 //!
-//! In a history of even samples [`find_shocks`] finds the shocks; of one shock [`effective_duration`] tells how long it lasts,
-//! [`fit_pulses`] which pulses fit it, and [`check_pulse`] whether it is the pulse that a standard asks for.
-//! [`STANDARD_PULSES`], [`PULSE_TOLERANCES`] and [`STANDARD_CURVES`] hold what standards state.
+//! In a history of even samples [`find_shocks`] finds the shocks. For one shock [`effective_duration`] returns its
+//! durations, [`fit_pulses`] the pulses that fit it, and [`check_pulse`] whether it is the pulse that a standard asks
+//! for. [`STANDARD_PULSES`], [`PULSE_TOLERANCES`] and [`STANDARD_CURVES`] hold the data of standards.
 //!
-//! The feature `serde` writes and reads parts, pulses, spectra and what was found, and checks again what is checked on construction.
+//! The feature `serde` writes and reads parts, pulses, spectra and results, and repeats the checks of construction.
 //!
 //! ```
 //! use clatter::{Bar, Start};

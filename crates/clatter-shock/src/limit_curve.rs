@@ -1,8 +1,8 @@
-//! A limit over frequency, and how far a spectrum stays below it.
+//! A limit over frequency, and the margin of a spectrum to it.
 
 use crate::{Error, Margin, Spectrum};
 
-/// What a component or a specification allows over natural frequency: one value, or straight lines between points on
+/// The limit of a component or a specification over natural frequency: one value, or straight lines between points on
 /// log-log paper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LimitCurve(Law);
@@ -15,21 +15,21 @@ enum Law {
 
 const LIST: &str = "limit curve";
 
-/// log₂(b/a), also where the quotient is out of range.
+/// Returns log₂(b/a), also where the quotient is out of range.
 fn octaves(a: f64, b: f64) -> f64 {
     let ratio = b / a;
     if ratio.is_normal() { libm::log2(ratio) } else { libm::log2(b) - libm::log2(a) }
 }
 
 impl LimitCurve {
-    /// The same value at every frequency.
+    /// Creates a limit that is the same at every frequency.
     /// # Errors
     /// [`Error::Quantity`] unless it is finite and positive.
     pub fn constant(allowed: f64) -> Result<Self, Error> {
         Ok(Self(Law::Level(crate::error::positive("limit", allowed)?)))
     }
-    /// Through points (Hz, allowed) in order of frequency, by powers of the frequency between neighbors; no limit
-    /// outside.
+    /// Creates a limit through points (Hz, allowed) in order of frequency, by powers of the frequency between
+    /// neighbors; there is no limit outside.
     ///
     /// ```
     /// # use clatter_shock::LimitCurve;
@@ -60,7 +60,7 @@ impl LimitCurve {
         }
         Ok(Self(Law::Points(points)))
     }
-    /// What is allowed at a frequency; `None` outside of the curve.
+    /// Returns the limit at a frequency; `None` outside of the curve.
     #[must_use]
     pub fn at(&self, hz: f64) -> Option<f64> {
         match &self.0 {
@@ -78,7 +78,7 @@ impl LimitCurve {
             }),
         }
     }
-    /// The curve with all its levels times a factor.
+    /// Returns the curve with all its levels times a factor.
     /// # Errors
     /// Those of [`new`](Self::new), where a level leaves the floats.
     pub fn times(&self, factor: f64) -> Result<Self, Error> {
@@ -87,7 +87,7 @@ impl LimitCurve {
             Law::Points(points) => Self::new(points.iter().map(|&(hz, allowed)| (hz, factor * allowed)).collect()),
         }
     }
-    /// Its first and last frequency; none where it is the same at all.
+    /// Returns its first and last frequency; `None` for a limit that is the same at every frequency.
     #[must_use]
     pub fn range_hz(&self) -> Option<[f64; 2]> {
         match &self.0 {
@@ -95,7 +95,8 @@ impl LimitCurve {
             Law::Points(points) => Some([points.first()?.0, points.last()?.0]),
         }
     }
-    /// The corners of the curve from one frequency to another, and both ends there; straight lines on log-log paper in between.
+    /// Returns the corners of the curve from one frequency to another, and its points at both; it is straight on
+    /// log-log paper in between.
     #[must_use]
     pub fn corners(&self, low_hz: f64, high_hz: f64) -> Vec<(f64, f64)> {
         let corners = if let Law::Points(points) = &self.0 { &points[..] } else { &[] };
@@ -103,7 +104,7 @@ impl LimitCurve {
         let between = corners.iter().copied().filter(|(hz, _)| low_hz < *hz && *hz < high_hz);
         end(low_hz).into_iter().chain(between).chain(end(high_hz)).collect()
     }
-    /// The margin of the maximax at each frequency of a spectrum.
+    /// Returns the margin of the maximax at each frequency of a spectrum.
     ///
     /// The limit is in the unit of the spectrum.
     #[must_use]
@@ -111,7 +112,7 @@ impl LimitCurve {
         let reached = spectrum.frequency_hz.iter().zip(&spectrum.maximax);
         reached.map(|(&hz, &demand)| Some(Margin { allowed: self.at(hz)?, demand })).collect()
     }
-    /// Index of the smallest margin; `None` if the curve covers no frequency of the spectrum.
+    /// Returns the index of the smallest margin; `None` if the curve covers no frequency of the spectrum.
     #[must_use]
     pub fn worst(margins: &[Option<Margin>]) -> Option<usize> {
         let ratio = |i: &usize| margins[*i].map_or(f64::INFINITY, |m| m.allowed / m.demand);
@@ -145,7 +146,7 @@ mod tests {
             assert!((0.0..=1.01e308).contains(&allowed) && allowed <= before, "{hz}: {allowed}");
             before = allowed;
         }
-        // In the middle of both logarithms.
+        // This frequency is in the middle of both logarithms.
         let middle = 5e-324_f64.log2().midpoint(1e308_f64.log2());
         let allowed = curve.at(middle.exp2()).expect("within the curve");
         assert!((allowed.log2() - middle).abs() < 1e-9, "{allowed}");

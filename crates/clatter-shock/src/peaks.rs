@@ -1,4 +1,4 @@
-//! Largest positive and negative values of a response, and where they stand.
+//! Largest positive and negative values of a response, and their times.
 
 use crate::suspension::{Modes, Motion};
 
@@ -8,9 +8,9 @@ use crate::suspension::{Modes, Motion};
 pub struct Extreme {
     /// The value, with its sign.
     pub value: f64,
-    /// When it is reached, on the time axis of the excitation.
+    /// Time of the extreme, on the time axis of the excitation.
     pub time: f64,
-    /// Which interval holds it, from 0: interval i begins with shock i (or breakpoint i of the pulses) and lasts until
+    /// Index of its interval, from 0: interval i begins with shock i (or breakpoint i of the pulses) and lasts until
     /// the next; the last one is the ring-down.
     pub interval: usize,
 }
@@ -27,25 +27,25 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// The one that is larger in absolute value; the earlier one if they tie.
+    /// Returns the extreme that is larger in absolute value; the earlier one if they tie.
     #[must_use]
     pub fn peak(&self) -> Extreme {
         let (p, n) = (self.positive, self.negative);
         if p.value > -n.value || (p.value + n.value == 0.0 && p.time <= n.time) { p } else { n }
     }
-    /// Largest absolute value.
+    /// Returns the largest absolute value.
     #[must_use]
     pub fn magnitude(&self) -> f64 {
         self.positive.value.max(-self.negative.value)
     }
-    /// The same extremes in another unit.
+    /// Returns the same extremes in another unit.
     fn map(self, unit: impl Fn(f64) -> f64) -> Self {
         let map = |e: Extreme| Extreme { value: unit(e.value) + 0.0, ..e };
         Self { positive: map(self.positive), negative: map(self.negative) }
     }
 }
 
-/// Which peak is asked for.
+/// The quantity of a wanted peak.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Peaked {
@@ -72,7 +72,7 @@ pub(crate) struct Mark {
     pub(crate) interval: usize,
 }
 
-/// Stands for τ where only the block of a sample is known.
+/// Value of τ where only the block of a sample is known.
 const UNPLACED: f64 = -1.0;
 
 /// Running extremes of one quantity.
@@ -80,28 +80,28 @@ const UNPLACED: f64 = -1.0;
 pub(crate) struct Range {
     pub(crate) high: Mark,
     pub(crate) low: Mark,
-    /// Whether only the larger one counts: what is smaller either way is passed over.
+    /// True if only the larger one counts: values that are smaller in size are passed over.
     peak: bool,
 }
 
 impl Range {
-    /// Of the one that is larger in absolute value, with nothing in it that is within `above` of 0.
+    /// Creates a range that notes the extreme of larger absolute value alone, beyond `above` in size.
     pub(crate) fn beyond(above: f64) -> Self {
         let mark = |value| Mark { value, ..Mark::default() };
         Self { high: mark(above.max(0.0)), low: mark(-above.max(0.0)), peak: true }
     }
-    /// Beyond these values.
+    /// Creates a range that notes extremes beyond these values.
     pub(crate) fn outside(low: f64, high: f64) -> Self {
         let mark = |value| Mark { value, ..Mark::default() };
         Self { high: mark(high), low: mark(low), peak: false }
     }
-    /// The larger extreme in absolute value, if it passes `above`.
+    /// Returns the larger extreme in absolute value, if it passes `above`.
     pub(crate) fn peak_above(&self, above: f64, omega: f64, start: impl Fn(usize) -> f64) -> Option<Extreme> {
         Some(self.extremes(omega, start).peak()).filter(|peak| peak.value.abs() > above.max(0.0))
     }
     #[inline]
     pub(crate) fn note(&mut self, interval: usize, tau: f64, value: f64) {
-        // Of two as large as each other the earlier counts, and that is not the mirror image.
+        // Of two equal sizes the earlier counts, and its mirror image does not.
         let mirror = Mark { value: -value, tau: f64::INFINITY, interval };
         if value > self.high.value {
             self.high = Mark { value, tau, interval };
@@ -115,15 +115,15 @@ impl Range {
             }
         }
     }
-    /// Notes the largest sample of a block, whose place within the block [`Self::place`] finds out.
+    /// Notes the largest sample of a block; [`Self::place`] later finds its place within the block.
     pub(crate) fn note_block(&mut self, block: usize, value: f64) {
         self.note(block, UNPLACED, value);
     }
-    /// Whether the largest or the smallest value is a sample of this block whose place is not known.
+    /// Returns whether the largest or the smallest value is a sample of this block whose place is not known.
     pub(crate) fn is_unplaced(&self, block: usize) -> bool {
         [self.high, self.low].iter().any(|mark| mark.tau < 0.0 && mark.interval == block)
     }
-    /// Tells the value of a sample of the block: if it is one of the two, this is its place.
+    /// Gives the value of a sample of the block: if it is one of the two extremes, this is its place.
     pub(crate) fn place(&mut self, block: usize, interval: usize, value: f64) {
         let extreme = [value >= self.high.value, value <= self.low.value];
         for (mark, is_it) in [&mut self.high, &mut self.low].into_iter().zip(extreme) {
@@ -132,15 +132,15 @@ impl Range {
             }
         }
     }
-    /// Takes in the free motion from `m` over `span`: its start and its turning points. Its end is the start of what
-    /// follows.
+    /// Notes the free motion from `m` over `span`: its start and its turning points. Its end is the start of the next
+    /// motion.
     #[inline]
     pub(crate) fn note_free(&mut self, modes: &Modes, k: usize, m: Motion, span: f64, interval: usize) {
         self.note(interval, 0.0, modes.quantity(k, m));
         let seen = (self.low.value, self.high.value);
         modes.free_extremes(k, m, span, seen, |tau, value| self.note(interval, tau, value));
     }
-    /// The same of the motion under a constant forcing from now on, which tends to x = f.
+    /// Notes the motion under a constant forcing from now on, which tends to x = f.
     pub(crate) fn note_carried(&mut self, modes: &Modes, k: usize, m: Motion, forcing: f64, interval: usize) {
         if forcing == 0.0 {
             return self.note_free(modes, k, m, f64::INFINITY, interval);
@@ -157,7 +157,7 @@ impl Range {
         let seen = (self.low.value - about, self.high.value - about);
         modes.free_extremes(k, swing, f64::INFINITY, seen, |tau, value| self.note(interval, tau, about + value));
     }
-    /// The extremes and their times; interval i begins at `start(i)`.
+    /// Returns the extremes and their times; interval i begins at `start(i)`.
     pub(crate) fn peaks(&self, omega: f64, start: impl Fn(usize) -> f64) -> Peaks {
         let peak = |m: Mark| Peak { value: m.value, time: start(m.interval) + m.tau / omega };
         Peaks { high: peak(self.high), low: peak(self.low) }
@@ -183,7 +183,7 @@ pub(crate) struct Peaks {
 }
 
 impl Peaks {
-    /// The larger of the two in absolute value; the earlier one if they tie.
+    /// Returns the larger of the two in absolute value; the earlier one if they tie.
     pub(crate) fn largest(&self) -> Peak {
         let [high, low] = [self.high, Peak { value: -self.low.value, ..self.low }];
         if low.value > high.value || (low.value >= high.value && low.time < high.time) { low } else { high }
@@ -192,16 +192,16 @@ impl Peaks {
 
 /// The largest values that a component reaches, exactly.
 ///
-/// z and A are infinite where they pass the floats (ω below 10⁻³⁰⁰ or above 10³⁰⁰); as velocities,
+/// z and A are infinite where they overflow (ω below 10⁻³⁰⁰ or above 10³⁰⁰); as velocities,
 /// [`pseudo_velocity`](Self::pseudo_velocity) and [`acceleration_over_omega`](Self::acceleration_over_omega), they
-/// still are known.
+/// remain known.
 ///
 /// Signs: z is the displacement of the component relative to its base, so that a base that accelerates upward first
 /// drives z downward and the absolute acceleration A = −(2ζωz′ + ω²z) upward.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     omega: f64,
-    /// ωz and A/ω as they were found: the way from z and A back would lose what those cannot hold.
+    /// ωz and A/ω as computed: the way back from z and A would lose values that overflow there.
     pseudo_velocity: Extremes,
     acceleration_over_omega: Extremes,
     /// Relative displacement z (rattle space).
@@ -213,18 +213,18 @@ pub struct Response {
 }
 
 impl Response {
-    /// Pseudo-velocity ωz.
+    /// Returns the pseudo-velocity ωz.
     #[must_use]
     pub fn pseudo_velocity(&self) -> Extremes {
         self.pseudo_velocity
     }
-    /// Absolute acceleration as a velocity, A/ω.
+    /// Returns the absolute acceleration as a velocity, A/ω.
     #[must_use]
     pub fn acceleration_over_omega(&self) -> Extremes {
         self.acceleration_over_omega
     }
-    /// Equivalent static acceleration ω²z: in size the steady acceleration of the base that bends the suspension as
-    /// far. Its sign is that of z: a base that accelerates upward makes it negative first.
+    /// Returns the equivalent static acceleration ω²z: in size the steady acceleration of the base that bends the
+    /// suspension as far. Its sign is that of z: a base that accelerates upward makes it negative first.
     #[must_use]
     pub fn equivalent_static_acceleration(&self) -> Extremes {
         self.pseudo_velocity.map(|x| self.omega * x)

@@ -19,15 +19,15 @@ pub enum Shape {
     HalfSine,
     /// a (1 − cos(2πt/D))/2; area aD/2.
     Haversine,
-    /// Up to a at D/2 and down; area aD/2.
+    /// Rise to a at D/2 and fall; area aD/2.
     Triangle,
-    /// From a down to 0; area aD/2.
+    /// Fall from a to 0; area aD/2.
     InitialPeakSawtooth,
-    /// From 0 up to a; area aD/2.
+    /// Rise from 0 to a; area aD/2.
     TerminalPeakSawtooth,
-    /// a; area aD.
+    /// Constant a; area aD.
     Rectangle,
-    /// Up to a within `ramp` D, constant, and down within `ramp` D; area aD(1 − ramp).
+    /// Rise to a within `ramp` D, constant, and fall within `ramp` D; area aD(1 − ramp).
     Trapezoid {
         /// Length of each ramp over that of the pulse, in (0, ½].
         ramp: f64,
@@ -35,7 +35,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Velocity change over a D.
+    /// Returns the velocity change over a D.
     ///
     /// ```
     /// # use clatter_shock::Shape;
@@ -63,12 +63,12 @@ pub struct Pulse {
     pub amplitude: f64,
     /// Length D > 0.
     pub duration: f64,
-    /// When it begins.
+    /// Time of its begin.
     pub start: f64,
 }
 
 impl Pulse {
-    /// Velocity change, the area of the pulse.
+    /// Returns the velocity change, the area of the pulse.
     #[must_use]
     pub fn velocity_change(&self) -> f64 {
         self.shape.area() * self.amplitude * self.duration
@@ -97,7 +97,7 @@ impl Instant {
     fn at(t: f64) -> Self {
         Self { hi: t, lo: 0.0 }
     }
-    /// `t` + `fraction` · `duration`, the product rounded once.
+    /// Returns `t` + `fraction` · `duration`, the product rounded once.
     fn after(t: f64, duration: f64) -> Self {
         let hi = t + duration;
         let back = hi - t;
@@ -111,7 +111,7 @@ impl Instant {
     }
 }
 
-/// What acts between two breakpoints.
+/// The forcing between two breakpoints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     start: Instant,
@@ -138,7 +138,7 @@ const PULSES: &str = "pulses";
 const POINTS: &str = "history";
 
 impl Pulses {
-    /// A train of pulses, in any order; where they overlap they add up.
+    /// Creates a train of pulses, in any order; where they overlap they add up.
     ///
     /// # Errors
     ///
@@ -180,7 +180,7 @@ impl Pulses {
         let (pieces, sines, end) = overlap::pieces(terms)?;
         Ok(Self { pieces, sines, end, carried: 0.0 })
     }
-    /// A piecewise linear history of (time, acceleration); two points at one time are a jump.
+    /// Returns a piecewise linear history of (time, acceleration); two points at one time are a jump.
     ///
     /// # Errors
     ///
@@ -205,7 +205,7 @@ impl Pulses {
         let history = Self::from_sorted(points);
         if history.pieces.is_empty() { Err(Error::ZeroDuration) } else { Ok(history) }
     }
-    /// A history of sections, one after the other from when the first begins.
+    /// Creates a history of sections, one after the other from the begin of the first.
     ///
     /// # Errors
     ///
@@ -259,7 +259,8 @@ impl Pulses {
             Ok(Self { pieces, sines, end: at, carried: 0.0 })
         }
     }
-    /// The same history with a constant acceleration from its end on, for ever: the weight of what has come to rest.
+    /// Returns the same history with a constant acceleration from its end on, for ever: the weight of a body that has
+    /// come to rest.
     ///
     /// # Errors
     ///
@@ -267,7 +268,7 @@ impl Pulses {
     ///
     /// # Examples
     ///
-    /// A weight that is on at once does twice what it does at rest:
+    /// A weight that is applied at once has twice the effect of a weight at rest:
     ///
     /// ```
     /// # use clatter::Section;
@@ -292,7 +293,7 @@ impl Pulses {
         }
         Ok(Self { carried: acceleration, ..self })
     }
-    /// A piecewise linear history of points already checked: finite, in order of time.
+    /// Creates a piecewise linear history of points already checked: finite, in order of time.
     pub(crate) fn from_sorted(points: &[(f64, f64)]) -> Self {
         let mut pieces = Vec::with_capacity(points.len());
         pieces.extend(points.windows(2).filter(|w| w[1].0 > w[0].0).map(|w| Piece {
@@ -305,8 +306,8 @@ impl Pulses {
         }));
         Self { pieces, sines: Vec::new(), end: Instant::at(points.last().map_or(0.0, |p| p.0)), carried: 0.0 }
     }
-    /// Peaks of the component's response, ring-down included. Interval i begins at the i-th begin or end of a part of a
-    /// pulse.
+    /// Returns the peaks of the component's response, ring-down included. Interval i begins at the i-th begin or end of
+    /// a part of a pulse.
     ///
     /// # Accuracy
     ///
@@ -334,7 +335,8 @@ impl Pulses {
     pub fn respond(&self, suspension: &Suspension) -> Response {
         self.response(suspension, true)
     }
-    /// The same until the end of the history, without the ring-down after it, as [`peak_within`](Self::peak_within).
+    /// Returns the peaks until the end of the history, without the ring-down after it, as
+    /// [`peak_within`](Self::peak_within).
     #[must_use]
     pub fn respond_within(&self, suspension: &Suspension) -> Response {
         self.response(suspension, false)
@@ -351,12 +353,12 @@ impl Pulses {
         }
         Response::from_ranges(omega, &ranges, |i| self.begin(i))
     }
-    /// The peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way: a search for the largest
-    /// of many peaks asks for what passes the largest yet, and pays little for what does not.
+    /// Returns the peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way. A search for the
+    /// largest of many peaks passes the largest so far as `above`, and pays little for the smaller ones.
     ///
     /// # Accuracy
     ///
-    /// As [`respond`](Self::respond).
+    /// The accuracy is that of [`respond`](Self::respond).
     ///
     /// # Examples
     ///
@@ -374,12 +376,14 @@ impl Pulses {
     pub fn peak_above(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
         self.peak_and_end(suspension, peaked, above, true).0
     }
-    /// The same until the end of the history, without the ring-down after it: of a history that is known only so far.
+    /// Returns the same peak until the end of the history, without the ring-down after it, for a history that is known
+    /// only so far.
     #[must_use]
     pub fn peak_within(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
         self.peak_and_end(suspension, peaked, above, false).0
     }
-    /// One of both, as `rings_down` says, with the [state at the end](Self::state_at_end), which takes no longer.
+    /// Returns the peak with or without the ring-down, as `rings_down` says, and the [state at the
+    /// end](Self::state_at_end), which takes no longer.
     #[must_use]
     pub fn peak_and_end(
         &self,
@@ -398,26 +402,27 @@ impl Pulses {
         }
         (range.peak_above(above, omega, |i| self.begin(i)), modes.state(omega, last))
     }
-    /// Number of the interval after the last pulse.
+    /// Returns the number of the interval after the last pulse.
     pub(crate) fn end_interval(&self) -> usize {
         self.pieces.len()
     }
-    /// When interval `i` begins.
+    /// Returns the begin of interval `i`.
     pub(crate) fn begin(&self, i: usize) -> f64 {
         self.pieces.get(i).map_or(self.end.hi, |p| p.start.hi)
     }
-    /// Motion relative to the base at the end of the last pulse.
+    /// Returns the motion relative to the base at the end of the last pulse.
     #[must_use]
     pub fn state_at_end(&self, suspension: &Suspension) -> State {
         let modes = Modes::new(suspension.damping());
         let omega = suspension.omega();
         modes.state(omega, self.drive(&modes, omega, &[], &mut []))
     }
-    /// The motion at the end of the last pulse; extremes until then of the quantities asked go into `ranges`.
+    /// Returns the motion at the end of the last pulse, and notes the extremes of the given quantities until then in
+    /// `ranges`.
     pub(crate) fn drive(&self, modes: &Modes, omega: f64, quantities: &[usize], ranges: &mut [Range]) -> Motion {
         self.drive_on(Motion::default(), modes, omega, quantities, ranges)
     }
-    /// The same from a motion under way.
+    /// Does the same from a motion under way.
     pub(crate) fn drive_on(
         &self,
         mut m: Motion,

@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 pub struct PulseFit {
     /// Amplitude in m/s² with its sign; duration and start in seconds, from the first sample.
     pub pulse: Pulse,
-    /// What is left: root mean square of history less pulse over that of the history, from half a duration before the
+    /// Residual: root mean square of history less pulse over that of the history, from half a duration before the
     /// earliest of the three fits to half a duration after the last.
     pub residual: f64,
 }
@@ -20,25 +20,26 @@ pub struct PulseFit {
 const SHAPES: [Shape; 3] = [Shape::HalfSine, Shape::Haversine, Shape::TerminalPeakSawtooth];
 /// The shortest pulse, in samples: three lie within it, for its three unknowns.
 const SHORTEST: f64 = 4.0;
-/// Durations that are tried, to the octave: 9 % apart, of which half lies well within where the refinement converges.
+/// Durations of the grid, to the octave: 9 % apart, of which half lies well within the range of convergence of the
+/// refinement.
 const PER_OCTAVE: u32 = 8;
-/// Starts that are tried for each, to the duration.
+/// Starts of the grid for each duration.
 const STARTS: u32 = 32;
-/// Steps of the refinement at most; it doubles the digits with each.
+/// The most steps of the refinement; each one doubles the digits.
 const STEPS: usize = 60;
-/// And of that for a line, which ends with the second step unless a sample comes in or falls out.
+/// The most steps for a line, which ends with the second step unless a sample comes in or falls out.
 const LINE_STEPS: usize = 12;
-/// Steps, in durations, of which the gain is hardly above its rounding: their squares are below 1e-12.
+/// Steps, in durations, whose gain is hardly above its rounding: their squares are below 1e-12.
 const SMALL: f64 = 1e-6;
 
 /// Fits a half-sine, a haversine and a terminal-peak sawtooth to the main shock of a history; the best one first.
 ///
-/// Each is the pulse a p((t − s)/D) with the least sum of squares Σ(aᵢ − a p)² over all samples, among those that hold the
-/// sample of largest size. For a start s and a duration D the amplitude is a = Σaᵢp/Σp², and Σaᵢ² falls by
-/// (Σaᵢp)²/Σp²; this gain is first searched on a grid of all durations from 4 samples to the whole history, 9 % apart,
-/// and 33 starts each, and the best of them refined by Gauss–Newton steps (variable projection; Golub and Pereyra 1973),
-/// damped where a step gains nothing. A sawtooth ends between two samples: its end is taken halfway, and the one of all
-/// ends near the grid's is taken that gains most.
+/// Each fit is the pulse a p((t − s)/D) with the least sum of squares Σ(aᵢ − a p)² over all samples, among those that
+/// hold the sample of largest size. For a start s and a duration D the amplitude is a = Σaᵢp/Σp², and Σaᵢ² falls by
+/// (Σaᵢp)²/Σp². This gain is first searched on a grid of all durations from 4 samples to the whole history, 9 % apart,
+/// and 33 starts each; the best one is refined by Gauss–Newton steps (variable projection; Golub and Pereyra 1973),
+/// damped where a step gains nothing. A sawtooth ends halfway between two samples: of all such ends near that of the
+/// grid the one with the largest gain is taken.
 ///
 /// Long pulses are fitted to averages over blocks of samples, 2048 or more to the duration.
 ///
@@ -77,7 +78,7 @@ pub fn fit_pulses(acceleration: &[f64], step_s: f64) -> Result<[PulseFit; 3], Er
     if acceleration[top] == 0.0 {
         return Err(Error::NoShock);
     }
-    // In units of the peak and of samples, where no square overflows.
+    // Values are in units of the peak and of samples, where no square overflows.
     let size = acceleration[top].abs();
     let scaled: Vec<f64> = acceleration.iter().map(|a| a / size).collect();
     let levels = Levels::new(&scaled);
@@ -97,18 +98,18 @@ pub fn fit_pulses(acceleration: &[f64], step_s: f64) -> Result<[PulseFit; 3], Er
     }))
 }
 
-/// A pulse that is tried: start and duration in samples.
+/// A pulse of the search: start and duration in samples.
 #[derive(Debug, Clone, Copy)]
 struct Trial {
     shape: Shape,
     start: f64,
     duration: f64,
     amplitude: f64,
-    /// By how much it lowers the sum of squares.
+    /// Decrease of the sum of squares.
     gain: f64,
 }
 
-/// The acceleration of a pulse at a time, in m/s²; zero outside of it.
+/// Returns the acceleration of a pulse at a time, in m/s²; zero outside of it.
 ///
 /// ```
 /// use clatter_shock::{Pulse, Shape};
@@ -120,7 +121,7 @@ pub fn pulse_at(pulse: &Pulse, time_s: f64) -> f64 {
     pulse.amplitude * value(pulse.shape, (time_s - pulse.start) / pulse.duration)[0]
 }
 
-/// The shape at u = (t − s)/D, and its slope.
+/// Returns the shape at u = (t − s)/D, and its slope.
 pub(crate) fn value(shape: Shape, u: f64) -> [f64; 2] {
     if !(0.0..=1.0).contains(&u) {
         return [0.0; 2];
@@ -157,7 +158,7 @@ pub(crate) fn value(shape: Shape, u: f64) -> [f64; 2] {
 }
 
 impl Trial {
-    /// With the amplitude of least squares on a level.
+    /// Creates a trial with the amplitude of least squares on a level.
     fn at(level: &Level, shape: Shape, start: f64, duration: f64) -> Self {
         let (mut pp, mut pa) = (0.0, 0.0);
         for (t, a) in level.within(start, start + duration) {
@@ -168,7 +169,7 @@ impl Trial {
         let amplitude = if pp > 0.0 { pa / pp } else { 0.0 };
         Self { shape, start, duration, amplitude, gain: level.width * amplitude * pa }
     }
-    /// The best of all pulses that hold the time `top`.
+    /// Returns the best of all pulses that hold the time `top`.
     fn fit(levels: &Levels, shape: Shape, top: f64) -> Self {
         let best = Self::on_grid(levels, shape, top);
         let level = levels.fine(best.duration);
@@ -178,7 +179,7 @@ impl Trial {
             best.refine(&level, levels.length() + 1.0)
         }
     }
-    /// The best of the grid.
+    /// Returns the best pulse of the grid.
     fn on_grid(levels: &Levels, shape: Shape, top: f64) -> Self {
         let longest = levels.length() + 1.0;
         let mut best = Self { shape, start: top - 0.5 * SHORTEST, duration: SHORTEST, amplitude: 0.0, gain: -1.0 };
@@ -190,7 +191,7 @@ impl Trial {
             let level = levels.coarse(duration);
             for i in 0..=STARTS {
                 let start = top - duration * f64::from(i) / f64::from(STARTS);
-                // No further than a sample beyond the history.
+                // The pulse reaches no further than a sample beyond the history.
                 if start >= -1.0 && start + duration <= longest {
                     let trial = Self::at(&level, shape, start, duration);
                     if trial.gain > best.gain {
@@ -201,7 +202,8 @@ impl Trial {
         }
         best
     }
-    /// Gauss–Newton steps in start and duration; the amplitude follows. The pulse ends at `latest` at the latest.
+    /// Refines start and duration by Gauss–Newton steps; the amplitude follows. The pulse ends at `latest` at the
+    /// latest.
     fn refine(self, level: &Level, latest: f64) -> Self {
         let mut best = Self::at(level, self.shape, self.start, self.duration);
         let (mut damping, mut last) = (0.0, f64::INFINITY);
@@ -211,7 +213,7 @@ impl Trial {
             let (start, duration) = (best.start + by_start * best.duration, best.duration * (1.0 + by_duration));
             let within = duration >= SHORTEST && start >= -1.0 && start + duration <= latest;
             let trial = Self::at(level, self.shape, start, duration);
-            // What the last digits gain is below rounding; there steps have to shrink instead.
+            // The gain of the last digits is below rounding; there the steps must shrink instead.
             if within && (trial.gain > best.gain || (moved < SMALL && moved < 0.5 * last)) {
                 (best, last) = (trial, moved);
                 damping *= 0.1;
@@ -224,7 +226,7 @@ impl Trial {
         }
         best
     }
-    /// Start and duration of the next trial, in durations.
+    /// Returns the changes of start and duration to the next trial, in durations.
     fn step(&self, level: &Level, damping: f64) -> [f64; 2] {
         let [mut pp, mut ps, mut pd, mut ss, mut sd, mut dd, mut rs, mut rd] = [0.0; 8];
         for (t, a) in level.within(self.start, self.start + self.duration) {
@@ -240,15 +242,15 @@ impl Trial {
             rs += rest * s;
             rd += rest * d;
         }
-        // Without the part along the pulse itself, which the amplitude takes.
+        // The part along the pulse itself is removed: the amplitude takes it.
         let (ss, sd, dd) = (ss - ps * ps / pp, sd - ps * pd / pp, dd - pd * pd / pp);
         let (ss, dd) = (ss * (1.0 + damping), dd * (1.0 + damping));
         let scale = self.amplitude * (ss * dd - sd * sd);
         let step = [(dd * rs - sd * rd) / scale, (ss * rd - sd * rs) / scale];
-        // No step longer than a tenth: the grid is closer than that.
+        // No step is longer than a tenth: the grid is closer than that.
         step.map(|x| if x.is_finite() { x.clamp(-0.1, 0.1) } else { 0.0 })
     }
-    /// The best start for every end near the grid's, each end halfway between two samples.
+    /// Returns the pulse with the best start for every end near that of the grid, each end halfway between two samples.
     fn refine_sawtooth(self, level: &Level) -> Self {
         let reach = self.duration / f64::from(STARTS) + level.width;
         let near = self.start + self.duration;
@@ -261,7 +263,8 @@ impl Trial {
                 continue;
             }
             let mut start = self.start.min(latest);
-            // The zero of the straight line through the samples, until these are the ones between zero and end.
+            // The start is the zero of the straight line through the samples, until these are the ones between zero and
+            // end.
             for _ in 0..LINE_STEPS {
                 let [mut n, mut lp, mut la, mut pp, mut pa] = [0.0; 5];
                 for (t, a) in level.within(start, end) {
@@ -277,7 +280,7 @@ impl Trial {
                 if !by.is_finite() {
                     break;
                 }
-                // Short of the end and within the history, whatever the noise.
+                // The start stays short of the end and within the history, whatever the noise.
                 let next = (start + by).clamp(-1.0, latest);
                 let moved = (next - start).abs();
                 start = next;
@@ -292,7 +295,7 @@ impl Trial {
         }
         best
     }
-    /// Root mean square of what is left, over that of the history, between two times.
+    /// Returns the root mean square of the residual, over that of the history, between two times.
     fn residual(&self, record: &Level, first: f64, last: f64) -> f64 {
         let rest = |(t, a)| {
             let [p, _] = value(self.shape, (t - self.start) / self.duration);
@@ -307,7 +310,7 @@ impl Trial {
 mod tests {
     use super::*;
 
-    /// Shapes written down on their own.
+    /// Returns the value of a shape, written down on its own.
     fn shape(shape: Shape, u: f64) -> f64 {
         match shape {
             _ if !(0.0..=1.0).contains(&u) => 0.0,
@@ -354,7 +357,8 @@ mod tests {
                     (got.start - pulse.start).abs() / pulse.duration,
                     (got.start + got.duration - pulse.start - pulse.duration).abs() / pulse.duration,
                 ];
-                // As stated; a sawtooth of blocks as of the samples, one block of 2048 being longer than one sample.
+                // The allowed errors are those stated; for a sawtooth of blocks as of samples, because one block of
+                // 2048 is longer than one sample.
                 let allowed = if kind == Shape::TerminalPeakSawtooth {
                     1e-9 + 0.5 / samples.min(2048.0)
                 } else if samples < 4096.0 {
@@ -375,7 +379,7 @@ mod tests {
         }
     }
 
-    /// Sum of squares over all samples, with the amplitude that makes it least.
+    /// Returns the sum of squares over all samples, with the amplitude that makes it least.
     fn squares(record: &[f64], kind: Shape, start: f64, duration: f64) -> f64 {
         let p = |i| shape(kind, (float(i) - start) / duration);
         let pa: f64 = (0..record.len()).map(|i| p(i) * record[i]).sum();
@@ -384,7 +388,8 @@ mod tests {
         (0..record.len()).map(|i| (record[i] - amplitude * p(i)).powi(2)).sum()
     }
 
-    /// Against every start and duration on a grid four times as fine, on histories with noise, ringing and a second shock.
+    /// No start and duration of a grid four times as fine fits better, on histories with noise, ringing and a second
+    /// shock.
     #[test]
     fn no_other_pulse_fits_better() {
         let mut seed = 99_u64;
@@ -414,7 +419,7 @@ mod tests {
                     }
                 }
                 assert!(got <= least * (1.0 + 1e-12), "{kind:?} by {fitted:?}: {got}, the grid has {least}");
-                // And the amplitude is that of this sum.
+                // The amplitude is that of this sum.
                 let p = |i: usize| shape(fitted, (float(i) - start) / duration);
                 let rest: f64 = (0..140).map(|i| (record[i] - amplitude * p(i)) * p(i)).sum();
                 assert!(rest.abs() < 1e-9 * got, "{fit:?}: {rest}");

@@ -1,11 +1,11 @@
-//! A spectrum that a shock test has to reach, and how far one is off it.
+//! A spectrum that a shock test has to reach, and the deviation of a measured one.
 
 use crate::{Error, LimitCurve, Spectrum};
 
-/// The shock response spectrum that a test has to reach, and by how much one may be off it, in decibel.
+/// The shock response spectrum that a test has to reach, with its tolerances in decibel.
 ///
-/// A spectrum reaches it at a frequency where its maximax S is at least the required R, less the tolerance below it; where there is a
-/// tolerance above it, S may not exceed R by more: −below ≤ 20 log₁₀(S/R) ≤ above.
+/// A spectrum reaches it at a frequency where its maximax S is at least the required R, less the tolerance below it. If
+/// there is a tolerance above it, S may not exceed R by more: −below ≤ 20 log₁₀(S/R) ≤ above.
 ///
 /// ```
 /// use clatter_shock::{DampingRatio, Frequencies, LimitCurve, Pulse, Pulses, Quantity, RequiredSpectrum, Shape};
@@ -27,28 +27,28 @@ pub struct RequiredSpectrum {
     highest: Option<LimitCurve>,
 }
 
-/// A spectrum beside the required one, at one frequency.
+/// The deviation of a spectrum from the required one, at one frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Deviation {
-    /// What is required.
+    /// The required value.
     pub required: f64,
     /// The maximax of the spectrum.
     pub reached: f64,
-    /// Whether it is below the required by more than the tolerance.
+    /// True if it is below the required value by more than the tolerance.
     pub is_below: bool,
-    /// Whether it is above the required by more than the tolerance, if that has one.
+    /// True if it is above the required value by more than the tolerance, if there is one.
     pub is_above: bool,
 }
 
 impl Deviation {
-    /// 20 log₁₀(reached/required).
+    /// Returns 20 log₁₀(reached/required).
     #[must_use]
     pub fn decibel(&self) -> f64 {
         20.0 * libm::log10(self.reached / self.required)
     }
 
-    /// Whether it is within the tolerance.
+    /// Returns whether it is within the tolerances.
     #[must_use]
     pub fn is_reached(&self) -> bool {
         !self.is_below && !self.is_above
@@ -56,7 +56,7 @@ impl Deviation {
 }
 
 impl RequiredSpectrum {
-    /// A curve, the tolerance below it and, if any, above it, in dB.
+    /// Creates it from a curve, the tolerance below it and, if any, the one above it, in dB.
     ///
     /// # Errors
     /// [`Error::Quantity`] for a tolerance outside of [0, 60] dB, and for levels that it takes beyond the floats.
@@ -73,19 +73,19 @@ impl RequiredSpectrum {
         Ok(Self { curve, lowest, highest })
     }
 
-    /// The curve.
+    /// Returns the required curve.
     #[must_use]
     pub fn curve(&self) -> &LimitCurve {
         &self.curve
     }
 
-    /// The lowest and, if there is a tolerance above the curve, the highest that a spectrum may be.
+    /// Returns the lowest and, if there is a tolerance above the curve, the highest allowed spectrum.
     #[must_use]
     pub fn band(&self) -> (&LimitCurve, Option<&LimitCurve>) {
         (&self.lowest, self.highest.as_ref())
     }
 
-    /// How far the maximax of a spectrum is off at each of its frequencies; none where the curve ends.
+    /// Returns the deviation of the maximax of a spectrum at each of its frequencies; `None` outside of the curve.
     ///
     /// The curve is in the unit of the spectrum.
     #[must_use]
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
     use crate::{DampingRatio, Frequencies, Quantity, VelocityShock, VelocityShocks};
 
-    /// A velocity shock has the pseudo-velocity |Δv| of an undamped part at every frequency.
+    /// Returns the spectrum of a velocity shock: its pseudo-velocity is |Δv| of an undamped part at every frequency.
     fn level(delta_v: f64) -> Spectrum {
         let shock = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v }]).expect("a shock");
         let list = Frequencies::list(vec![10.0, 100.0, 1000.0]).expect("frequencies");

@@ -1,15 +1,16 @@
-//! What functions on evenly sampled accelerations share: the check at the door, sums, the peak.
+//! Common functions for evenly sampled accelerations: the check at the door, sums, the peak.
 
 use crate::Error;
 
-/// Larger accelerations (m/s²) are refused: far beyond any that there are, and their squares add up far within the
-/// floats.
+/// The largest acceleration (m/s²) that is accepted: far beyond any real one, and squares of it add up far within the
+/// range of floats.
 pub const LARGEST: f64 = 1e100;
-/// Times between samples (s), far beyond those of any recorder; displacements stay far within the floats.
+/// Times between samples (s) that are accepted, far beyond those of any recorder; displacements stay far within the
+/// range of floats.
 const STEPS: std::ops::RangeInclusive<f64> = 1e-15..=1e9;
 
-/// Refuses what is no history: a time between samples out of range, too few samples, a sample that is not finite.
-/// `what` is asked of the samples, such as "a fit", and takes `needed` of them.
+/// Refuses invalid histories: a time between samples out of range, too few samples, a sample that is not finite. `what`
+/// names the analysis, such as "a fit", which takes `needed` samples.
 ///
 /// # Errors
 ///
@@ -29,14 +30,14 @@ pub fn check(acceleration: &[f64], step_s: f64, what: &'static str, needed: usiz
     }
 }
 
-/// A count of samples as a number.
+/// Returns a count of samples as a number.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "no history has 2^53 samples")]
 pub fn float(count: usize) -> f64 {
     count as f64
 }
 
-/// Index of the first sample of largest size.
+/// Returns the index of the first sample of largest size.
 #[must_use]
 pub fn peak(acceleration: &[f64]) -> usize {
     let mut best = 0;
@@ -48,8 +49,8 @@ pub fn peak(acceleration: &[f64]) -> usize {
     best
 }
 
-/// A sum that keeps what rounding takes off it (Neumaier 1974): its error is that of one rounding of the result and
-/// ε² of the sum of sizes for each term.
+/// A sum that keeps its rounding errors (Neumaier 1974): its error is that of one rounding of the result and ε² of the
+/// sum of sizes for each term.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Sum {
     total: f64,
@@ -66,13 +67,13 @@ impl Sum {
         self.rest += (self.total - (total - added)) + (term - added);
         self.total = total;
     }
-    /// Both parts of the sum.
+    /// Returns both parts of the sum.
     #[inline]
     #[must_use]
     pub fn parts(self) -> [f64; 2] {
         [self.total, self.rest]
     }
-    /// The sum.
+    /// Returns the sum.
     #[inline]
     #[must_use]
     pub fn value(self) -> f64 {
@@ -80,7 +81,7 @@ impl Sum {
     }
 }
 
-/// The sum of terms.
+/// Returns the sum of terms.
 pub fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
     let mut sum = Sum::default();
     for term in terms {

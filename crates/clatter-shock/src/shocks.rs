@@ -1,17 +1,18 @@
-//! The shocks of a long history: where they are, how large, how long.
+//! The shocks of a long history: their times, sizes and durations.
 
 use crate::Error;
 use crate::error::positive;
 use crate::samples::{check, float, peak, sum};
 use std::ops::Range;
 
-/// How shocks are told apart from noise and from each other.
+/// The criteria that separate shocks from noise and from each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Search {
-    /// A shock is where the acceleration passes this either way, m/s²; by [`noise_threshold`] if it is not given.
+    /// Threshold that the acceleration of a shock passes either way, m/s²; [`noise_threshold`] if it is not given.
     pub threshold_m_s2: Option<f64>,
-    /// What passes the threshold again within this time after it last did belongs to the same shock: its ringing, s.
+    /// Quiet time, s: an acceleration that passes the threshold again within this time belongs to the same shock, as
+    /// its ringing.
     pub quiet_s: f64,
 }
 
@@ -19,11 +20,11 @@ pub struct Search {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Shocks {
-    /// The threshold that was taken, m/s².
+    /// The threshold of the search, m/s².
     pub threshold_m_s2: f64,
-    /// In order of time, at most [`MOST_SHOCKS`]: the largest ones.
+    /// The largest shocks, at most [`MOST_SHOCKS`], in order of time.
     pub shocks: Vec<Shock>,
-    /// How many smaller ones there are besides.
+    /// Number of smaller shocks that are not listed.
     pub omitted: usize,
 }
 
@@ -31,39 +32,39 @@ pub struct Shocks {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Shock {
-    /// First 10 % point, s: where the acceleration last was a tenth of the peak before it.
+    /// First 10 % point, s: the last time before the peak at which the acceleration was a tenth of it.
     pub start_s: f64,
     /// The sample of largest size, with its sign, m/s².
     pub peak_m_s2: f64,
-    /// When that is, s.
+    /// Time of that sample, s.
     pub peak_time_s: f64,
-    /// From the first 10 % point to the one after the peak, s.
+    /// Time from the first 10 % point to the one after the peak, s.
     pub duration_s: f64,
     /// Integral of the straight lines between the samples from one 10 % point to the other, m/s.
     pub velocity_change_m_s: f64,
-    /// From the first sample beyond the threshold to the last one of the shock, ringing included.
+    /// Indices from the first sample beyond the threshold to the last one of the shock, ringing included.
     pub samples: Range<usize>,
 }
 
-/// The most shocks that are listed: nobody reads a longer table.
+/// The largest number of shocks in a list: nobody reads a longer table.
 pub const MOST_SHOCKS: usize = 1000;
 
-/// Share of the peak from and to which a duration counts (MIL-STD-883, method 2002).
+/// Share of the peak at the two points between which a duration counts (MIL-STD-883, method 2002).
 const POINT: f64 = 0.1;
 
 /// The median of |a| of normal noise, in standard deviations: the upper quartile of the normal distribution.
 const QUARTILE: f64 = 0.674_489_750_196_081_7;
 
-/// In how many histories of noise alone one sample passes the threshold, at most.
+/// The largest share of histories of noise alone in which a sample passes the threshold.
 const FALSE_ALARMS: f64 = 1e-3;
 
-/// Share of the peak that is taken where most samples are zero and tell no noise: above the steps of an 8-bit converter,
-/// 1/128.
+/// Threshold as a share of the peak where most samples are zero, so that the noise is unknown: above the steps of an
+/// 8-bit converter, 1/128.
 const CLEAN: f64 = 0.01;
 
-/// The threshold that noise does not pass, m/s²; by default that of [`find_shocks`].
+/// Returns a threshold above the noise, m/s²; it is the default of [`find_shocks`].
 ///
-/// The standard deviation of the noise is taken from the median, which shocks in less than half of the history hardly
+/// The standard deviation of the noise comes from the median, which shocks in less than half of the history hardly
 /// move: σ = median|a|/0.6745. Normal noise passes x σ either way with a probability below exp(−x²/2), so that in n
 /// samples of noise alone
 /// ```text
@@ -74,8 +75,8 @@ const CLEAN: f64 = 0.01;
 ///
 /// # Validity
 ///
-/// Take the offset out first. The history has to be quiet for more than half of its samples, and its noise normal: a
-/// history that a shock fills, or with impulsive noise, needs a threshold that the user gives.
+/// The offset must be taken out first. The history has to be quiet for more than half of its samples, and its noise
+/// normal: a history that a shock fills, or with impulsive noise, needs a threshold from the user.
 ///
 /// # Errors
 ///
@@ -155,7 +156,7 @@ pub fn find_shocks(acceleration: &[f64], step_s: f64, search: &Search) -> Result
                 Event { samples: event.samples.start..i + 1, peak }
             }
             Some(event) => {
-                // The samples up to the next shock are gone through twice at most.
+                // The samples up to the next shock are read twice at most.
                 let end = event.samples.end;
                 rows.add(event.measure(acceleration, step_s, free..i));
                 free = end;
@@ -178,7 +179,7 @@ struct Event {
 }
 
 impl Event {
-    /// The row of this shock; its 10 % points lie within `free`.
+    /// Returns the row of this shock; its 10 % points lie within `free`.
     fn measure(self, acceleration: &[f64], step_s: f64, free: Range<usize>) -> Shock {
         let [start, end] = tenths(acceleration, self.peak, free);
         let [first, last] = [whole(start.ceil()), whole(end.floor())];
@@ -197,7 +198,7 @@ impl Event {
     }
 }
 
-/// The 10 % points before and after a peak, in samples; on straight lines, or where `free` ends.
+/// Returns the 10 % points before and after a peak, in samples; on straight lines, or at the ends of `free`.
 pub(crate) fn tenths(acceleration: &[f64], peak: usize, free: Range<usize>) -> [f64; 2] {
     let top = acceleration[peak];
     let level = POINT * top;
@@ -211,13 +212,13 @@ pub(crate) fn tenths(acceleration: &[f64], peak: usize, free: Range<usize>) -> [
     [float(first) - before, float(last) + after]
 }
 
-/// A whole number of samples.
+/// Returns a whole number of samples.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number within the record")]
 fn whole(samples: f64) -> usize {
     samples as usize
 }
 
-/// Rows so far: no more than twice as many as are listed.
+/// The rows so far: no more than twice as many as the list holds.
 #[derive(Default)]
 struct Rows {
     shocks: Vec<Shock>,
@@ -231,7 +232,7 @@ impl Rows {
             *self = std::mem::take(self).largest();
         }
     }
-    /// The largest ones, as many as are listed; the earlier of equal ones.
+    /// Returns the largest ones, as many as the list holds; the earlier of equal ones.
     fn largest(mut self) -> Self {
         if self.shocks.len() > MOST_SHOCKS {
             self.shocks.select_nth_unstable_by(MOST_SHOCKS, |a, b| {
@@ -249,7 +250,7 @@ mod tests {
     use super::*;
     use std::f64::consts::{PI, TAU};
 
-    /// Normal noise of unit standard deviation (Box and Muller), from Marsaglia's xorshift.
+    /// Returns the normal noise of unit standard deviation (Box and Muller), from Marsaglia's xorshift.
     fn noise(n: usize, mut seed: u64) -> Vec<f64> {
         let mut uniform = || {
             seed ^= seed << 13;
@@ -277,7 +278,7 @@ mod tests {
         }
     }
 
-    /// Half-sines on noise: found where they are, with the figures of the formulas.
+    /// Half-sines on noise are found at their places, with the figures of the formulas.
     #[test]
     fn half_sines_in_noise_are_found_and_measured() {
         let step = 1e-5;
@@ -335,7 +336,8 @@ mod tests {
 
     #[test]
     fn no_record_takes_long_or_gives_more_than_a_thousand_rows() {
-        // Every second sample is a shock of its own, above its neighbors' tenth: what grows with the square would hang.
+        // Every second sample is a shock of its own, above its neighbors' tenth: a search with quadratic cost would
+        // hang.
         let n = 10_000_000;
         let record: Vec<f64> = (0..n).map(|i| if i % 2 == 0 { 1.0 } else { 1.1 + 1e-9 * float(i % 1000) }).collect();
         let search = Search { threshold_m_s2: Some(1.05), quiet_s: 1e-9 };

@@ -17,7 +17,7 @@ pub(crate) struct SideBySide<'a> {
     pub(crate) k: usize,
 }
 
-/// Largest and smallest values so far, and when they were reached.
+/// Largest and smallest values so far, and their times.
 #[derive(Clone, Copy)]
 struct Found {
     high: Many,
@@ -27,11 +27,11 @@ struct Found {
 }
 
 impl Found {
-    /// Nothing but rest from `time` on.
+    /// Creates the state of rest from `time` on.
     fn rest(time: f64) -> Self {
         Self { high: [0.0; WIDTH], high_at: [time; WIDTH], low: [0.0; WIDTH], low_at: [time; WIDTH] }
     }
-    /// Of one frequency.
+    /// Returns the peaks of one frequency.
     fn peaks(&self, l: usize) -> Peaks {
         Peaks {
             high: Peak { value: self.high[l], time: self.high_at[l] },
@@ -50,12 +50,12 @@ pub(crate) struct Step {
 
 #[expect(clippy::inline_always, reason = "they must take on the instruction set of the caller")]
 impl Step {
-    /// Over the time `dt` + `dt_lo`.
+    /// Returns the motion over the time `dt` + `dt_lo`.
     #[inline(always)]
     pub(crate) fn new(modes: &Modes, omega: &Many, dt: f64, dt_lo: f64) -> Self {
         if modes.beta > 0.0 { Self::swing(modes, omega, dt, dt_lo) } else { Self::cascade(modes, omega, dt) }
     }
-    /// Below critical damping: a decaying swing. Phase and exponent are carried in two doubles.
+    /// Returns the motion below critical damping, a decaying swing. Phase and exponent are carried in two doubles.
     #[inline(always)]
     fn swing(modes: &Modes, omega: &Many, dt: f64, dt_lo: f64) -> Self {
         let (beta, beta_lo) = (modes.beta, modes.beta_lo);
@@ -81,7 +81,7 @@ impl Step {
         }
         Self { c, s, k: c, angle }
     }
-    /// From critical damping on: two decays in a row.
+    /// Returns the motion from critical damping on, two decays in a row.
     #[inline(always)]
     fn cascade(modes: &Modes, omega: &Many, dt: f64) -> Self {
         let (mut slow, mut apart, mut tau) = ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
@@ -111,12 +111,12 @@ impl Step {
 
 #[expect(clippy::inline_always, reason = "they must take on the instruction set of the caller")]
 impl SideBySide<'_> {
-    /// The turning points after `time` at the frequencies that may hold a new extreme, one by one.
+    /// Finds the turning points after `time` at the frequencies that may hold a new extreme, one by one.
     #[inline(never)]
     fn turn(&self, new: &[u64; WIDTH], [x, w, angle]: [&Many; 3], time: f64, found: &mut Found) {
         for l in (0..WIDTH).filter(|&l| new[l] == 1) {
             let m = Motion { x: x[l], w: w[l] };
-            // The angle tells whether a second one follows; that there is a first is known.
+            // The angle decides whether a second one follows; the first is certain.
             let span = if self.modes.beta > 0.0 { angle[l].max(PI) / self.modes.beta } else { f64::INFINITY };
             self.modes.free_extremes(self.k, m, span, (found.low[l], found.high[l]), |tau, value| {
                 let at = time + tau / self.omega[l];
@@ -129,7 +129,7 @@ impl SideBySide<'_> {
             });
         }
     }
-    /// From the first to the last shock: largest and smallest values, and the motion after it.
+    /// Returns the largest and smallest values from the first to the last shock, and the motion after it.
     #[inline(always)]
     fn run(&self) -> (Found, Many, Many) {
         let modes = self.modes;

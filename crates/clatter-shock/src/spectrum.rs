@@ -22,7 +22,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Row of the modes and the positive factor from there, for the angular frequency ω.
+    /// Returns the row of the modes and its positive factor, for the angular frequency ω.
     pub(crate) fn row(self, omega: f64) -> (usize, f64) {
         match self {
             Self::AbsoluteAcceleration => (Modes::ACCELERATION, omega),
@@ -46,7 +46,7 @@ pub struct Frequencies {
 }
 
 impl Frequencies {
-    /// The frequencies given, in the order given.
+    /// Returns the frequencies given, in the order given.
     /// # Errors
     /// [`Error::Empty`]; [`Error::Entry`] for one that is not finite and positive.
     pub fn list(hz: Vec<f64>) -> Result<Self, Error> {
@@ -66,7 +66,8 @@ impl Frequencies {
         }
         Ok(Self { hz })
     }
-    /// From `low` to `high`, both included, in equal ratios, at least `per_octave` steps to the octave.
+    /// Creates frequencies from `low` to `high`, both included, in equal ratios, at least `per_octave` steps to the
+    /// octave.
     ///
     /// ```
     /// # use clatter_shock::Frequencies;
@@ -104,7 +105,7 @@ impl Frequencies {
         }
         Ok(Self { hz })
     }
-    /// In hertz.
+    /// Returns the frequencies in hertz.
     #[must_use]
     pub fn hz(&self) -> &[f64] {
         &self.hz
@@ -143,18 +144,18 @@ pub struct Spectrum {
     pub residual_positive: Vec<f64>,
     /// Largest negative value of the residual part, without its sign.
     pub residual_negative: Vec<f64>,
-    /// When the maximax is reached, in seconds on the time axis of the excitation; the first time if several values are
-    /// equal, and the start of the excitation where nothing moves.
+    /// Times of the maximax, in seconds on the time axis of the excitation; the first one if several values are equal,
+    /// and the start of the excitation where nothing moves.
     ///
     /// Near a peak the motion is flat: a rounding ε of the value moves the time by some √ε/ω.
     pub time_of_peak_s: Vec<f64>,
 }
 
-/// One spectrum for several.
+/// The rule that combines several spectra into one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Summary {
-    /// The root of the sum of squares: of the axes of one sensor what the length of the response reaches at most.
+    /// The root of the sum of squares: for the axes of one sensor a bound on the length of the response.
     RootSumSquare,
     /// The largest.
     Envelope,
@@ -163,8 +164,8 @@ pub enum Summary {
 }
 
 impl Spectrum {
-    /// One spectrum for several of the same frequencies, value by value. It has the damping of the first; times of peaks are those of
-    /// the largest in an envelope, else none (not a number).
+    /// Returns one spectrum for several of the same frequencies, value by value. It has the damping of the first; times
+    /// of peaks are those of the largest in an envelope, else not a number.
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, Summary, VelocityShock, VelocityShocks};
@@ -213,7 +214,7 @@ impl Spectrum {
         Some(of)
     }
 
-    /// From the extremes during and after the excitation, frequency by frequency.
+    /// Collects the extremes during and after the excitation, frequency by frequency.
     pub(crate) fn collect(
         frequencies: &Frequencies,
         damping: DampingRatio,
@@ -260,7 +261,7 @@ impl Spectrum {
 }
 
 impl VelocityShocks {
-    /// Shock response spectrum of the shocks, exact at every frequency; times in seconds.
+    /// Returns the shock response spectrum of the shocks, exact at every frequency; times in seconds.
     ///
     /// Eight frequencies are carried side by side on machines with vectors of fused multiply-adds, with the accuracy of
     /// [`VelocityShocks::respond`].
@@ -276,7 +277,7 @@ impl VelocityShocks {
 }
 
 impl Pulses {
-    /// Shock response spectrum of the pulses, exact at every frequency; times in seconds.
+    /// Returns the shock response spectrum of the pulses, exact at every frequency; times in seconds.
     ///
     /// # Examples
     ///

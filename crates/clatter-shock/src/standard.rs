@@ -8,22 +8,22 @@ use crate::{Error, LimitCurve, Pulse, Pulses, Quantity, Response, STANDARD_GRAVI
 pub struct StandardCurve {
     /// Its name on the command line and in files.
     pub keyword: &'static str,
-    /// What it is for.
+    /// Its use.
     pub title: &'static str,
     /// (Hz, level) in order of frequency; straight lines between them on log-log paper.
     pub points: &'static [(f64, f64)],
     /// Unit of the levels.
     pub unit: &'static str,
-    /// What the levels are of.
+    /// Quantity of the levels.
     pub quantity: Quantity,
     /// Quality factor of the oscillators.
     pub quality_factor: f64,
-    /// Where it is printed.
+    /// Its printed source.
     pub source: &'static str,
 }
 
 impl StandardCurve {
-    /// The curve in SI units, to hold a spectrum against.
+    /// Returns the curve in SI units, to hold a spectrum against.
     ///
     /// ```
     /// # use clatter_shock::standard_curve;
@@ -41,8 +41,8 @@ impl StandardCurve {
     }
 }
 
-/// What the curves of MIL-STD-810 have in common: from 10 Hz a rise of 6 dB an octave (as the frequency) to the crossover
-/// frequency, then level to 2 kHz.
+/// The common part of the curves of MIL-STD-810: from 10 Hz a rise of 6 dB an octave (as the frequency) to the
+/// crossover frequency, then level to 2 kHz.
 const MIL_STD_810: StandardCurve = StandardCurve {
     keyword: "",
     title: "",
@@ -94,12 +94,12 @@ pub struct StandardPulse {
     pub peak_g: f64,
     /// Duration in milliseconds.
     pub duration_ms: f64,
-    /// Where it is printed.
+    /// Its printed source.
     pub source: &'static str,
 }
 
 impl StandardPulse {
-    /// The pulse in SI units, from time zero.
+    /// Returns the pulse in SI units, from time zero.
     ///
     /// ```
     /// let pulse = clatter_shock::standard_pulse("JESD22-B110/B").unwrap().pulse();
@@ -145,7 +145,7 @@ pub const STANDARD_PULSES: [StandardPulse; 12] = [
     },
 ];
 
-/// A built-in curve by its keyword, in capital letters or not.
+/// Returns a built-in curve by its keyword, in capital letters or not.
 ///
 /// ```
 /// assert_eq!(clatter_shock::standard_curve("mil-std-810/516/functional-flight").unwrap().points[1], (45.0, 20.0));
@@ -157,7 +157,7 @@ pub fn standard_curve(keyword: &str) -> Option<&'static StandardCurve> {
     CURVES.iter().find(|curve| curve.keyword.eq_ignore_ascii_case(keyword))
 }
 
-/// A built-in pulse by its keyword, in capital letters or not.
+/// Returns a built-in pulse by its keyword, in capital letters or not.
 ///
 /// ```
 /// let pulse = clatter_shock::standard_pulse("jesd22-b111a").unwrap();
@@ -169,25 +169,26 @@ pub fn standard_pulse(keyword: &str) -> Option<&'static StandardPulse> {
     PULSES.iter().find(|pulse| pulse.keyword.eq_ignore_ascii_case(keyword))
 }
 
-/// A service condition beside what a part goes through.
+/// A service condition that covers the response of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ServiceCondition {
     /// The pulse.
     pub pulse: &'static StandardPulse,
     /// The largest acceleration that the pulse gives the part over that of its response, at least 1.
     pub acceleration: f64,
-    /// The same of its relative displacement.
+    /// The largest relative displacement that the pulse gives the part over that of its response, at least 1.
     pub displacement: f64,
 }
 
-/// The least service condition of JESD22-B110 that covers a response: whose half-sine gives the part no smaller acceleration and no
-/// smaller relative displacement, as its spectra at the frequency and damping of the part tell. None where no condition does.
+/// Returns the least service condition of JESD22-B110 that covers a response: its half-sine gives the part no smaller
+/// acceleration and no smaller relative displacement, by its spectra at the frequency and damping of the part. `None`
+/// where no condition does.
 ///
 /// From one condition to the next both the peak and the velocity change rise: C, D, E, A, F, B, G, H.
 ///
 /// # Examples
-/// A drop by 1 m that rebounds with e = 0.3 changes the velocity by 5.8 m/s, more than any condition: a part that is slow beside all
-/// of the pulses is not covered. One that follows the pulse of 1 ms is, by a peak that is higher.
+/// A drop by 1 m that rebounds with e = 0.3 changes the velocity by 5.8 m/s, more than any condition: a part that is
+/// slow relative to all pulses is not covered. A part that follows the pulse of 1 ms is covered, by a higher peak.
 /// ```
 /// use clatter_shock::{DampingRatio, Pulse, Pulses, Shape, Suspension, covering_condition};
 /// let drop = Pulses::new(&[Pulse { shape: Shape::HalfSine, amplitude: 9046.0, duration: 1e-3, start: 0.0 }])?;
@@ -238,7 +239,7 @@ mod tests {
         }
     }
 
-    /// The velocity changes that the standard prints beside peak and duration, cm/s.
+    /// Compares the velocity changes with those that the standard prints with peak and duration, in cm/s.
     #[test]
     fn pulses_have_the_velocity_change_of_their_tables() {
         let printed = [543.0, 499.0, 468.0, 393.0, 312.0, 255.0, 187.0, 125.0];
@@ -258,7 +259,7 @@ mod tests {
         }
     }
 
-    /// What is told to cover does as much, and the next lower condition does less.
+    /// The returned condition covers the response, and the next lower one does not.
     #[test]
     fn the_least_condition_that_covers_is_told() {
         let damping = crate::DampingRatio::new(0.05).expect("a ratio");
@@ -266,17 +267,17 @@ mod tests {
         let mut told = Vec::new();
         for hz in [60.0, 200.0, 700.0, 3000.0, 20_000.0] {
             let part = Suspension::from_hz(hz, damping).expect("a part");
-            let felt = |pulse: Pulse| Pulses::new(&[pulse]).expect("a pulse").respond(&part);
+            let respond = |pulse: Pulse| Pulses::new(&[pulse]).expect("a pulse").respond(&part);
             let peaks = |response: &Response| {
                 [response.absolute_acceleration.magnitude(), response.relative_displacement.magnitude()]
             };
             for (amplitude, duration) in
                 [(300.0, 2e-3), (2000.0, 3e-3), (4000.0, 5e-4), (15_000.0, 2e-4), (9000.0, 1e-3)]
             {
-                let drop = felt(Pulse { shape: Shape::HalfSine, amplitude, duration, start: 0.0 });
+                let drop = respond(Pulse { shape: Shape::HalfSine, amplitude, duration, start: 0.0 });
                 let covers = |name: &String| {
                     let pulse = standard_pulse(name).expect("built in").pulse();
-                    peaks(&felt(pulse)).into_iter().zip(peaks(&drop)).all(|(does, asked)| does >= asked)
+                    peaks(&respond(pulse)).into_iter().zip(peaks(&drop)).all(|(does, wanted)| does >= wanted)
                 };
                 let first = order.iter().find(|name| covers(name)).map(String::as_str);
                 assert_eq!(

@@ -28,12 +28,14 @@ use std::f64::consts::{PI, TAU};
 pub struct DampingRatio(f64);
 
 impl DampingRatio {
+    /// Creates a damping ratio.
+    ///
     /// # Errors
     /// [`Error::DampingRatio`] unless 0 ≤ ζ ≤ 10⁶⁰; −0 counts as 0.
     pub fn new(zeta: f64) -> Result<Self, Error> {
         if (0.0..=1e60).contains(&zeta) { Ok(Self(zeta + 0.0)) } else { Err(Error::DampingRatio(zeta)) }
     }
-    /// From the quality factor Q = 1/(2ζ); an infinite Q is no damping.
+    /// Creates the damping ratio from the quality factor Q = 1/(2ζ); an infinite Q is no damping.
     ///
     /// ```
     /// # use clatter_shock::DampingRatio;
@@ -45,7 +47,7 @@ impl DampingRatio {
     pub fn from_quality_factor(q: f64) -> Result<Self, Error> {
         if q >= 1e-60 { Ok(Self(0.5 / q)) } else { Err(Error::QualityFactor(q)) }
     }
-    /// The value.
+    /// Returns the value.
     #[must_use]
     pub fn get(self) -> f64 {
         self.0
@@ -77,40 +79,40 @@ pub struct State {
 }
 
 impl Suspension {
-    /// From the natural angular frequency ω (rad per unit of time).
+    /// Creates a suspension from the natural angular frequency ω (rad per unit of time).
     /// # Errors
     /// [`Error::Quantity`] unless ω is finite and positive.
     pub fn new(omega: f64, damping: DampingRatio) -> Result<Self, Error> {
         Ok(Self { omega: crate::error::positive("natural angular frequency", omega)?, damping })
     }
-    /// From the natural frequency in hertz: ω = 2πf.
+    /// Creates a suspension from the natural frequency in hertz: ω = 2πf.
     /// # Errors
     /// [`Error::Quantity`] unless f is finite and positive.
     pub fn from_hz(frequency_hz: f64, damping: DampingRatio) -> Result<Self, Error> {
         crate::error::positive("natural frequency (Hz)", frequency_hz)?;
         Self::new(TAU * frequency_hz, damping)
     }
-    /// ω = 1.
+    /// Creates a suspension with ω = 1.
     pub(crate) fn unit(damping: DampingRatio) -> Self {
         Self { omega: 1.0, damping }
     }
-    /// Natural angular frequency ω.
+    /// Returns the natural angular frequency ω.
     #[must_use]
     pub fn omega(&self) -> f64 {
         self.omega
     }
-    /// Damping ratio ζ.
+    /// Returns the damping ratio ζ.
     #[must_use]
     pub fn damping(&self) -> DampingRatio {
         self.damping
     }
-    /// Absolute acceleration of the component, A = −(2ζω z′ + ω² z), also while the base accelerates.
+    /// Returns the absolute acceleration of the component, A = −(2ζω z′ + ω² z), also while the base accelerates.
     #[must_use]
     pub fn absolute_acceleration(&self, state: State) -> f64 {
         let modes = Modes::new(self.damping);
         self.omega * modes.quantity(Modes::ACCELERATION, modes.motion(self.omega, state))
     }
-    /// Free motion: the state a time `t` ≥ 0 after `state`, with the base at rest or in uniform motion.
+    /// Returns the state a time `t` ≥ 0 after `state` in free motion, with the base at rest or in uniform motion.
     ///
     /// ```text
     /// ζ < 1:  ωz = e^(−ζωt) [ωz₀ cos βωt + (z′₀ + ζωz₀) sin(βωt)/β],   β = √(1 − ζ²)
@@ -158,12 +160,12 @@ pub(crate) struct Phase {
 }
 
 impl Phase {
-    /// ω t; the rounding error is kept where it can reach a phase.
+    /// Returns ω t; the rounding error is kept where it can reach a phase.
     #[inline]
     pub(crate) fn product(omega: f64, t: f64) -> Self {
         Self::product2(omega, t, 0.0)
     }
-    /// ω (t + `t_lo`).
+    /// Returns ω (t + `t_lo`).
     #[inline]
     pub(crate) fn product2(omega: f64, t: f64, t_lo: f64) -> Self {
         // An infinite time behind ζ = 0 would have no phase; the largest double has one.
@@ -175,7 +177,7 @@ impl Phase {
     }
 }
 
-/// Up to here one rounding of the phase stays below 16 ε/2: no second double is needed.
+/// The phase up to which one rounding stays below 16 ε/2, so that no second double is needed.
 const PLAIN_PHASE: f64 = 16.0;
 
 /// The dimensionless system of one damping ratio.
@@ -188,12 +190,12 @@ pub(crate) struct Modes {
     pub(crate) rho: f64,
     /// 1 − ζ², or 0 beyond critical damping.
     pub(crate) p: f64,
-    /// √(1 − ζ²), or 0 beyond critical damping, and what its rounding left.
+    /// √(1 − ζ²), or 0 beyond critical damping, and its rounding error.
     pub(crate) beta: f64,
     pub(crate) beta_lo: f64,
     /// Difference of the decay rates 2√(ζ² − 1), or 0 up to critical damping.
     pub(crate) kappa: f64,
-    /// exp(−ζπ/β): what half a swing leaves.
+    /// exp(−ζπ/β), the factor of amplitude over half a swing.
     pub(crate) half_swing: f64,
     /// √(1 + σ²): |w| stays below that times √(x² + y²).
     pub(crate) tilt: f64,
@@ -217,14 +219,14 @@ impl Propagator {
     }
 }
 
-/// A turning point of free motion: when, and the value there.
+/// A turning point of free motion: its phase and its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Turn {
     pub(crate) tau: f64,
     pub(crate) value: f64,
 }
 
-/// The root of a sum of squares, by `otherwise` where squares may leave the floats.
+/// Returns the root of a sum of squares, by `otherwise` where squares may over- or underflow.
 #[inline]
 fn root_of(square: f64, otherwise: impl Fn() -> f64) -> f64 {
     if (1e-280..1e280).contains(&square) { square.sqrt() } else { otherwise() }
@@ -289,12 +291,12 @@ impl Modes {
     pub(crate) fn state(&self, omega: f64, m: Motion) -> State {
         State { displacement: m.x / omega, velocity: self.quantity(Self::VELOCITY, m) }
     }
-    /// Row k of the motion.
+    /// Returns row k of the motion.
     #[inline]
     pub(crate) fn quantity(&self, k: usize, m: Motion) -> f64 {
         self.rows[k][0] * m.x + self.rows[k][1] * m.w
     }
-    /// The free motion over a phase ωt.
+    /// Returns the free motion over a phase ωt.
     #[inline]
     pub(crate) fn propagator(&self, phase: Phase) -> Propagator {
         let tau = phase.hi;
@@ -312,7 +314,7 @@ impl Modes {
             Propagator { c: slow, s: slow * phi, k: libm::exp(-self.rho * tau) }
         }
     }
-    /// Sine and cosine of βτ and the decay, with phase and exponent in two doubles.
+    /// Returns the sine and cosine of βτ and the decay, with phase and exponent in two doubles.
     #[cold]
     fn long(&self, phase: Phase) -> ((f64, f64), f64) {
         let (tau, lo) = (phase.hi, phase.lo);
@@ -327,22 +329,22 @@ impl Modes {
         let decay = libm::exp(-exponent) * (1.0 - exponent_lo.clamp(-0.5, 0.5));
         ((sin * small_cos + cos * small_sin, cos * small_cos - sin * small_sin), decay)
     }
-    /// Upper bound on each of the three quantities at turning points to come, for ζ ≤ 1: √(w² + (1−ζ²)x²), their common
-    /// amplitude.
+    /// Returns an upper bound on each of the three quantities at later turning points, for ζ ≤ 1: √(w² + (1−ζ²)x²),
+    /// their common amplitude.
     #[inline]
     pub(crate) fn amplitude(&self, m: Motion) -> f64 {
         root_of(m.w * m.w + self.p * m.x * m.x, || libm::hypot(m.w, self.beta * m.x))
     }
-    /// The terms of quantity `k` without their signs: what its rounding is relative to.
+    /// Returns the sum of the sizes of the terms of quantity `k`, the scale of its rounding.
     pub(crate) fn size(&self, k: usize, m: Motion) -> f64 {
         self.rows[k][0].abs() * m.x.abs() + self.rows[k][1].abs() * m.w.abs()
     }
-    /// √(x² + y²), which free motion never raises.
+    /// Returns √(x² + y²), which free motion never raises.
     pub(crate) fn energy(&self, m: Motion) -> f64 {
         let y = m.w - self.sigma * m.x;
         root_of(m.x * m.x + y * y, || libm::hypot(m.x, y))
     }
-    /// Upper bound on quantity `k` in all free motion from `m`.
+    /// Returns an upper bound on quantity `k` in all free motion from `m`.
     pub(crate) fn reach(&self, k: usize, m: Motion) -> f64 {
         if self.beta > 0.0 {
             return self.amplitude(m) / self.beta;
@@ -351,10 +353,10 @@ impl Modes {
         let [a, b] = self.rows[k];
         a.abs() * (m.x.abs() + m.w.abs()) + b.abs() * m.w.abs()
     }
-    /// Bound on the bend of quantity `k` beside −q, where |x| and |y| stay within `v` and the forcing and its slope
-    /// within `f` and `slope`: q″ = −q − 2ζq′ + (input).
+    /// Returns a bound on |q″ + q| of quantity q, number `k`, where |x| and |y| stay within `v` and the forcing and its
+    /// slope within `f` and `slope`: q″ = −q − 2ζq′ + (input).
     #[inline]
-    pub(crate) fn bend_beside(&self, k: usize, v: f64, f: f64, slope: f64) -> f64 {
+    pub(crate) fn bend_bound(&self, k: usize, v: f64, f: f64, slope: f64) -> f64 {
         let damp = 2.0 * self.zeta;
         match k {
             Self::DISPLACEMENT => damp * v + f,
@@ -362,7 +364,7 @@ impl Modes {
             _ => damp * ((1.0 + damp + damp * damp) * v + damp * f + slope) + f,
         }
     }
-    /// The first zero of row `j` after the start of free motion from `m`, as τ and, beyond critical damping, φ.
+    /// Returns the first zero of row `j` after the start of free motion from `m`, as τ and, beyond critical damping, φ.
     ///
     /// The row is e^(−στ) (r cos βτ + b sin(βτ)/β), or e^(−στ) (r + b (1 − e^(−κτ))/κ), with b = r′ + σr.
     #[inline]
@@ -379,7 +381,7 @@ impl Modes {
         }
         Some((if self.kappa == 0.0 { phi } else { -libm::log1p(-self.kappa * phi) / self.kappa }, phi))
     }
-    /// The first turning point of quantity `k` after the start of free motion from `m`.
+    /// Returns the first turning point of quantity `k` after the start of free motion from `m`.
     ///
     /// For ζ < 1 the quantities are derivatives of one another and swing with one amplitude N = √(w² + (1−ζ²)x²): at
     /// its turning points each is ±N e^(−ζτ).
@@ -396,7 +398,7 @@ impl Modes {
         };
         Some(Turn { tau, value })
     }
-    /// The two largest extremes of quantity `k` inside free motion from `m`, up to τ = `span`, reported as (τ, value);
+    /// Reports the two largest extremes of quantity `k` inside free motion from `m`, up to τ = `span`, as (τ, value);
     /// none where the amplitude cannot pass the lowest and highest values `seen`.
     #[inline]
     pub(crate) fn free_extremes(
@@ -408,7 +410,8 @@ impl Modes {
         mut report: impl FnMut(f64, f64),
     ) {
         if self.beta > 0.0 {
-            // The first turning point lies the way the motion goes, the second the other way and half a swing later.
+            // The first turning point lies in the direction of the motion, the second on the other side half a swing
+            // later.
             let n = self.amplitude(m);
             let (ahead, behind) = if self.quantity(k + 1, m) > 0.0 { (seen.1, -seen.0) } else { (-seen.0, seen.1) };
             if n <= ahead && n * self.half_swing <= behind {

@@ -1,4 +1,4 @@
-//! Whether a measured shock is the pulse that a standard asks for, within its tolerances.
+//! The check of a measured shock against the pulse of a standard, within its tolerances.
 
 use crate::levels::{Level, Levels};
 use crate::pulse_fit::value;
@@ -7,22 +7,22 @@ use crate::shocks::tenths;
 use crate::{Error, Pulse, Shape};
 use std::f64::consts::PI;
 
-/// What a standard allows a measured pulse to differ from the nominal one. What it does not limit, or limits by a figure
-/// that is not built in, is `None`.
+/// The tolerances of a standard on a measured pulse. A quantity that it does not limit, or limits by a figure that is
+/// not built in, is `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PulseTolerance {
     /// Its name on the command line and in files.
     pub keyword: &'static str,
-    /// How far the acceleration may be from the nominal pulse while that lasts, in its peak.
+    /// Largest difference of the acceleration from the nominal pulse while that lasts, as a share of its peak.
     pub distortion: Option<f64>,
-    /// How far the duration between the 10 % points may be from the nominal one: a share of it, or a time in seconds,
-    /// whichever is more. The nominal duration then counts between these points too.
+    /// Largest difference of the duration between the 10 % points from the nominal one: a share of it, or a time in
+    /// seconds, whichever is more. The nominal duration then counts between these points too.
     pub duration: Option<(f64, f64)>,
-    /// How far the velocity change may be from the nominal one, as a share of it; from 0.4 D before to 0.1 D after the
-    /// nominal pulse.
+    /// Largest difference of the velocity change from the nominal one, as a share of it. The velocity change counts
+    /// from 0.4 D before to 0.1 D after the nominal pulse.
     pub velocity_change: Option<f64>,
-    /// Where it is printed, and what of it is not built in.
+    /// Its printed source, and the parts of it that are not built in.
     pub source: &'static str,
 }
 
@@ -51,14 +51,14 @@ pub const PULSE_TOLERANCES: [PulseTolerance; 3] = [
     },
 ];
 
-/// Where the velocity change counts from, in durations before the nominal pulse, and to, after it.
+/// Begin and end of the interval of the velocity change: durations before the nominal pulse, and after it.
 const INTEGRATED: [f64; 2] = [0.4, 0.1];
 
-/// The shortest pulse that is held against a history, in samples, which is the shortest that is fitted, and the longest, in seconds.
+/// The shortest nominal pulse, in samples, equal to the shortest that is fitted, and the longest, in seconds.
 const FEWEST: f64 = 3.0;
 const LONGEST_S: f64 = 1e9;
 
-/// A built-in tolerance by its keyword, in capital letters or not.
+/// Returns a built-in tolerance by its keyword, in capital letters or not.
 ///
 /// ```
 /// assert_eq!(clatter_shock::pulse_tolerance("iec 60068-2-27").unwrap().velocity_change, Some(0.15));
@@ -73,43 +73,43 @@ pub fn pulse_tolerance(keyword: &str) -> Option<&'static PulseTolerance> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Within {
-    /// As measured, with the sign of the history.
+    /// The measured value, with the sign of the history.
     pub measured: f64,
-    /// The least and the most.
+    /// The least and the largest allowed value.
     pub allowed: [f64; 2],
 }
 
 impl Within {
-    /// Whether the value is in the range.
+    /// Returns whether the value is in the range.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.allowed[0] <= self.measured && self.measured <= self.allowed[1]
     }
-    /// Around a nominal value of either sign.
+    /// Creates the range around a nominal value of either sign.
     fn around(measured: f64, nominal: f64, by: f64) -> Self {
         Self { measured, allowed: [nominal - by, nominal + by] }
     }
 }
 
-/// How far a history is from the nominal pulse while that lasts.
+/// The difference of a history from the nominal pulse while that lasts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Distortion {
     /// The largest difference, history less pulse, m/s².
     pub largest_m_s2: Within,
-    /// When that is, s.
+    /// Time of that difference, s.
     pub largest_s: f64,
-    /// How many samples are outside of what is allowed.
+    /// Number of samples outside of the allowed range.
     pub outside: usize,
-    /// When the first of them is, s: where the history leaves the band.
+    /// Time of the first of them, s: the history leaves the band there.
     pub leaves_s: Option<f64>,
 }
 
-/// How a history compares with a nominal pulse.
+/// The comparison of a history with a nominal pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PulseCheck {
-    /// The nominal pulse where it fits the history best, as its base: it begins and ends at zero.
+    /// The nominal pulse at the best fit to the history, as its base: it begins and ends at zero.
     pub nominal: Pulse,
     /// Difference from the nominal pulse, if it is limited.
     pub distortion: Option<Distortion>,
@@ -120,7 +120,7 @@ pub struct PulseCheck {
 }
 
 impl PulseCheck {
-    /// Whether the history keeps all that is limited.
+    /// Returns whether the history keeps all tolerances.
     #[must_use]
     pub fn holds(&self) -> bool {
         let largest = self.distortion.map(|distortion| distortion.largest_m_s2);
@@ -128,10 +128,10 @@ impl PulseCheck {
     }
 }
 
-/// Holds the main shock of a history against a nominal pulse within the tolerances of a standard.
+/// Compares the main shock of a history with a nominal pulse within the tolerances of a standard.
 ///
-/// The start of the nominal pulse is not used: the pulse is laid where the sum of squares Σ(aᵢ − a p)² is least, of all
-/// starts at which it holds the sample of largest size, to 10⁻⁶ of its duration.
+/// The start of the nominal pulse is not used: the pulse is placed where the sum of squares Σ(aᵢ − a p)² is least, of
+/// all starts at which it holds the sample of largest size, to 10⁻⁶ of its duration.
 ///
 /// | checked | how |
 /// |---|---|
@@ -147,7 +147,7 @@ impl PulseCheck {
 ///
 /// # Examples
 ///
-/// A half-sine 12 % too large is too much for MIL-STD-202 and within IEC 60068-2-27:
+/// A half-sine 12 % too large fails MIL-STD-202 and passes IEC 60068-2-27:
 ///
 /// ```
 /// use clatter_shock::{Pulse, Shape, check_pulse, pulse_tolerance};
@@ -206,7 +206,7 @@ pub fn check_pulse(
     Ok(PulseCheck { nominal, distortion, duration_s, velocity_change_m_s })
 }
 
-/// The pulse whose duration between the 10 % points is the nominal one.
+/// Returns the pulse whose duration between the 10 % points is the nominal one.
 fn base(nominal: &Pulse) -> Pulse {
     let between = match nominal.shape {
         Shape::HalfSine => 1.0 - 2.0 * libm::asin(0.1) / PI,
@@ -218,14 +218,14 @@ fn base(nominal: &Pulse) -> Pulse {
     Pulse { duration: nominal.duration / between, ..*nominal }
 }
 
-/// The start, in samples, at which the pulse fits best and holds the time `top`.
+/// Returns the start, in samples, at which the pulse fits best and holds the time `top`.
 fn lay(acceleration: &[f64], top: f64, pulse: &Pulse, step_s: f64) -> f64 {
     let size = pulse.amplitude.abs();
     let scaled: Vec<f64> = acceleration.iter().map(|a| a / size).collect();
     let levels = Levels::new(&scaled);
     let (duration, sign) = (pulse.duration / step_s, pulse.amplitude.signum());
     let level = levels.fine(duration);
-    // By how much the pulse lowers the sum of squares.
+    // This is the decrease of the sum of squares by the pulse.
     let gain = |start: f64| {
         let terms = level.within(start, start + duration).map(|(t, a)| {
             let [p, _] = value(pulse.shape, (t - start) / duration);
@@ -233,7 +233,7 @@ fn lay(acceleration: &[f64], top: f64, pulse: &Pulse, step_s: f64) -> f64 {
         });
         terms.sum::<f64>()
     };
-    // A grid of 64, and four times one sixteen times as fine around the best: 64 · 16⁴ > 10⁶.
+    // A grid of 64 starts comes first, then four grids, each sixteen times as fine around the best: 64 · 16⁴ > 10⁶.
     let (mut best, mut most) = (top - 0.5 * duration, f64::NEG_INFINITY);
     let mut reach = 0.5 * duration;
     for _ in 0..5 {
@@ -250,7 +250,7 @@ fn lay(acceleration: &[f64], top: f64, pulse: &Pulse, step_s: f64) -> f64 {
     best
 }
 
-/// How far the samples during the pulse are from it, if `by` is allowed.
+/// Returns the difference of the samples from the pulse while that lasts, if `by` is allowed.
 fn distortion(record: &Level, pulse: &Pulse, step_s: f64, by: f64) -> Distortion {
     let (mut largest, mut largest_s, mut outside, mut leaves_s) = (0.0_f64, pulse.start, 0, None);
     let first = pulse.start / step_s;
@@ -268,12 +268,13 @@ fn distortion(record: &Level, pulse: &Pulse, step_s: f64, by: f64) -> Distortion
     Distortion { largest_m_s2: Within::around(largest, 0.0, by), largest_s, outside, leaves_s }
 }
 
-/// Integral of the straight lines from one time to another, in samples; the history is zero before and after.
+/// Returns the integral of the straight lines from one time to another, in samples; the history is zero before and
+/// after.
 fn integral(acceleration: &[f64], first: f64, last: f64) -> f64 {
     let lines = acceleration.windows(2).enumerate().map(|(i, w)| {
         let from = (first - float(i)).clamp(0.0, 1.0);
         let to = (last - float(i)).clamp(0.0, 1.0);
-        // Value in the middle of what lies within.
+        // This is the value in the middle of the part within the bounds.
         (to - from) * (w[0] + 0.5 * (from + to) * (w[1] - w[0]))
     });
     sum(lines)
@@ -295,7 +296,7 @@ mod tests {
         pulse_tolerance(keyword).expect("built in")
     }
 
-    /// At either edge of every tolerance, just within and just outside.
+    /// Every tolerance holds just within its edges and fails just outside.
     #[test]
     fn the_edges_of_a_tolerance_are_where_the_standard_has_them() {
         let nominal = Pulse { shape: Shape::HalfSine, amplitude: -4900.0, duration: 0.002, start: 0.0 };
@@ -371,7 +372,7 @@ mod tests {
             let record: Vec<f64> =
                 (0..6000).map(|i| 300.0 * value(shape, (float(i) * STEP - 0.02) / 0.011)[0]).collect();
             let got = check_pulse(&record, STEP, &pulse, tolerance("IEC 60068-2-27")).expect("a shock");
-            // Where it jumps, within a sample.
+            // The pulse jumps within a sample.
             assert!((got.nominal.start - 0.02).abs() < 1.01 * STEP, "{shape:?}: {got:?}");
             let change = got.velocity_change_m_s.expect("limited").measured;
             assert!((change - pulse.velocity_change()).abs() < 300.0 * STEP, "{shape:?}: {got:?}");
@@ -419,13 +420,13 @@ mod tests {
         }
         assert_eq!(check_pulse(&[0.0, 0.0], 1.0, &nominal, iec), Err(Error::NoShock));
         assert!(matches!(check_pulse(&[1.0], 1.0, &nominal, iec), Err(Error::Short { .. })));
-        // What is fitted to the shortest shock that there is.
+        // The pulses fitted to the shortest possible shock are accepted.
         let mut spike = [0.0; 200];
         spike[50] = 1000.0;
         for fit in crate::fit_pulses(&spike, 1e-5).expect("a spike is a shock") {
             assert!(check_pulse(&spike, 1e-5, &fit.pulse, iec).is_ok(), "{fit:?}");
         }
-        // Far from each other in size and length: an answer, and no time without end.
+        // Pulses that differ from the history by far in size and length get an answer in finite time.
         for (amplitude, duration) in [(1e-300, 4.0), (1e100, 1e9), (1.0, 1e9), (-1e90, 5.0)] {
             let nominal = Pulse { amplitude, duration, ..nominal };
             for tolerance in &PULSE_TOLERANCES {
@@ -435,7 +436,8 @@ mod tests {
         }
     }
 
-    /// IEC 60068-2-27 integrates from 0.4 D before the nominal pulse to 0.1 D after it: what is felt there counts, and nothing beyond.
+    /// IEC 60068-2-27 integrates from 0.4 D before the nominal pulse to 0.1 D after it: the acceleration there counts,
+    /// and nothing beyond.
     #[test]
     fn the_velocity_change_counts_from_before_the_pulse_to_after_it() {
         let (n, before, after) = (1000, 7.0, 30.0);

@@ -12,9 +12,9 @@
 //! series where the step is short, which cost less than sine and exponential, and h is τ − 2ζX₀ − X₁: nothing cancels
 //! at frequencies far below the sampling rate. Longer steps take the closed forms.
 //!
-//! Steps are taken a block at a time. Where bounds on the motion say that a block can hold no new extreme, it is crossed
-//! in one leap or in a few: by what its steps do to every part, powers of their phase that all frequencies share. Where
-//! a peak between two samples may pass the largest value so far, it is found exactly.
+//! Steps are taken a block at a time. Where bounds on the motion say that a block can hold no new extreme, it is
+//! crossed in one leap or in a few. A leap is the effect of several steps on every part, in powers of their phase that
+//! all frequencies share. Where a peak between two samples may pass the largest value so far, it is found exactly.
 
 mod group;
 mod steps;
@@ -29,10 +29,11 @@ use steps::{Block, Series, Step};
 
 /// Steps between two bounds.
 const BLOCK: usize = 32;
-/// Steps gone through for one group of frequencies before the next: they stay in the nearest cache.
+/// Steps that are processed for one group of frequencies before the next: they stay in the nearest cache.
 const CHUNK: usize = 16 * BLOCK;
 
-/// A shock response spectrum in the making from samples at any times: in pieces of any size; memory does not grow.
+/// A shock response spectrum in progress, from samples at any times. They come in pieces of any size; memory does not
+/// grow.
 ///
 /// [`SpectrumFilter`](crate::SpectrumFilter) is faster for samples that are even in time.
 #[derive(Debug, Clone)]
@@ -43,22 +44,22 @@ pub struct UnevenFilter {
     modes: Modes,
     series: Series,
     groups: Vec<Group>,
-    /// Steps that wait for more, that the answer does not depend on the pieces that samples come in.
+    /// Steps that wait for more, so that the result does not depend on the pieces.
     steps: Vec<Step>,
     /// The newest sample.
     last: Option<(f64, f64)>,
-    /// How many samples there have been.
+    /// Number of samples so far.
     count: usize,
 }
 
 impl UnevenFilter {
-    /// A filter for samples at any times.
+    /// Creates a filter for samples at any times.
     ///
     /// # Accuracy
     ///
-    /// Exact for a history that is linear between samples, but for rounding: for steps of 10⁻⁹ to 10 periods and beyond,
-    /// at any damping, for samples of up to 10¹⁰⁰ m/s² ([`crate::accuracy::RECORD`]). The component is at rest before the
-    /// first sample; after the last the acceleration is zero and the ring-down is complete.
+    /// The spectrum is exact for a history that is linear between samples, but for rounding: for steps of 10⁻⁹ to 10
+    /// periods and beyond, at any damping, for samples of up to 10¹⁰⁰ m/s² ([`crate::accuracy::RECORD`]). The component
+    /// is at rest before the first sample; after the last the acceleration is zero and the ring-down is complete.
     ///
     /// # Examples
     ///
@@ -93,13 +94,13 @@ impl UnevenFilter {
             count: 0,
         }
     }
-    /// Takes in more samples: their times in seconds, in order, and the base acceleration there. Two samples at one time
-    /// are a jump.
+    /// Processes more samples: their times in seconds, in order, and the base acceleration there. Two samples at one
+    /// time are a jump.
     ///
     /// # Errors
     /// [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where times run back, entries counted from
-    /// the first sample of all; [`Error::Lengths`] unless there are as many times as accelerations. Nothing of the piece
-    /// is then taken in.
+    /// the first sample of all; [`Error::Lengths`] unless there are as many times as accelerations. No sample of the
+    /// piece is then processed.
     pub fn push(&mut self, times_s: &[f64], accelerations: &[f64]) -> Result<(), Error> {
         self.check(times_s, accelerations)?;
         self.count = self.count.saturating_add(times_s.len());
@@ -147,7 +148,7 @@ impl UnevenFilter {
         }
         Ok(())
     }
-    /// Takes the steps that wait.
+    /// Processes the waiting steps.
     fn run(&mut self) {
         let blocks: Vec<Block<'_>> = self.steps.chunks(BLOCK).map(|steps| Block::new(&self.series, steps)).collect();
         let arch = pulp::Arch::new();
@@ -157,7 +158,7 @@ impl UnevenFilter {
         }
         self.steps.clear();
     }
-    /// The spectrum, with the ring-down after the last sample.
+    /// Returns the spectrum, with the ring-down after the last sample.
     /// # Errors
     /// [`Error::Empty`] if no sample came.
     pub fn finish(mut self) -> Result<Spectrum, Error> {

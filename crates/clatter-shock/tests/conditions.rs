@@ -1,9 +1,9 @@
-//! Which least service condition covers what a part went through.
+//! The least service condition that covers the response of a part.
 
 use clatter_shock::{DampingRatio, Pulse, Pulses, Shape, Suspension, covering_condition, standard_pulse};
 
-/// Of a heavily damped part a long pulse moves it further than a short one that accelerates it as much: a condition covers both or
-/// is not told.
+/// A long pulse moves a heavily damped part further than a short one of the same acceleration: a condition must cover
+/// both, or it is not returned.
 #[test]
 fn a_condition_that_moves_a_part_less_does_not_cover() {
     let part = Suspension::from_hz(100.0, DampingRatio::new(1.0).expect("a ratio")).expect("a part");

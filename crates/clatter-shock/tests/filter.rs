@@ -47,7 +47,7 @@ fn compare(samples: &[f64], dt: f64, hz: &[f64], zeta: f64) {
     }
 }
 
-/// A burst: a growing and fading oscillation with an offset that keeps all signs in play.
+/// Returns a burst: a growing and fading oscillation with an offset that keeps all signs in play.
 fn burst(n: u32) -> Vec<f64> {
     (0..n).map(|i| f64::from(i) / f64::from(n)).map(|t| (40.0 * t).sin() * (-8.0 * t).exp() * 100.0 + 3.0 * t).collect()
 }
@@ -143,7 +143,7 @@ fn soft_parts_on_a_base_that_comes_back() {
     }
 }
 
-/// A peak in the first step of a block, after the largest sample, the last of the block before: once missed.
+/// Checks a peak in the first step of a block, after the largest sample, the last of the block before: once missed.
 #[test]
 fn a_peak_between_samples_of_a_rough_record() {
     let hz = 1e4 * 10_f64.powf(-1.652_892_353_661_28);
@@ -171,7 +171,7 @@ fn a_peak_between_samples_of_a_rough_record() {
     }
 }
 
-/// A ramp so long that the bend at its end is rounding, beyond critical damping: the first dip was once missed.
+/// Checks a ramp so long that the bend at its end is rounding, beyond critical damping: the first dip was once missed.
 #[test]
 fn a_dip_at_the_start_of_a_long_ramp() {
     let damping = DampingRatio::new(1.035_481_347_345_282_2).expect("damping");

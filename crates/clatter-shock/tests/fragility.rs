@@ -91,7 +91,7 @@ fn an_equivalent_half_sine_or_none() {
     );
 }
 
-/// What a half-sine does, the acceleration first.
+/// Returns the peaks by a half-sine, the acceleration first.
 fn done(component: &Suspension, amplitude: f64, duration: f64) -> [f64; 2] {
     let pulse = Pulse { shape: Shape::HalfSine, amplitude, duration, start: 0.0 };
     let response = Pulses::new(&[pulse]).expect("pulse").respond(component);
@@ -149,7 +149,7 @@ fn the_equivalent_half_sine_needs_the_least_acceleration() {
     }
 }
 
-/// A tolerance far below what durations of a grid differ by: the pulse asked for is found all the same, between them.
+/// The tolerance is far below the steps of the grid of durations: the wanted pulse is found all the same, between them.
 #[test]
 fn an_equivalent_half_sine_between_the_durations_of_a_grid() {
     let table =
@@ -163,7 +163,7 @@ fn an_equivalent_half_sine_between_the_durations_of_a_grid() {
             assert!(found.amplitude <= pulse.amplitude * (1.0 + 1e-8), "damping {zeta}: {found:?}, not {pulse:?}");
         }
     }
-    // Of many periods, of which 1/48 of an octave is most of one.
+    // The durations span many periods, of which 1/48 of an octave is most of one.
     let (component, table) = (mount(2e-3), ShockTable { shortest: 0.59, longest: 0.62, ..table });
     for i in 0..21 {
         let duration = 0.592 + 0.0013 * f64::from(i);
@@ -199,7 +199,7 @@ fn tables_that_are_none_are_refused() {
         let refused = table.equivalent_half_sine(&component, &asked, tolerance).expect_err(message);
         assert_eq!(refused.to_string(), message);
     }
-    // One duration alone is a table, and too far from the one asked for by its own mismatch.
+    // One duration alone is a table, and too far from the wanted one by its own mismatch.
     let one = ShockTable { shortest: 6e-3, longest: 6e-3, ..table };
     let Err(Error::NoEquivalent { nearest, .. }) = one.equivalent_half_sine(&component, &asked, 1e-5) else {
         panic!("one duration is another pulse");

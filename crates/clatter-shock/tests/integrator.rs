@@ -15,7 +15,7 @@ const SHAPES: [Shape; 7] = [
     Shape::Trapezoid { ramp: 0.2 },
 ];
 
-/// The textbook formulas, from inside the open interval of the pulse.
+/// Returns the textbook formulas, from inside the open interval of the pulse.
 fn acceleration(p: &Pulse, t: f64) -> f64 {
     let s = (t - p.start) / p.duration;
     if !(0.0..=1.0).contains(&s) {
@@ -37,7 +37,7 @@ struct Mount<'a> {
     pulses: &'a [Pulse],
     omega: f64,
     zeta: f64,
-    /// Accelerations are asked for within this interval alone, so that a jump at its end stays out.
+    /// Accelerations are evaluated within this interval alone, so that a jump at its end stays out.
     within: (f64, f64),
 }
 
@@ -51,14 +51,14 @@ impl System<f64, Vector2<f64>> for Mount<'_> {
     }
 }
 
-/// What the integrator found: largest |z| and |A|, and z and z′ at each time asked for.
+/// The results of the integrator: largest |z| and |A|, and z and z′ at each wanted time.
 struct Found {
     peaks: [f64; 2],
     states: Vec<Vector2<f64>>,
 }
 
-/// From rest through jumps of the base's velocity and pulses, in steps of 0.005/ω at most; `stops` are the times at
-/// which states are asked for, and the last of them the end. Between two steps values are those of the cubic of values
+/// Integrates from rest through jumps of the base's velocity and pulses, in steps of 0.005/ω at most; `stops` are the
+/// times of the wanted states, and the last of them the end. Between two steps values are those of the cubic of values
 /// and slopes.
 fn integrate(pulses: &[Pulse], shocks: &[VelocityShock], [omega, zeta]: [f64; 2], stops: &[f64]) -> Found {
     let mut cuts = stops.to_vec();
@@ -120,7 +120,7 @@ fn integrate(pulses: &[Pulse], shocks: &[VelocityShock], [omega, zeta]: [f64; 2]
     found
 }
 
-/// Largest absolute value over [0, 1] of the cubic with these values and slopes at its ends.
+/// Returns the largest absolute value over [0, 1] of the cubic with these values and slopes at its ends.
 fn largest_of_cubic([a, b]: [f64; 2], [m, n]: [f64; 2]) -> f64 {
     let (third, second) = (m + n - 2.0 * (b - a), 3.0 * (b - a) - 2.0 * m - n);
     let value = |t: f64| (a + t * (m + t * (second + t * third))).abs();
@@ -146,7 +146,7 @@ fn hold(name: &str, got: [f64; 2], want: [f64; 2]) {
     }
 }
 
-/// z and z′ against the larger of ωz and z′.
+/// Checks z and z′; their errors are relative to the peak.
 fn hold_state(name: &str, omega: f64, got: State, want: &Vector2<f64>, peak: f64) {
     let off = (omega * (got.displacement - want[0])).hypot(got.velocity - want[1]);
     assert!(off <= 1e-9 * omega * peak, "{name}: {got:?}, not {want:?}");

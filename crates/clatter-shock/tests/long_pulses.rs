@@ -7,8 +7,8 @@ fn mount(omega: f64, zeta: f64) -> Suspension {
     Suspension::new(omega, DampingRatio::new(zeta).expect("damping")).expect("mount")
 }
 
-/// z and z′ in a half-sine of unit amplitude and duration D at ω = 1: steady motion Im S e^(iνt), S = −1/(1 − ν² +
-/// 2iζν), and the free motion that brings it from rest.
+/// Returns z and z′ in a half-sine of unit amplitude and duration D at ω = 1: steady motion Im S e^(iνt), S = −1/(1 −
+/// ν² + 2iζν), and the free motion that brings it from rest.
 fn in_half_sine(mount: &Suspension, duration: f64, t: f64) -> State {
     let (nu, zeta) = (PI / duration, mount.damping().get());
     let (re, im) = (1.0 - nu * nu, 2.0 * zeta * nu);
@@ -24,7 +24,7 @@ fn in_half_sine(mount: &Suspension, duration: f64, t: f64) -> State {
     State { displacement: now.displacement + free.displacement, velocity: now.velocity + free.velocity }
 }
 
-/// Largest value of `f` on [0, end]: on a grid of 1/6, then by golden section around the ten best.
+/// Returns the largest value of `f` on [0, end]: on a grid of 1/6, then by golden section around the ten best.
 fn largest(f: impl Fn(f64) -> f64, end: f64) -> f64 {
     let step = 1.0 / 6.0;
     let mut values: Vec<(f64, f64)> =
@@ -75,7 +75,7 @@ fn no_turning_point_of_a_long_half_sine_is_missed() {
     }
 }
 
-/// Response of the sum of pulses = sum of the responses, at one instant after all of them.
+/// Returns the response to the sum of pulses as the sum of the responses, at one instant after all of them.
 fn end_by_sum(list: &[Pulse], mount: &Suspension, end: f64) -> State {
     list.iter().fold(State::default(), |sum, p| {
         let one = Pulses::new(&[*p]).expect("pulse").state_at_end(mount);

@@ -1,4 +1,4 @@
-//! What is left out of endless trains near q = 1, against trains carried on until their gaps are below 10⁻²⁵⁰.
+//! The omitted rest of endless trains near q = 1, against trains carried on until their gaps are below 10⁻²⁵⁰.
 
 use clatter::{Bar, Start};
 use clatter_shock::{DampingRatio, Suspension, VelocityShock, VelocityShocks, respond, shocks_at};
@@ -23,8 +23,8 @@ fn nothing_is_left_out_where_nothing_is_felt() {
     }
 }
 
-/// The shocks that a position gets, and the gaps after them, in units of the start: approach speeds from
-/// uₙ₊₁ = q(1 + e)uₙ − e uₙ₋₁, heights of the free end from hₙ₊₁ = e uₙ hₙ/uₙ₊₁.
+/// Returns the shocks that a position gets, and the gaps after them, in units of the start: approach speeds from uₙ₊₁ =
+/// q(1 + e)uₙ − e uₙ₋₁, heights of the free end from hₙ₊₁ = e uₙ hₙ/uₙ₊₁.
 fn train(q: f64, e: f64, position: f64, impacts: usize) -> Vec<(f64, f64)> {
     let turn = q * (1.0 + e);
     let (mut u, mut next, mut height, mut list) = (1.0, turn + 1.0, 1.0, Vec::new());
@@ -52,8 +52,8 @@ fn what_is_left_out_stays_within_its_bound() {
                     let got = respond(&bar, &Start::default(), position, &mount).expect("response");
                     let followed = got.shocks.as_slice();
                     let n = followed.len() - 1;
-                    // From the last shock of the train on, all that was put there in one; times from there, where they
-                    // have digits.
+                    // From the last shock of the train on, the sum stands for all later shocks; times count from there,
+                    // where they have digits.
                     let (last, rest) = (followed[n - 1].time, &whole[n - 1..]);
                     let mut list: Vec<VelocityShock> =
                         followed[..n].iter().map(|s| VelocityShock { time: s.time - last, ..*s }).collect();
@@ -62,7 +62,7 @@ fn what_is_left_out_stays_within_its_bound() {
                         time += pair[0].1;
                         list.push(VelocityShock { time, delta_v: pair[1].0 });
                     }
-                    // At rest in the end: what is still to come, v0 in all, falls on one instant.
+                    // The bar is at rest in the end: the later shocks, v0 in all, fall on one instant.
                     let net: f64 = list.iter().map(|s| s.delta_v).sum();
                     list.push(VelocityShock { time, delta_v: 1.0 - net });
                     let sum: f64 = list.iter().map(|s| s.delta_v.abs()).sum();
@@ -102,8 +102,8 @@ fn what_ends_an_endless_train_is_no_shock() {
     assert!((shocks.net() - 1.0).abs() < 1e-9, "{}", shocks.net());
 }
 
-/// So elastic that a million impacts do not end it. At the center all shocks have one sign and bring it to rest, v0 in all: what was not
-/// followed is what those that were leave of it.
+/// The bar is so elastic that a million impacts do not end its train. At the center all shocks have one sign and bring
+/// it to rest, v0 in all: the omitted part is the difference to the sum of the followed ones.
 #[test]
 fn what_a_million_impacts_leave_out_is_what_the_center_still_lacks() {
     let bar = Bar::new(1.0 - 1e-12, 1.0 - 1e-5).unwrap();

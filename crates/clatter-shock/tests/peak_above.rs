@@ -1,11 +1,11 @@
-//! The peak of one quantity, asked for by its size, is the one of the whole response.
+//! The peak of one quantity above a given size is that of the whole response.
 
 use clatter_shock::{
     DampingRatio, Extreme, Peaked, Pulse, Pulses, Response, Shape, Suspension, VelocityShock, VelocityShocks,
 };
 use proptest::prelude::*;
 
-/// Both are worked out along the same way, and differ by the scale of what is asked alone.
+/// Compares two peaks. Both are computed in the same way, and differ by the scale of the wanted one alone.
 fn same(response: &Response, ask: impl Fn(Peaked, f64) -> Option<Extreme>) -> Result<(), TestCaseError> {
     for peaked in [Peaked::PseudoVelocity, Peaked::AccelerationOverOmega] {
         let whole = match peaked {

@@ -40,7 +40,8 @@ fn history(list: &[Own]) -> Pulses {
     Pulses::of_sections(sections).expect("sections")
 }
 
-/// Largest |ωz| and |A/ω| at the ends of steps within the sections, and how much a value may rise between two ends.
+/// Returns the largest |ωz| and |A/ω| at the ends of steps within the sections, and how much a value may rise between
+/// two ends.
 fn by_steps(list: &[Own], omega: f64, zeta: f64) -> [f64; 2] {
     let (mut x, mut v, mut most) = (0.0_f64, 0.0_f64, [0.0_f64; 2]);
     for own in list {
@@ -111,7 +112,7 @@ proptest! {
         }
     }
 
-    /// One long sinusoid, or the same cut into parts of half a circle at most.
+    /// Compares one long sinusoid with the same cut into parts of half a circle at most.
     #[test]
     fn a_long_sinusoid_is_the_sum_of_its_parts(
         turned in 3.0..400.0_f64,

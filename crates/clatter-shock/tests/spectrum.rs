@@ -44,13 +44,13 @@ fn maximax_of_the_reference_trains() {
     }
 }
 
-/// Amplification A/a at f·D = `fd` and 1 Hz.
+/// Returns the amplification A/a at f·D = `fd` and 1 Hz.
 fn amplification(shape: Shape, damping: f64, fd: f64) -> f64 {
     let pulses = Pulses::new(&[Pulse { shape, amplitude: 1.0, duration: fd, start: 0.0 }]).expect("value");
     pulses.respond(&Suspension::from_hz(1.0, zeta(damping)).expect("value")).absolute_acceleration.magnitude()
 }
 
-/// Largest amplification for f·D in [lo, hi] by a golden section, and where.
+/// Returns the largest amplification for f·D in [lo, hi] by a golden section, and where.
 fn largest(shape: Shape, damping: f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
     let ratio = 0.5 * (5_f64.sqrt() - 1.0);
     for _ in 0..60 {
@@ -134,7 +134,7 @@ fn equivalent_static_acceleration_has_the_sign_of_the_displacement() {
     }
 }
 
-/// The five quantities at three dampings, from shocks, pulses, and the same history sampled.
+/// Checks the five quantities at three dampings, from shocks, pulses, and the same history sampled.
 #[test]
 fn signs_of_both_parts_and_the_time_of_the_peak_are_those_of_the_response() {
     let list = [(0.3, 2.0), (0.9, -3.1), (1.7, 1.2)];

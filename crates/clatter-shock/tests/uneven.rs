@@ -29,7 +29,7 @@ fn filtered(points: &[(f64, f64)], hz: &[f64], zeta: f64, quantity: Quantity) ->
     filter.finish().expect("spectrum")
 }
 
-/// All values of two spectra beside one another: name, values, those wanted.
+/// Returns all values of two spectra beside one another: name, values, those wanted.
 fn columns<'a>(got: &'a Spectrum, want: &'a Spectrum) -> [(&'static str, &'a [f64], &'a [f64]); 8] {
     [
         ("primary", &got.primary, &want.primary),
@@ -63,7 +63,7 @@ fn compare(points: &[(f64, f64)], hz: &[f64], zeta: f64) {
     }
 }
 
-/// A burst with steps that grow and shrink.
+/// Returns a burst with steps that grow and shrink.
 fn burst(n: u32) -> Vec<(f64, f64)> {
     let mut time = 0.0;
     (0..n)
@@ -175,7 +175,7 @@ impl Integration {
     fn rate(&self, [z, v]: [f64; 2], base: f64) -> [f64; 2] {
         [v, -base - 2.0 * self.zeta * self.omega * v - self.omega * self.omega * z]
     }
-    /// One step of Runge and Kutta's fourth order, with the base's acceleration at its begin, middle and end.
+    /// Makes one step of Runge and Kutta's fourth order, with the base's acceleration at its begin, middle and end.
     fn step(&mut self, h: f64, base: [f64; 3]) {
         let moved = |[z, v]: [f64; 2], [a, b]: [f64; 2], h: f64| [z + h * a, v + h * b];
         let k1 = self.rate(self.state, base[0]);
@@ -282,7 +282,7 @@ fn samples_that_are_none_are_refused_and_leave_nothing() {
     assert_eq!(none.finish().expect_err("nothing came"), Error::Empty("record"));
 }
 
-/// Where what is compared passes the floats, there is an answer all the same.
+/// Where the compared values overflow, there is an answer all the same.
 #[test]
 fn huge_samples_are_answered_like_small_ones() {
     let spectrum = |scale: f64, quantity| {

@@ -13,7 +13,7 @@ use std::time::Instant;
 /// Rounds of each pair.
 const ROUNDS: usize = 41;
 
-/// The loop anyone would write: count, peak, duration, final velocities in f64, cut off at 1000 impacts.
+/// Runs the loop anyone would write: count, peak, duration, final velocities in f64, cut off at 1000 impacts.
 fn plain(q: f64, e: f64) -> (f64, f64, f64, [f64; 2]) {
     let t = q * (1.0 + e);
     let (mut a, mut next, mut b, mut b_next, mut n, mut peak) = (-1.0, -t - 1.0, 0.0, 1.0, 1.0, 1.0_f64);
@@ -42,17 +42,17 @@ fn row<A, B>(name: &str, items: usize, allowed: &str, mut ours: impl FnMut() -> 
     println!("{name:44} {a:10.2} {b:10.2} {:7.2}   {allowed}", x / y);
 }
 
-/// A bar whose q and e are known to be in range.
+/// Returns a bar whose q and e are known to be in range.
 fn bar(q: f64, e: f64) -> Bar {
     Bar::new(q, e).expect("q and e in range")
 }
 
-/// Its result stays where it lies, as ours does: no copy of it is timed.
+/// Runs the plain loop. Its result stays in place, as ours does: no copy of it is timed.
 fn naive(q: f64, e: f64) {
     black_box(&plain(black_box(q), black_box(e)));
 }
 
-/// Numbers in [0, 1), always the same.
+/// Returns numbers in [0, 1), always the same.
 fn random() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
@@ -61,8 +61,8 @@ fn random() -> impl FnMut() -> f64 {
     }
 }
 
-/// The unit square, evenly at random: so many points that no branch predictor knows the counts by heart, round after
-/// round.
+/// Returns points of the unit square, evenly at random, so many that no branch predictor knows the counts by heart,
+/// round after round.
 fn square() -> Vec<(f64, f64)> {
     let mut random = random();
     (0..300_000).map(|_| (random(), random())).collect()
@@ -88,7 +88,7 @@ fn summaries() {
     }
 }
 
-/// Long and awkward trains in constant time; the plain loop gives up after 1000 impacts.
+/// Times long and awkward trains, which take constant time; the plain loop gives up after 1000 impacts.
 fn long_trains() {
     let start = Start::default();
     for (name, bar) in [
@@ -242,8 +242,8 @@ fn maps() {
     }
 }
 
-/// The loop anyone would write for a plate: heights and velocities in f64, from strike to strike, without a look at
-/// roundings.
+/// Runs the loop anyone would write for a plate: heights and velocities in f64, from strike to strike, without a look
+/// at roundings.
 fn plain_plate(jump: &[[f64; 4]; 4], e: f64, [hx, hy]: [f64; 2], list: &mut [[f64; 3]]) -> usize {
     let (mut h, mut v) = ([0.0, hx, hx + hy, hy], [-1.0_f64; 4]);
     let (mut j, mut time) = (0, 0.0);

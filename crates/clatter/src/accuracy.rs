@@ -1,21 +1,21 @@
 //! The errors that are allowed, quantity by quantity: one table that the docs state and the tests hold.
 //!
-//! The count and the answer to whether a train ends are not in it: they are exact, off center as well. So is the impact that
-//! holds the peak of a bar with its mass in the middle.
+//! The table leaves out the count and the answer to whether a train ends: they are exact, off center as well. The
+//! impact that holds the peak of a bar with its mass in the middle is exact too.
 
-/// A train of up to so many impacts counts as short.
+/// The number of impacts up to which a train counts as short.
 pub const SHORT: u64 = 10_000;
 
-/// How far a quantity may be off.
+/// The largest error that a quantity may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Allowance {
     /// The quantity.
     pub quantity: &'static str,
     /// Largest error over `scale`.
     pub error: f64,
-    /// What the error is measured by.
+    /// The quantity that the error is divided by.
     pub scale: &'static str,
-    /// Where it holds.
+    /// The range in which the bound holds.
     pub range: &'static str,
 }
 
@@ -66,5 +66,5 @@ pub const NEAR_ENDLESS: Allowance = Allowance {
     ..DURATION
 };
 
-/// All of them.
+/// All allowances.
 pub const TABLE: [Allowance; 8] = [PEAK, APPROACH, JUMP, TIME, FINAL, DURATION, DURATION_LONG, NEAR_ENDLESS];

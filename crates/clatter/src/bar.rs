@@ -1,4 +1,5 @@
-//! The bar: how its mass lies and how its ends rebound; its center of mass is reduced to the middle.
+//! The bar: the distribution of its mass and the restitution of its ends. A center of mass off the middle is reduced to
+//! the middle.
 //!
 //! With ends at distances L_a and L_b from the center of mass, radius of gyration ρ, `I = L² + ρ²` and
 //! `P = L_a L_b − ρ²`, a strike at end a of velocity u changes the velocities of the ends by
@@ -14,22 +15,22 @@
 //! q = P/√(I_a I_b) = ±√(q_a q_b),   start (v_a, κ v_b),   height gap κ h0
 //! ```
 //!
-//! because κ q_a = q = q_b/κ. Heights go with velocities, so times are the same. Every closed form of the symmetric bar
-//! serves.
+//! because κ q_a = q = q_b/κ. Heights scale with velocities, so times are the same. Every closed form of the symmetric
+//! bar holds.
 //!
 //! # Precision
-//! q and κ are irrational as a rule, and are formed with twice the digits of a float; 1 − q² = ρ² (L_a + L_b)²/(I_a I_b)
-//! keeps its digits however close q is to 1. What decides is rational all the same: with c_0 = v_a, c_1 = I_a a_1, c_2 =
-//! I_a I_b a_2 and so on the velocities obey
+//! q and κ are irrational as a rule, and are formed with twice the digits of a float; 1 − q² = ρ² (L_a + L_b)²/(I_a
+//! I_b) keeps its digits however close q is to 1. The decisions are rational all the same: with c_0 = v_a, c_1 = I_a
+//! a_1, c_2 = I_a I_b a_2 and so on the velocities obey
 //!
 //! ```text
 //! c_{n+1} = P (1 + e) c_n − e I_a I_b c_{n−1},   c_1 = P (1 + e) v_a + I_a v_b
 //! ```
 //!
-//! where all that is given is a float. So the count is as exact as that of the symmetric bar, for the arms, the radius of
-//! gyration and the velocities as given: digits first, whole numbers where they leave a doubt. Masses are another matter:
-//! their center and radius of gyration are rounded sums, and the count is that of the bar with these. Whether it is
-//! that of the masses too, [`Bar::count_is_exact`] tells.
+//! where every given value is a float. So the count is as exact as that of the symmetric bar, for the arms, the radius
+//! of gyration and the velocities as given: digits first, whole numbers where they leave a doubt. Masses are another
+//! matter: their center and radius of gyration are rounded sums, and the count is that of the bar with these.
+//! [`Bar::count_is_exact`] returns whether it is also that of the masses.
 
 use crate::dd::{Dd, two_sum};
 use crate::mass::{SUMS, center_of, parts, positive, reach, roundings};
@@ -42,7 +43,7 @@ use crate::{Count, End, Error, Mass, Start};
 pub struct Restitution(f64);
 
 impl Restitution {
-    /// A coefficient of restitution.
+    /// Creates a coefficient of restitution.
     ///
     /// # Errors
     /// [`Error::Restitution`] unless 0 ≤ e ≤ 1; −0 counts as 0.
@@ -50,7 +51,7 @@ impl Restitution {
     pub fn new(e: f64) -> Result<Self, Error> {
         if (0.0..=1.0).contains(&e) { Ok(Self(e + 0.0)) } else { Err(Error::Restitution(e)) }
     }
-    /// The value.
+    /// Returns the value.
     #[must_use]
     pub fn get(self) -> f64 {
         self.0
@@ -94,7 +95,7 @@ pub struct Bar {
     pub(crate) symmetric: Symmetric,
     /// √(I_a/I_b).
     kappa: Dd,
-    /// How far the center of mass and the radius of gyration may be off, in half-lengths: 0 where they are given.
+    /// The largest error of the center of mass and of the radius of gyration, in half-lengths: 0 where they are given.
     rounded: f64,
     /// Position of the center of mass, c.
     offset: f64,
@@ -102,12 +103,12 @@ pub struct Bar {
     ratios: [f64; 2],
     /// Share of a strike at a and b that the center of mass gets, ρ²/I.
     pub(crate) center: [f64; 2],
-    /// Change of angular velocity that it makes, L/I in half-lengths, (1 + q)/2.
+    /// Change of angular velocity by the same strike, L/I in half-lengths, (1 + q)/2.
     pub(crate) turn: [f64; 2],
 }
 
 impl Bar {
-    /// From inertia ratio q and restitution e, the center of mass in the middle.
+    /// Creates a bar from inertia ratio q and restitution e, with the center of mass in the middle.
     ///
     /// # Errors
     /// [`Error::InertiaRatio`] unless −1 < q ≤ 1, [`Error::Restitution`] unless 0 ≤ e ≤ 1. NaN is neither.
@@ -119,7 +120,8 @@ impl Bar {
         Ok(Self::centered(Symmetric::from_inertia_ratio(q + 0.0, Restitution::new(e)?)))
     }
 
-    /// From k = ρ/L, radius of gyration over half-length: q = (1 − k²)/(1 + k²). No digit is lost near q = 1.
+    /// Creates a bar from k = ρ/L, radius of gyration over half-length: q = (1 − k²)/(1 + k²). No digit is lost near q
+    /// = 1.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless k is 0 or in [1e−35, 1e35], [`Error::Restitution`] unless 0 ≤ e ≤ 1.
@@ -136,7 +138,7 @@ impl Bar {
         Self::from_gyration_squared([k, k], [1.0; 3], e)
     }
 
-    /// From half-length and radius of gyration, in the same unit.
+    /// Creates a bar from half-length and radius of gyration, in the same unit.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless the half-length is in [1e−25, 1e25], the radius is 0 or in that range and so is k in
@@ -147,7 +149,7 @@ impl Bar {
         Self::from_gyration_squared([rho, rho], [l, l, 1.0], e)
     }
 
-    /// From mass, length from end to end and moment of inertia about the center: k² = 4J/(m (2L)²).
+    /// Creates a bar from mass, length from end to end and moment of inertia about the center: k² = 4J/(m (2L)²).
     ///
     /// # Errors
     /// [`Error::Quantity`] unless mass and length are in [1e−25, 1e25], the moment is 0 or in that range and k in its
@@ -166,8 +168,8 @@ impl Bar {
         Self::from_gyration_squared([j, 4.0], [m, l, l], e)
     }
 
-    /// From the distances of ends a and b to the center of mass and the radius of gyration about it, in one unit, and
-    /// the restitution.
+    /// Creates a bar from the distances of ends a and b to the center of mass and the radius of gyration about it, in
+    /// one unit, and the restitution.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless both arms are in [1e−25, 1e25] and at most 10⁶ times one another, and the radius is 0
@@ -186,11 +188,11 @@ impl Bar {
         Self::reduced([a, b].map(|arm| Dd::from(arm / unit)), (a - b) / (a + b), rho / unit, e)
     }
 
-    /// From the position of the center of mass, −1 < c < 1, and the gyration ratio k = ρ/L, the radius of gyration
-    /// about the center of mass over half the length.
+    /// Creates a bar from the position of the center of mass, −1 < c < 1, and the gyration ratio k = ρ/L, the radius of
+    /// gyration about the center of mass over half the length.
     ///
     /// # Errors
-    /// As [`Bar::from_arms`] with arms 1 + c and 1 − c.
+    /// The errors of [`Bar::from_arms`] with arms 1 + c and 1 − c.
     ///
     /// # Examples
     /// ```
@@ -209,12 +211,12 @@ impl Bar {
         Self::reduced([two_sum(1.0, c), two_sum(1.0, -c)], c, k + 0.0, e)
     }
 
-    /// From the masses along a bar of given length, wherever their center of mass lies between the ends.
+    /// Creates a bar from the masses along a given length; their center of mass may lie anywhere between the ends.
     ///
     /// # Accuracy
     /// Sums and products are rounded as f64; k² of the sums then loses no more. The center of mass counts as the middle
-    /// where it is off by no more than roundings of the positions: 8 ε a mass, of the half-length or of where the mass
-    /// reaches beyond it.
+    /// where it is off by no more than roundings of the positions: 8 ε a mass, of the half-length or of the reach of a
+    /// mass beyond it.
     ///
     /// # Errors
     /// [`Error::NoMass`] for an empty list, [`Error::Quantity`] where the length or a mass is not in [1e−25, 1e25], a
@@ -250,7 +252,7 @@ impl Bar {
             let [center, gyration] = center_of(&parts);
             Self::from_center_of_mass(center / half, gyration / half, e)?
         } else {
-            // Less than that only roundings of a position leave.
+            // A smaller sum is left by roundings of the positions alone.
             let second = if second < 1e-75 { 0.0 } else { second };
             Self::from_gyration_squared([second, 4.0], [mass, length, length], e)?
         };
@@ -261,7 +263,7 @@ impl Bar {
         Symmetric::from_gyration_squared(over, under, e).map(Self::centered)
     }
 
-    /// With the center of mass in the middle.
+    /// Creates the bar with its center of mass in the middle.
     #[inline]
     fn centered(symmetric: Symmetric) -> Self {
         let Symmetric { q, less, more, .. } = symmetric;
@@ -269,7 +271,8 @@ impl Bar {
         Self { symmetric, kappa: Dd::from(1.0), rounded: 0.0, offset: 0.0, ratios, center, turn }
     }
 
-    /// From arms, the offset that they mean, and the radius of gyration, all in one unit that is about half the length.
+    /// Creates a bar from arms, the offset that they mean, and the radius of gyration, all in one unit that is about
+    /// half the length.
     fn reduced([a, b]: [Dd; 2], offset: f64, rho: f64, e: f64) -> Result<Self, Error> {
         let e = Restitution::new(e)?;
         let (ratio, half) = (a.hi / b.hi, 0.5 * (a.hi + b.hi));
@@ -294,7 +297,7 @@ impl Bar {
         })
     }
 
-    /// The same bar with its ends exchanged.
+    /// Returns the same bar with its ends exchanged.
     #[must_use]
     pub fn exchanged(&self) -> Self {
         let swap = |[a, b]: [f64; 2]| [b, a];
@@ -309,7 +312,7 @@ impl Bar {
         }
     }
 
-    /// This bar, if its center of mass is the middle: for what holds for such bars alone.
+    /// Returns this bar if its center of mass is the middle; some laws hold for such bars alone.
     ///
     /// # Errors
     /// [`Error::OffCenter`] where it is elsewhere.
@@ -317,29 +320,30 @@ impl Bar {
         if self.is_symmetric() { Ok(self) } else { Err(Error::OffCenter { offset: self.offset }) }
     }
 
-    /// Where the center of mass lies, in (−1, 1): (L_a − L_b)/(L_a + L_b).
+    /// Returns the position of the center of mass, in (−1, 1): (L_a − L_b)/(L_a + L_b).
     #[must_use]
     pub fn center_of_mass(&self) -> f64 {
         self.offset
     }
-    /// Inertia ratios q_a and q_b: minus the velocity jump of the other end over that of the end that strikes. One of
-    /// them may exceed 1.
+    /// Returns the inertia ratios q_a and q_b: minus the velocity jump of the other end over that of the end that
+    /// strikes. One of them may exceed 1.
     #[must_use]
     pub fn inertia_ratios(&self) -> [f64; 2] {
         self.ratios
     }
-    /// Inertia ratio: q = (L² − ρ²)/(L² + ρ²) where the center of mass is the middle, the negative ratio of the velocity
-    /// jumps of the free and the struck end; else ±√(q_a q_b), that of the symmetric bar with the same clatter.
+    /// Returns the inertia ratio: q = (L² − ρ²)/(L² + ρ²) where the center of mass is the middle, the negative ratio of
+    /// the velocity jumps of the free and the struck end; else ±√(q_a q_b), that of the symmetric bar with the same
+    /// clatter.
     #[must_use]
     pub fn q(&self) -> f64 {
         self.symmetric.q
     }
-    /// Coefficient of restitution.
+    /// Returns the coefficient of restitution.
     #[must_use]
     pub fn e(&self) -> f64 {
         self.symmetric.e
     }
-    /// k = ρ/L, radius of gyration about the center of mass over half the length.
+    /// Returns k = ρ/L, radius of gyration about the center of mass over half the length.
     ///
     /// # Accuracy
     /// 1e−15 of itself.
@@ -347,20 +351,20 @@ impl Bar {
     pub fn gyration_ratio(&self) -> f64 {
         self.symmetric.off_center().map_or_else(|| self.symmetric.gyration_ratio(), |given| given.rho / given.half())
     }
-    /// κ = √((L_a² + ρ²)/(L_b² + ρ²)): how much a velocity of end b counts beside one of end a.
+    /// Returns κ = √((L_a² + ρ²)/(L_b² + ρ²)), the weight of a velocity of end b relative to one of end a.
     #[must_use]
     pub fn kappa(&self) -> f64 {
         self.kappa.hi
     }
-    /// Whether the center of mass is the middle.
+    /// Returns whether the center of mass is the middle.
     #[must_use]
     #[inline]
     pub fn is_symmetric(&self) -> bool {
         self.offset == 0.0
     }
-    /// Share of the shock at a struck end that reaches position s: `(ρ² ∓ L x)/(L² + ρ²)` at distance x from the center
-    /// of mass towards b. 1 at the struck end itself, 0 at its center of percussion, −q at the other end;
-    /// `((1 − q) ∓ s (1 + q))/2` where the center of mass is the middle (Eq. 3).
+    /// Returns the share of the shock at a struck end that reaches position s: `(ρ² ∓ L x)/(L² + ρ²)` at distance x
+    /// from the center of mass towards b. 1 at the struck end itself, 0 at its center of percussion, −q at the other
+    /// end; `((1 − q) ∓ s (1 + q))/2` where the center of mass is the middle (Eq. 3).
     #[must_use]
     pub fn share(&self, struck: End, s: f64) -> f64 {
         let x = s - self.offset;
@@ -369,8 +373,8 @@ impl Bar {
             End::B => self.center[1] + self.turn[1] * x,
         }
     }
-    /// Center of percussion of a struck end: the position that feels nothing of its strikes, ρ²/L beyond the center of
-    /// mass; ±k² where that is the middle (paper, section 3).
+    /// Returns the center of percussion of a struck end: the position that its strikes do not move, ρ²/L beyond the
+    /// center of mass; ±k² where that is the middle (paper, section 3).
     #[must_use]
     pub fn percussion(&self, struck: End) -> f64 {
         match struck {
@@ -379,18 +383,18 @@ impl Bar {
         }
     }
 
-    /// L_a and L_b over half the length, 1 + c and 1 − c.
+    /// Returns L_a and L_b over half the length, 1 + c and 1 − c.
     pub(crate) fn arms(&self) -> [f64; 2] {
         self.symmetric.off_center().map_or([1.0; 2], |given| given.arms.map(|arm| arm.hi / given.half()))
     }
 
-    /// The start in the terms of the symmetric bar.
+    /// Returns the start in the variables of the symmetric bar.
     #[inline]
     pub(crate) fn arrival(&self, start: &Start) -> Start {
         if self.is_symmetric() { *start } else { start.with_b_times(self.kappa) }
     }
 
-    /// Whether [`count`](Self::count) is proven to be the number of impacts of the bar as it was given.
+    /// Returns whether [`count`](Self::count) is proven to be the number of impacts of the bar as it was given.
     ///
     /// It is for every bar given by lengths, unless it is a float, [`Count::Huge`]. The center of mass and the radius of
     /// gyration of masses are rounded sums: there the count is proven where all bars within these roundings have the
@@ -406,7 +410,8 @@ impl Bar {
         !matches!(count, Count::Huge(_)) && (self.rounded == 0.0 || self.bounds_of_count(start) == Some([count; 2]))
     }
 
-    /// The least and the largest count of bars that are rounded to this one; `None` where some are no bars at all.
+    /// Returns the least and the largest count of the bars that round to this one; `None` where some of them are no
+    /// bars at all.
     fn bounds_of_count(&self, start: &Start) -> Option<[Count; 2]> {
         let (c, k, off) = (self.offset, self.gyration_ratio(), self.rounded);
         let ([low, high], away) = ([(k - off).max(0.0), k + off], c.abs());
@@ -462,7 +467,7 @@ mod tests {
             let rest = whole.square.sub(&squared(&whole.mu));
             prop_assert!(near(less_more.mul(&whole.square), rest, 98), "1 - q^2 = {}", bar.wide_less_more().hi);
             let square = squared(&Dyadic::from(kappa)).mul(&whole.square);
-            prop_assert!(near(square, squared(&whole.beside), 98), "kappa {}", kappa.hi);
+            prop_assert!(near(square, squared(&whole.factor_b), 98), "kappa {}", kappa.hi);
             // In floats q is rounded once, the others next to once.
             prop_assert_eq!(bar.q.partial_cmp(&0.0), Some(whole.mu.sign()), "sign of q");
             let product = Dyadic::from(bar.less).mul(&Dyadic::from(bar.more));

@@ -1,4 +1,4 @@
-//! Curves in the plane of q and e, solved rather than traced on a grid: their points, and what solves for them.
+//! Points of curves in the plane of q and e, and their solvers: curves are solved, not traced on a grid.
 //!
 //! The unit square 0 ≤ q ≤ 1, 0 ≤ e ≤ 1 is the design plane of the paper; every start is pure translation.
 
@@ -12,8 +12,8 @@ pub struct Point {
     pub e: f64,
 }
 
-/// The root in [0, 1] of a falling function with values `low ≥ 0 ≥ high` at the ends, to 1e-14, by regula falsi
-/// in the form of Illinois, which bisects where it stalls.
+/// Returns the root in [0, 1] of a falling function with values `low ≥ 0 ≥ high` at the ends, to 1e-14. The method is
+/// regula falsi in the form of Illinois, with bisection where that stalls.
 ///
 /// ```
 /// let half = clatter::contour::falling_root(|x| 0.25 - x * x, 0.25, -0.75);

@@ -1,8 +1,8 @@
 //! Double-double numbers: an unevaluated sum `hi + lo` of two floats, about 106 bits.
 //!
-//! Used where the digits of one float cannot decide. Products and sums follow Dekker (1971) and Knuth
-//! (TAOCP 2, 4.2.2); no fused multiply-add is needed, so results agree on every machine. Relative errors
-//! are a few 2⁻¹⁰⁴ as long as nothing under- or overflows; callers scale first.
+//! They serve where the digits of one float cannot decide. Products and sums follow Dekker (1971) and Knuth (TAOCP 2,
+//! 4.2.2); no fused multiply-add is needed, so results agree on every machine. Relative errors are a few 2⁻¹⁰⁴ as long
+//! as nothing under- or overflows; callers scale first.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -12,7 +12,7 @@ pub(crate) struct Dd {
     pub(crate) lo: f64,
 }
 
-/// `a + b` without error.
+/// Returns `a + b` without error.
 #[inline]
 pub(crate) fn two_sum(a: f64, b: f64) -> Dd {
     let hi = a + b;
@@ -20,17 +20,17 @@ pub(crate) fn two_sum(a: f64, b: f64) -> Dd {
     Dd { hi, lo: (a - (hi - bb)) + (b - bb) }
 }
 
-/// `a + b` without error, given |a| ≥ |b|.
+/// Returns `a + b` without error, given |a| ≥ |b|.
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> Dd {
     let hi = a + b;
     Dd { hi, lo: b - (hi - a) }
 }
 
-/// `a b` without error.
+/// Returns `a b` without error.
 #[inline]
 pub(crate) fn two_prod(a: f64, b: f64) -> Dd {
-    /// Halves of a 53-bit significand (Veltkamp), each of at most 26 bits.
+    /// Splits a 53-bit significand into halves of at most 26 bits each (Veltkamp).
     #[inline]
     fn split(a: f64) -> (f64, f64) {
         let c = 134_217_729.0 * a; // 2^27 + 1
@@ -48,11 +48,11 @@ impl Dd {
     pub(crate) fn abs(self) -> Self {
         if self.hi < 0.0 { -self } else { self }
     }
-    /// `2^n self`, exact unless it leaves the range of normal floats.
+    /// Returns `2^n self`, exact unless it leaves the range of normal floats.
     pub(crate) fn scale(self, n: i32) -> Self {
         Self { hi: ldexp(self.hi, n), lo: ldexp(self.lo, n) }
     }
-    /// Square root, one Newton step on that of `hi`; 0 for 0.
+    /// Returns the square root, by one Newton step on that of `hi`; 0 for 0.
     #[inline]
     pub(crate) fn sqrt(self) -> Self {
         if self.hi <= 0.0 {
@@ -68,13 +68,13 @@ impl Dd {
     }
 }
 
-/// 2ⁿ for −1022 ≤ n ≤ 1023.
+/// Returns 2ⁿ for −1022 ≤ n ≤ 1023.
 #[expect(clippy::cast_sign_loss, reason = "a biased exponent")]
 pub(crate) const fn power_of_two(n: i32) -> f64 {
     f64::from_bits(((n + 1023) as u64) << 52)
 }
 
-/// `2^n x`, in steps that neither over- nor underflow before the result does.
+/// Returns `2^n x`, in steps that neither over- nor underflow before the result does.
 pub(crate) fn ldexp(mut x: f64, mut n: i32) -> f64 {
     while n > 1000 {
         x *= power_of_two(1000);
@@ -185,9 +185,10 @@ const INVERSE_ODD: [Dd; 4] = [
 const LATE_ODD: [f64; 9] =
     [1.0 / 23.0, 1.0 / 21.0, 1.0 / 19.0, 1.0 / 17.0, 1.0 / 15.0, 1.0 / 13.0, 1.0 / 11.0, 1.0 / 9.0, 1.0 / 7.0];
 
-/// Angle of the point (x, y), in [0, π], for y ≥ 0: relative error below 2⁻⁹⁹, or 2⁻⁸² where that is enough.
+/// Returns the angle of the point (x, y), in [0, π], for y ≥ 0, with a relative error below 2⁻⁹⁹, or below 2⁻⁸² if
+/// `enough`.
 ///
-/// Folded to the first octant, reduced by the nearest atan(k/16), then the alternating series of
+/// The angle is folded to the first octant and reduced by the nearest atan(k/16). The rest is the alternating series of
 /// atan t for |t| ≤ 1/32; its late terms need f64 only.
 pub(crate) fn atan2(y: Dd, x: Dd, enough: bool) -> Dd {
     debug_assert!(y.hi >= 0.0, "the lower half plane is not needed");
@@ -207,7 +208,7 @@ pub(crate) fn atan2(y: Dd, x: Dd, enough: bool) -> Dd {
     fold(base + atan((n - d * c) / (d + n * c), enough), steep, half_turn)
 }
 
-/// Arc tangent for |t| ≤ 1/32.
+/// Returns the arc tangent for |t| ≤ 1/32.
 #[inline]
 fn atan(t: Dd, enough: bool) -> Dd {
     if t.hi.abs() < power_of_two(-23) {
@@ -220,8 +221,8 @@ fn atan(t: Dd, enough: bool) -> Dd {
         // Of 106 bits the second term of the bracket 1/3 − z/5 + z²/7 needs 34, the third none beyond f64.
         return t - t * (z * INVERSE_ODD[3] - Dd::from(z.hi * z.hi * (0.2 - z.hi / 7.0)));
     }
-    // Of the term z^m/(2m + 1) of the series beside 1, f64 forgets 2^-53: below 2^-103 from z⁵ on, for small z from an
-    // earlier one on; below 2^-83 from z³ on.
+    // In the term z^m/(2m + 1) of the series, beside its first term 1, f64 loses 2^-53: less than 2^-103 from z⁵ on,
+    // for small z from an earlier one on; less than 2^-83 from z³ on.
     let skip =
         if enough { 2 } else { [power_of_two(-12), power_of_two(-16)].iter().filter(|&&below| z.hi < below).count() };
     let tail = LATE_ODD[..7 + skip].iter().fold(0.0, |s, inverse| inverse - z.hi * s);
@@ -229,7 +230,7 @@ fn atan(t: Dd, enough: bool) -> Dd {
     t - t * (z * head)
 }
 
-/// The angle of the first octant, put back into the octant it came from.
+/// Returns the angle of the first octant, put back into the octant it came from.
 fn fold(angle: Dd, steep: bool, half_turn: bool) -> Dd {
     let angle = if steep { PI.scale(-1) - angle } else { angle };
     if half_turn { PI - angle } else { angle }
@@ -241,7 +242,7 @@ mod tests {
     use num_bigint::BigInt;
     use proptest::prelude::*;
 
-    /// 2^200 atan(n/d) by the alternating series, for 0 ≤ n/d ≤ 1/2, to a few units.
+    /// Returns 2^200 atan(n/d) by the alternating series, for 0 ≤ n/d ≤ 1/2, to a few units.
     fn atan_fixed(n: i64, d: i64) -> BigInt {
         let (n2, d2) = (BigInt::from(n * n), BigInt::from(d * d));
         let mut power = (BigInt::from(n) << 200) / d;
@@ -268,7 +269,7 @@ mod tests {
         part(x.hi) + part(x.lo)
     }
 
-    /// |a − b| < 2^-bits, for numbers in units of 2^-200.
+    /// Returns |a − b| < 2^-bits, for numbers in units of 2^-200.
     fn close(a: &BigInt, b: &BigInt, bits: u64) -> bool {
         (a - b).magnitude().bits() < 200 - bits
     }
@@ -288,7 +289,7 @@ mod tests {
     }
 
     proptest! {
-        /// Against the series, for every octant that is asked for, at the stated 2⁻⁹⁹.
+        /// Compares with the series, for every octant that occurs, at the stated 2⁻⁹⁹.
         #[test]
         fn an_angle_has_99_good_bits(n in 1..1_000_000_i32, d in 1..1_000_000_i32) {
             let quarter: BigInt = 4 * atan_fixed(1, 5) - atan_fixed(1, 239);

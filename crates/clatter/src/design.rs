@@ -1,8 +1,8 @@
-//! The paper's design method: which (q, e) give the wanted safe zones, and the front of the largest zone.
+//! The paper's design method: the (q, e) that give the wanted safe zones, and the front of the largest zone.
 //!
-//! Everything is about pure translation in the design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1. At fixed q the peak at the ends
-//! grows with e (the claims of `clatter-studies` measure it), so that every goal is met up to some e(q) and no further: what
-//! meets all goals lies below one curve, which is solved and not traced on a grid.
+//! Everything is about pure translation in the design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1. At fixed q the peak at the ends grows
+//! with e (the claims of `clatter-studies` measure it), so that every goal is met up to some e(q) and no further: the
+//! designs that meet all goals lie below one curve, which is solved and not traced on a grid.
 
 use crate::contour::{Point, falling_root, refine};
 use crate::{Bar, Error, Start};
@@ -13,7 +13,7 @@ pub const DESIGNS: [[f64; 2]; 4] = [[0.5, 0.3], [0.73, 0.2], [0.67, 0.15], [0.57
 /// Steps of the search along q for places where a curve leaves the square; a piece shorter in q is missed.
 const SCAN: u32 = 512;
 
-/// What a design shall reach. Velocities are in v0, angular velocities in v0/L.
+/// A requirement on a design. Velocities are in v0, angular velocities in v0/L.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Goal {
@@ -26,13 +26,13 @@ pub enum Goal {
     },
     /// No change of the angular velocity exceeds `limit` (Eq. 4).
     Turn {
-        /// In v0/L.
+        /// The limit, in v0/L.
         limit: f64,
     },
 }
 
 impl Goal {
-    /// A safe zone of half-width s in which no shock exceeds the threshold.
+    /// Creates the goal of a safe zone of half-width s in which no shock exceeds the threshold.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless the threshold is in [1e−150, 1e150] and s in [0, 1].
@@ -45,7 +45,7 @@ impl Goal {
         }
     }
 
-    /// A limit on changes of the angular velocity.
+    /// Creates the goal of a limit on changes of the angular velocity.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless the limit is in [1e−150, 1e150].
@@ -53,7 +53,7 @@ impl Goal {
         Ok(Self::Turn { limit: size("limit of angular velocity change", limit)? })
     }
 
-    /// 1/peak at the ends where the goal is just met.
+    /// Returns 1/peak at the ends where the goal is just met.
     fn needed(self, q: f64) -> f64 {
         match self {
             Self::Zone { threshold, s } => (s * (1.0 + q) + (1.0 - q)) / (2.0 * threshold),
@@ -61,7 +61,8 @@ impl Goal {
         }
     }
 
-    /// The largest restitution in [0, 1] that meets the goal at this q in [0, 1]; `None` where even e = 0 does not.
+    /// Returns the largest restitution in [0, 1] that meets the goal at this q in [0, 1]; `None` where even e = 0 does
+    /// not.
     ///
     /// # Accuracy
     /// 1e−14; the answer itself meets the goal but for the rounding of a peak.
@@ -90,8 +91,8 @@ impl Goal {
         }
     }
 
-    /// How far a bar stays from the goal: what it allows at the ends over what they get, less 1; negative where the bar
-    /// misses it. NaN where q and e are of no bar.
+    /// Returns the margin to the goal: the allowed peak at the ends over the actual one, less 1; negative where the bar
+    /// misses the goal. NaN where q and e are of no bar.
     #[must_use]
     pub fn margin(self, q: f64, e: f64) -> f64 {
         let peak = Bar::new(q, e).map_or(f64::NAN, |bar| bar.peak(&Start::default()).end);
@@ -104,14 +105,14 @@ fn size(name: &'static str, value: f64) -> Result<f64, Error> {
     if (1e-150..=1e150).contains(&value) { Ok(value) } else { Err(Error::Quantity { name, value, allowed }) }
 }
 
-/// The largest restitution that meets all goals at this q in [0, 1]; `None` where none does.
+/// Returns the largest restitution that meets all goals at this q in [0, 1]; `None` where none does.
 #[must_use]
 pub fn largest_restitution(goals: &[Goal], q: f64) -> Option<f64> {
     goals.iter().try_fold(1.0_f64, |least, goal| goal.largest_restitution(q).map(|e| least.min(e)))
 }
 
-/// The upper border e(q) of the designs that meet all goals, in connected pieces with q ascending: below each piece,
-/// down to e = 0, all of them do. The true border stays within about `flatness` of the chords.
+/// Returns the upper border e(q) of the designs that meet all goals, in connected pieces with q ascending: below each
+/// piece, down to e = 0, all of them do. The true border stays within about `flatness` of the chords.
 ///
 /// Goals that are met nowhere leave no piece.
 ///
@@ -160,20 +161,19 @@ pub struct Front {
 }
 
 impl Front {
-    /// Its end: the largest zone that the goals leave, at the smallest q that has it.
+    /// Returns the end of the front: the largest zone that the goals leave, at the smallest q that has it.
     #[must_use]
     pub fn largest(&self) -> Option<FrontPoint> {
         self.pieces.last().and_then(|piece| piece.last()).copied()
     }
 }
 
-/// The front of the largest zone for `threshold` (in v0) against q in [0, 1], at restitution `e`, among the designs
-/// that have a zone (s ≥ 0) and meet all `goals`.
+/// Returns the front of the largest zone for `threshold` (in v0) against q in [0, 1], at restitution `e`, among the
+/// designs that have a zone (s ≥ 0) and meet all `goals`.
 ///
-/// # Accuracy
-/// Where goals end a piece, to a rounding of q; where the zone turns, to a rounding of s; between them `steps` values
-/// of q a unit, on the front exactly. A stretch of q shorter than 1/512, or a second top between neighboring values,
-/// may be missed.
+/// A piece that a goal ends is exact to a rounding of q, one where the zone turns to a rounding of s; between them
+/// `steps` values of q a unit lie on the front exactly. A stretch of q shorter than 1/512, or a second top between
+/// neighboring values, may be missed.
 ///
 /// # Errors
 /// [`Error::Quantity`] for a threshold outside [1e−150, 1e150], [`Error::Restitution`] unless 0 ≤ e ≤ 1.
@@ -219,8 +219,8 @@ pub fn front(threshold: f64, goals: &[Goal], e: f64, steps: u32) -> Result<Front
     Ok(Front { e, pieces })
 }
 
-/// The highest point of a function that rises to it and falls from it between `a` and `b`, by golden section, to a
-/// rounding of its height.
+/// Returns the highest point of a function that rises to it and falls from it between `a` and `b`, by golden section,
+/// to a rounding of its height.
 fn highest(zone: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> FrontPoint {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let mut best = FrontPoint { q: a, s: zone(a) };
@@ -237,8 +237,8 @@ fn highest(zone: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> FrontPoint {
     best
 }
 
-/// The intervals of [0, 1] where `good` holds, each end good and within a rounding of the border; one shorter than a
-/// step of the scan may be missed.
+/// Returns the intervals of [0, 1] where `good` holds, each end good and within a rounding of the border; one shorter
+/// than a step of the scan may be missed.
 fn intervals(good: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
     // from a good value towards a bad one
     let border = |mut inside: f64, mut outside: f64| {
@@ -269,13 +269,13 @@ fn intervals(good: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
     found
 }
 
-/// Safe zone s of a threshold, whichever end strikes first (Eq. 5).
+/// Returns the safe zone s of a threshold, whichever end strikes first (Eq. 5).
 fn zone(threshold: f64, q: f64, e: f64) -> f64 {
     let peak = Bar::new(q, e).map_or(f64::NAN, |bar| bar.peak(&Start::default()).end);
     (2.0 * threshold / peak - (1.0 - q)) / (1.0 + q)
 }
 
-/// 1/peak at the ends, which is finite at (1, 1) too.
+/// Returns 1/peak at the ends, which is finite at (1, 1) too.
 fn inverse_peak(q: f64, e: f64) -> f64 {
     Bar::new(q, e).map_or(f64::NAN, |bar| 1.0 / bar.summary(&Start::default()).peak.end)
 }
@@ -361,7 +361,8 @@ mod tests {
     }
 
     proptest! {
-        /// No bar of a dense line beats its front: whatever meets the goals has no larger zone than the front at its q.
+        /// No bar of a dense line beats its front: a bar that meets the goals has no larger zone than the front at its
+        /// q.
         #[test]
         fn nothing_beats_the_front(threshold in 0.3..1.5_f64, level in 0.2..1.0_f64, e in 0.0..0.6_f64, q in 0.0..=1.0_f64) {
             let goal = Goal::zone(2.0, level).unwrap();

@@ -1,4 +1,4 @@
-//! The one error type of the crate: what was given, and what is allowed.
+//! The one error type of the crate. Each error holds the given value and the allowed range.
 
 /// A value that describes no bar, no drop or no grid. Each message names the value and the range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -13,7 +13,7 @@ pub enum Error {
     /// A length, mass, radius or moment that is not finite and positive (or not negative, where zero makes sense).
     #[error("{name} = {value:?} is not {allowed}")]
     Quantity {
-        /// What the value stands for, with its unit.
+        /// The quantity, with its unit.
         name: &'static str,
         /// The value.
         value: f64,
@@ -43,7 +43,7 @@ pub enum Error {
         hi: f64,
         /// Number of values.
         points: usize,
-        /// What is wrong and what is allowed.
+        /// The fault and the allowed range.
         reason: &'static str,
     },
     /// A map of more points than memory is set aside for, or than there is memory for.

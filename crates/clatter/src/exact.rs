@@ -1,4 +1,4 @@
-//! Decisions that no fixed number of digits is sure to make: signs, by integer arithmetic.
+//! Signs by integer arithmetic, for decisions that no fixed number of digits is sure to make.
 //!
 //! Every input is a float, hence an integer times a power of two, and so is every term of the recurrence
 //! once its denominators are multiplied out:
@@ -17,8 +17,8 @@
 //!
 //! # Cost
 //! A sign takes about 4 log₂ n products of integers, whole ones of some 100 n bits. A count that is settled here costs
-//! about 2 µs for a tie at one impact, some 50 µs for one at a few hundred, and tens of milliseconds beyond
-//! 2⁹⁰ impacts, where the bracket is wide. It comes to that where double-double angles leave the count of a wave within
+//! about 2 µs for a tie at one impact, some 50 µs for one at a few hundred, and tens of milliseconds beyond 2⁹⁰
+//! impacts, where the bracket is wide. Integers are needed where double-double angles leave the count of a wave within
 //! its error of an integer, where f64 logarithms leave that of a decay so, and where f64 leaves the place of a peak so.
 
 use crate::dd::{Dd, ldexp, power_of_two, two_sum};
@@ -27,7 +27,7 @@ use std::cmp::Ordering;
 
 /// Largest index whose sign is decided with whole integers.
 const EXACT: u128 = 1024;
-/// Significand kept beyond.
+/// Bits of the significand that are kept beyond that index.
 const BITS: u64 = 4096;
 
 /// `m 2^x`.
@@ -54,12 +54,12 @@ impl From<Dd> for Dyadic {
 }
 
 impl Dyadic {
-    /// The same number without the zeros at the end of its significand, which products would carry along.
+    /// Returns the same number without the zeros at the end of its significand, which products would carry along.
     pub(crate) fn odd(self) -> Self {
         let zeros = self.m.trailing_zeros().unwrap_or(0);
         Self { m: self.m >> zeros, x: self.x + i128::from(zeros) }
     }
-    /// How many binary digits its significand has.
+    /// Returns the number of binary digits of its significand.
     pub(crate) fn bits(&self) -> u64 {
         self.m.bits()
     }
@@ -69,7 +69,7 @@ impl Dyadic {
             return low.clone();
         }
         let shift = high.x - low.x;
-        // Far below the last bit that is ever kept: only reached by cut significands.
+        // The term is far below the last bit that is ever kept; only cut significands get here.
         if shift > 1 << 22 {
             return high.clone();
         }
@@ -95,7 +95,7 @@ impl Dyadic {
             Sign::Plus => Ordering::Greater,
         }
     }
-    /// The top 64 bits as a float in ±[1, 2] and the exponent; (0, 0) for zero.
+    /// Returns the top 64 bits as a float in ±[1, 2] and the exponent; (0, 0) for zero.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bit counts of numbers in memory")]
     pub(crate) fn to_float(&self) -> (f64, i128) {
         let bits = i128::from(self.m.bits());
@@ -108,7 +108,7 @@ impl Dyadic {
         let v = top as f64 / power_of_two((bits - cut - 1) as i32);
         (if self.m.sign() == Sign::Minus { -v } else { v }, self.x + bits - 1)
     }
-    /// The same with twice the digits.
+    /// Returns the same number with twice the digits.
     pub(crate) fn to_wide(&self) -> (Dd, i128) {
         let (hi, exponent) = self.to_float();
         let lo = self.mul(&Self::power_of_two(-exponent)).sub(&Self::from(hi)).to_float();
@@ -118,13 +118,13 @@ impl Dyadic {
         let extra = self.m.bits().saturating_sub(bits);
         Self { m: self.m >> extra, x: self.x + i128::from(extra) }
     }
-    /// Magnitude: the exponent of the leading bit, very low for zero.
+    /// Returns the exponent of the leading bit, very low for zero.
     fn top(&self) -> i128 {
         if self.sign() == Ordering::Equal { i128::MIN / 2 } else { self.x + i128::from(self.m.bits()) }
     }
 }
 
-/// An exponent, or one as far beyond those of floats.
+/// Returns the exponent, clamped to a range far beyond that of floats.
 pub(crate) fn clamp(x: i128) -> i32 {
     #[expect(clippy::cast_possible_truncation, reason = "clamped to far beyond the exponents of floats")]
     let small = x.clamp(-20_000, 20_000) as i32;
@@ -143,22 +143,22 @@ pub(crate) struct Recurrence {
 }
 
 impl Recurrence {
-    /// Sign of 4Q − P²: Less or Equal where the train may be endless.
+    /// Returns 4Q − P². Where it is 0 or negative, the train may be endless.
     pub(crate) fn discriminant(&self) -> Dyadic {
         Dyadic::from(4.0).mul(&self.q).sub(&self.p.mul(&self.p))
     }
-    /// Whether `c_n` < 0 for ever, given 4Q ≤ P² and P > 0, Q > 0, v < 0: w ≤ λ₊ |v| for the larger root λ₊ of
-    /// λ² − Pλ + Q, without its root: w ≤ P|v|/2 or w² + P v w + Q v² ≤ 0.
+    /// Returns whether `c_n` < 0 for ever, given 4Q ≤ P² and P > 0, Q > 0, v < 0. The condition is w ≤ λ₊ |v| for the
+    /// larger root λ₊ of λ² − Pλ + Q, here without a square root: w ≤ P|v|/2 or w² + P v w + Q v² ≤ 0.
     pub(crate) fn endless(&self) -> bool {
         let half = Dyadic::from(2.0).mul(&self.w).add(&self.p.mul(&self.v));
         half.sign() != Ordering::Greater || self.form().sign() != Ordering::Greater
     }
-    /// w² + P v w + Q v², which is (λ₊|v| − w)(λ₋|v| − w) for the roots λ± of λ² − Pλ + Q.
+    /// Returns w² + P v w + Q v², which is (λ₊|v| − w)(λ₋|v| − w) for the roots λ± of λ² − Pλ + Q.
     pub(crate) fn form(&self) -> Dyadic {
         let pv = self.p.mul(&self.v);
         self.w.mul(&self.w).add(&pv.mul(&self.w)).add(&self.q.mul(&self.v.mul(&self.v)))
     }
-    /// (`U_n`, U_{n+1}).
+    /// Returns (`U_n`, U_{n+1}).
     fn lucas(&self, n: u128) -> (Dyadic, Dyadic) {
         let keep = |d: Dyadic| if n <= EXACT { d } else { d.cut(BITS) };
         let two = Dyadic::from(2.0);
@@ -175,7 +175,7 @@ impl Recurrence {
         }
         (low, high)
     }
-    /// `c_n`, `U_n`; exactly 0 where the terms cancel to far below what was kept of them.
+    /// Returns `c_n`, `U_n`; exactly 0 where the terms cancel to far below what was kept of them.
     fn term(&self, n: u128) -> (Dyadic, Dyadic) {
         let (low, high) = self.lucas(n);
         let (x, y) = (self.v.mul(&high), self.w.mul(&low));
@@ -183,11 +183,11 @@ impl Recurrence {
         let tie = n > EXACT && sum.top() < x.top().max(y.top()) - 2048;
         (if tie { Dyadic::from(0.0) } else { sum }, low)
     }
-    /// Sign of `c_n`.
+    /// Returns the sign of `c_n`.
     pub(crate) fn sign(&self, n: u128) -> Ordering {
         self.term(n).0.sign()
     }
-    /// `c_n` and `U_n` as floats with exponents.
+    /// Returns `c_n` and `U_n` as floats with exponents.
     pub(crate) fn values(&self, n: u128) -> ((f64, i128), (f64, i128)) {
         let (c, u) = self.term(n);
         (c.to_float(), u.to_float())
@@ -198,7 +198,7 @@ impl Recurrence {
 mod tests {
     use super::*;
 
-    /// Doubling against the recurrence itself.
+    /// Compares doubling with the recurrence itself.
     #[test]
     fn terms_by_doubling_are_those_of_the_recurrence() {
         let d = Dyadic::from;

@@ -1,46 +1,48 @@
-//! What shakes a part: the acceleration of its place over time, in sections that are sums of known functions.
+//! The excitation of a part: the acceleration of its place over time, in sections that are sums of known functions.
 //!
-//! A part that falls with the body and is then carried by it feels the acceleration of its place above free fall, `a + g`.
+//! A part that falls with the body and is then carried by it is excited by the acceleration of its place above free
+//! fall, `a + g`.
 
 use std::ops::Range;
 
 /// A sinusoid of a [`Section`], `amplitude · sin(phase + rate t)` with t from its begin.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sine {
-    /// With its sign.
+    /// Amplitude, with its sign.
     pub amplitude: f64,
-    /// Positive.
+    /// Angular frequency, positive.
     pub rate: f64,
-    /// In rad.
+    /// Phase at the begin of the section, in rad.
     pub phase: f64,
 }
 
-/// A time in which the acceleration of a place is one sum of known functions: a velocity shock, then a straight line and sinusoids
-/// besides. In any units that go together.
+/// An interval of time in which the acceleration of a place is one sum of known functions: a velocity shock, then a
+/// straight line plus sinusoids. Any consistent units do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section<'a> {
-    /// When it begins.
+    /// Time of its begin.
     pub from: f64,
-    /// How long it lasts; 0 for the shock alone.
+    /// Its duration; 0 for the shock alone.
     pub length: f64,
-    /// Velocity shock as it begins.
+    /// Velocity shock at its begin.
     pub delta_v: f64,
-    /// Acceleration at its begin and its end, on a straight line between.
+    /// Acceleration at its begin and its end, linear between them.
     pub acceleration: [f64; 2],
-    /// What swings besides.
+    /// Sinusoids that add to the straight line.
     pub sines: &'a [Sine],
-    /// Whether nothing presses all along it: what is felt then is the turning of the body alone, and no shock.
+    /// True if nothing presses all along the section: the acceleration is then that of the turning of the body alone,
+    /// without a shock.
     pub free: bool,
 }
 
 impl Section<'_> {
-    /// Nothing but a velocity shock.
+    /// Creates a section that is a velocity shock alone.
     #[must_use]
     #[inline]
     pub const fn shock(from: f64, length: f64, delta_v: f64) -> Self {
         Self { from, length, delta_v, acceleration: [0.0; 2], sines: &[], free: false }
     }
-    /// Acceleration at a time after its begin.
+    /// Returns the acceleration at a time after the begin of the section.
     #[must_use]
     #[inline]
     pub fn acceleration_at(&self, t: f64) -> f64 {
@@ -48,7 +50,7 @@ impl Section<'_> {
         let share = if self.length > 0.0 { t / self.length } else { 0.0 };
         a + (b - a) * share + self.sines.iter().map(|s| s.amplitude * libm::sin(s.phase + s.rate * t)).sum::<f64>()
     }
-    /// Change of velocity from its begin, shock included, until a time after it.
+    /// Returns the change of velocity from the begin of the section, shock included, to a time after it.
     ///
     /// ```
     /// use clatter::{Section, Sine};
@@ -74,12 +76,13 @@ impl Section<'_> {
 /// Sections one after the other; each begins where the one before ends.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Excitation {
-    sections: Vec<Kept>,
+    sections: Vec<StoredSection>,
     sines: Vec<Sine>,
 }
 
+/// A section as it is stored: its sinusoids are a range of the list of all.
 #[derive(Debug, Clone, PartialEq)]
-struct Kept {
+struct StoredSection {
     from: f64,
     length: f64,
     delta_v: f64,
@@ -89,18 +92,18 @@ struct Kept {
 }
 
 impl Excitation {
-    /// Nothing yet, with room for so many sections.
+    /// Creates an excitation without sections, with room for so many.
     #[must_use]
     pub fn with_capacity(sections: usize) -> Self {
         Self { sections: Vec::with_capacity(sections), sines: Vec::with_capacity(2 * sections) }
     }
-    /// Appends a section. Sinusoids without an amplitude or a rate are left out.
+    /// Appends a section, without the sinusoids that have no amplitude or no rate.
     #[inline]
     pub fn push(&mut self, section: Section<'_>) {
         let first = self.sines.len();
         self.sines.extend(section.sines.iter().filter(|s| s.amplitude != 0.0 && s.rate > 0.0));
         let Section { from, length, delta_v, acceleration, free, .. } = section;
-        self.sections.push(Kept { from, length, delta_v, acceleration, sines: first..self.sines.len(), free });
+        self.sections.push(StoredSection { from, length, delta_v, acceleration, sines: first..self.sines.len(), free });
     }
     /// Adds a steady acceleration to all sections from the one of this number on.
     #[inline]
@@ -108,11 +111,11 @@ impl Excitation {
         self.sections[first..].iter_mut().flat_map(|s| &mut s.acceleration).for_each(|a| *a += acceleration);
     }
     #[inline]
-    fn view<'a>(&'a self, kept: &Kept) -> Section<'a> {
-        let Kept { from, length, delta_v, acceleration, free, .. } = *kept;
-        Section { from, length, delta_v, acceleration, sines: &self.sines[kept.sines.clone()], free }
+    fn view<'a>(&'a self, stored: &StoredSection) -> Section<'a> {
+        let StoredSection { from, length, delta_v, acceleration, free, .. } = *stored;
+        Section { from, length, delta_v, acceleration, sines: &self.sines[stored.sines.clone()], free }
     }
-    /// The section of this number, from 0.
+    /// Returns the section of this number, from 0.
     ///
     /// # Panics
     /// If there is none.
@@ -121,10 +124,10 @@ impl Excitation {
     pub fn section(&self, number: usize) -> Section<'_> {
         self.view(&self.sections[number])
     }
-    /// All sections in order.
+    /// Returns all sections in order.
     #[must_use]
     #[inline]
     pub fn sections(&self) -> impl ExactSizeIterator<Item = Section<'_>> + Clone {
-        self.sections.iter().map(|kept| self.view(kept))
+        self.sections.iter().map(|stored| self.view(stored))
     }
 }

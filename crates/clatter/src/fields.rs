@@ -1,6 +1,7 @@
-//! What is checked on construction, as serde writes and reads it: by the fields that are given, checked again.
+//! Fields of the types that are checked on construction, as serde writes and reads them. Reading checks them again.
 //!
-//! Of formats without infinities, such as JSON, what may be infinite (the duration of a train without end) does not read back.
+//! Formats without infinities, such as JSON, do not read back values that may be infinite (the duration of a train
+//! without end).
 
 use serde::{Deserialize, Serialize};
 

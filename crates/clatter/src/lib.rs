@@ -1,4 +1,4 @@
-//! What a tilted drop does to a flat body.
+//! The clatter of a flat body after a tilted drop.
 //!
 //! A rigid bar falls almost level, lands on one end, then the other, in a rapid train of impacts: the
 //! clatter. This crate computes that train and what follows from it.
@@ -15,8 +15,8 @@
 //!
 //! A product that is no bar is a [`Plate`], which lands on its four corners; the bar is its limit of large inertia across.
 //!
-//! Features: `parallel`, on unless switched off, fills maps on several threads; `serde` writes and reads what is given and
-//! answered, and checks again what is checked on construction.
+//! Features: `parallel`, on unless switched off, fills maps on several threads. `serde` writes and reads inputs and
+//! answers, and repeats the checks of construction.
 
 #![cfg_attr(
     test,

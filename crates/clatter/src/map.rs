@@ -5,7 +5,7 @@ use crate::{Bar, Count, Error, Start};
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-/// What a map shows.
+/// The quantity that a map shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quantity {
@@ -25,7 +25,7 @@ pub enum Quantity {
     Zone(f64),
 }
 
-/// What an axis of a grid runs over.
+/// The quantity that an axis of a grid runs over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Variable {
@@ -57,7 +57,7 @@ impl Variable {
 }
 
 impl Axis {
-    /// An axis over q.
+    /// Returns an axis over q.
     ///
     /// # Errors
     /// [`Error::Axis`] unless −1 < lo ≤ hi ≤ 1 and there are at least 2 points, or 1 where lo = hi.
@@ -66,7 +66,7 @@ impl Axis {
         Self::new(Variable::InertiaRatio, lo, hi, points, reason, lo > -1.0 && hi <= 1.0)
     }
 
-    /// An axis over k = ρ/L in place of q = (1 − k²)/(1 + k²): no digit is lost near q = 1.
+    /// Returns an axis over k = ρ/L in place of q = (1 − k²)/(1 + k²): no digit is lost near q = 1.
     ///
     /// # Errors
     /// [`Error::Axis`] unless lo ≤ hi, every value is 0 or in [1e−35, 1e35] and there are at least 2 points, or 1 where
@@ -80,7 +80,7 @@ impl Axis {
         all.then_some(axis).ok_or(Error::Axis { name: Variable::GyrationRatio.name(), lo, hi, points, reason })
     }
 
-    /// An axis over e.
+    /// Returns an axis over e.
     ///
     /// # Errors
     /// [`Error::Axis`] unless 0 ≤ lo ≤ hi ≤ 1 and there are at least 2 points, or 1 where lo = hi.
@@ -114,19 +114,19 @@ impl Axis {
         Ok(Self { variable, lo: lo + 0.0, hi: hi + 0.0, points })
     }
 
-    /// What the axis runs over.
+    /// Returns the quantity that the axis runs over.
     #[must_use]
     pub fn variable(&self) -> Variable {
         self.variable
     }
 
-    /// Number of points.
+    /// Returns the number of points.
     #[must_use]
     pub fn points(&self) -> usize {
         self.points
     }
 
-    /// Value `i`: `lo + (hi − lo) i/(points − 1)`, exact at both ends.
+    /// Returns the value `i`: `lo + (hi − lo) i/(points − 1)`, exact at both ends.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a grid has far fewer than 2^53 points")]
     pub fn value(&self, i: usize) -> f64 {
@@ -151,23 +151,24 @@ pub struct Map {
     pub values: Vec<f64>,
 }
 
-/// More points than this, 2 GiB of them, no one looks at.
+/// The most points of a map, 2 GiB of them.
 const MOST: usize = 1 << 28;
 
 impl Map {
     /// Computes the map for pure translation, row by row on all threads.
     ///
     /// # Method
-    /// Peaks, and what follows from them, by the recurrence of the differences d = |a_{n+1}| − |a_n| of 16 points side by side:
-    /// `d ← max(0, e d − (1 − q)(1 + e) |a|)`, `|a| ← |a| + d`, which stands still at the peak. All else, and the few
-    /// points that rise for more than 64 strikes, point by point from [`Bar::summary`] or [`Bar::count`].
+    /// Peaks, and the quantities that follow from them, come from the recurrence of the differences d = |a_{n+1}| −
+    /// |a_n| of 16 points side by side: `d ← max(0, e d − (1 − q)(1 + e) |a|)`, `|a| ← |a| + d`, which stands still at
+    /// the peak. All other quantities, and the few points that rise for more than 64 strikes, come point by point from
+    /// [`Bar::summary`] or [`Bar::count`].
     ///
     /// # Accuracy
-    /// That of [`Bar::summary`] for every point, peaks to [`crate::accuracy::PEAK`].
+    /// Every point is as exact as [`Bar::summary`], peaks to [`crate::accuracy::PEAK`].
     ///
     /// # Errors
-    /// [`Error::Axis`] where `q` is an axis over e, or `e` is none; [`Error::TooLarge`] beyond 2²⁸ points, or if their
-    /// memory is not to be had; it is asked for once.
+    /// [`Error::Axis`] where `q` is an axis over e, or `e` is none; [`Error::TooLarge`] beyond 2²⁸ points, or where
+    /// their memory is not available; it is asked for once.
     ///
     /// # Examples
     /// ```
@@ -209,7 +210,7 @@ impl Map {
     }
 }
 
-/// One row: fixed inertia.
+/// Fills one row, of fixed inertia.
 fn fill(quantity: Quantity, bar: impl Fn(f64) -> Symmetric, columns: &[f64], row: &mut [f64]) {
     let Symmetric { less, more, .. } = bar(0.0);
     let spread: &dyn Fn(&mut f64) = match quantity {
@@ -241,7 +242,7 @@ const WIDTH: usize = 16;
 /// Differences a point may add before it is left to the closed form; 64 roundings stay below 1e−14.
 const STEPS: usize = 64;
 
-/// Largest velocity shocks at the ends along a row.
+/// Computes the largest velocity shocks at the ends along a row.
 fn peaks(bar: impl Fn(f64) -> Symmetric, columns: &[f64], row: &mut [f64]) {
     let dead = bar(0.0);
     let (q, less) = (dead.q, dead.less);
@@ -293,7 +294,7 @@ fn peaks(bar: impl Fn(f64) -> Symmetric, columns: &[f64], row: &mut [f64]) {
     }
 }
 
-/// A bar from values that the axes have checked.
+/// Returns a bar from values that the axes have checked.
 fn bar(variable: Variable, inertia: f64, e: f64) -> Symmetric {
     let bar = match variable {
         Variable::GyrationRatio => Bar::from_gyration_ratio(inertia, e),
@@ -302,7 +303,7 @@ fn bar(variable: Variable, inertia: f64, e: f64) -> Symmetric {
     bar.unwrap_or_else(|error| unreachable!("an axis let it pass: {error}")).symmetric
 }
 
-/// The count as a float; endless is +∞.
+/// Returns the count as a float; endless is +∞.
 #[expect(clippy::cast_precision_loss, reason = "rounds to the nearest float")]
 fn count(count: Count) -> f64 {
     match count {

@@ -17,9 +17,9 @@ pub enum Mass {
     Slab {
         /// Mass in kg.
         mass_kg: f64,
-        /// Where it begins, from the middle of the bar, in m.
+        /// Begin of the slab, from the middle of the bar, in m.
         from_m: f64,
-        /// Where it ends; not before it begins.
+        /// End of the slab, in m, not before its begin.
         to_m: f64,
     },
 }
@@ -41,11 +41,12 @@ impl Mass {
     }
 }
 
-/// Center of mass, from the middle towards end b, and radius of gyration about it, of masses along a bar, in m.
+/// Returns the center of mass, from the middle towards end b, and radius of gyration about it, of masses along a bar,
+/// in m.
 ///
 /// # Accuracy
-/// The center to a rounding a mass of where the masses reach; the radius is summed about it, so that masses close
-/// together far off the middle keep their digits, and is 0 where it is no more than roundings of the positions.
+/// The center is exact to a rounding a mass of the reach of the masses; the radius is summed about it, so that masses
+/// close together far off the middle keep their digits, and is 0 where it is no more than roundings of the positions.
 ///
 /// # Errors
 /// [`Error::NoMass`] for an empty list, [`Error::Quantity`] where a mass is not in [1e−25, 1e25] kg, a position is
@@ -64,16 +65,16 @@ pub fn center_and_gyration(masses: &[Mass]) -> Result<[f64; 2], Error> {
     Ok(center_of(&parts(masses)?))
 }
 
-/// Of one mass: how much it is, where it begins and ends.
+/// The mass of one piece, its begin and its end.
 pub(crate) type Part = (f64, f64, f64);
 
-/// Masses that make sense, one at least.
+/// Returns the masses as pieces, at least one, or the error of one that is invalid.
 pub(crate) fn parts(masses: &[Mass]) -> Result<Vec<Part>, Error> {
     let parts = masses.iter().map(Mass::part).collect::<Result<Vec<_>, _>>()?;
     if parts.is_empty() { Err(Error::NoMass) } else { Ok(parts) }
 }
 
-/// [`center_and_gyration`] of masses that make sense.
+/// Returns [`center_and_gyration`] of valid masses.
 pub(crate) fn center_of(parts: &[Part]) -> [f64; 2] {
     let middle = |from: f64, to: f64| 0.5 * from + 0.5 * to;
     let mass: f64 = parts.iter().map(|(m, ..)| m).sum();
@@ -86,24 +87,24 @@ pub(crate) fn center_of(parts: &[Part]) -> [f64; 2] {
     [center, if gyration > 4.0 * roundings(parts) * reach(parts) { gyration } else { 0.0 }]
 }
 
-/// How far the center of mass and the radius of gyration of masses are off at most, in ε times the number of masses and
-/// the larger of half the length and where they reach: [`center_and_gyration`] rounds 12 times a mass at most for
-/// either, and a center that counts as the middle is within 9 of it.
+/// The largest error of the center of mass and of the radius of gyration of masses, in ε times the number of masses and
+/// the larger of half the length and the reach of the masses: [`center_and_gyration`] rounds 12 times a mass at most
+/// for either, and a center that counts as the middle is within 9 of it.
 pub(crate) const SUMS: f64 = 16.0;
 
-/// How far from the middle masses reach, in m.
+/// Returns the largest distance of a mass from the middle, in m.
 pub(crate) fn reach(parts: &[Part]) -> f64 {
     parts.iter().fold(0.0, |reach, (_, from, to)| reach.max(from.abs()).max(to.abs()))
 }
 
-/// ε times the number of masses.
+/// Returns ε times the number of masses.
 pub(crate) fn roundings(parts: &[Part]) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a count of roundings")]
     let count = parts.len() as f64;
     f64::EPSILON * count
 }
 
-/// A length or mass of a size whose products stay within the range of floats.
+/// Returns the length or mass if its products stay within the range of floats.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
     let allowed = "in [1e-25, 1e25]";
     if (1e-25..=1e25).contains(&value) { Ok(value) } else { Err(Error::Quantity { name, value, allowed }) }

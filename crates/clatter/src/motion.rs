@@ -16,7 +16,7 @@
 //!   σ ≥ 0; else N = ⌈ln(τ/σ)/ln(λ₊/λ₋)⌉.
 //! * D = 0, the **edge** between them, where c = T/(2√e) = 1: only (1, 1) among floats, more where q is a quotient.
 //!
-//! What decides is formed in double-double, or in integers where even those digits cancel: D, S, αT + 2β and
+//! The terms that decide are formed in double-double, or in integers where even those digits cancel: D, S, αT + 2β and
 //! σ τ = αβT + β² + α²e. Then f64 suffices, until a quotient lies within its error of an integer.
 
 use crate::accuracy::{self, DURATION_LONG, FINAL, SHORT};
@@ -35,12 +35,12 @@ pub(crate) use four::{Fours, Sweep, Then};
 /// functions of at most 2 each, their arguments of at most 4, a quotient, and a margin of 2.
 const QUOTIENT: f64 = 24.0 * UNIT;
 const UNIT: f64 = 0.5 * f64::EPSILON;
-/// What an angle may change an approach velocity by, over the larger of it and the first: a twentieth of what is
-/// allowed. The rest is for the steps that follow from there.
+/// The share of an approach velocity that the error of an angle may cost, over the larger of it and the first: a
+/// twentieth of the allowed error. The rest is for the steps that follow from there.
 const ANGLE: f64 = 0.05 * accuracy::APPROACH.error;
 /// 2⁶⁵, beyond which a count is a float.
 const BEYOND_NUMBERS: f64 = power_of_two(65);
-/// No term of a plain step may come near the subnormal floats.
+/// The least size of a term of a plain step, far above the subnormal floats.
 pub(crate) const NORMAL: f64 = 1e-280;
 
 /// The recurrence with its starting values, scaled by 2^m a step where T and e are so small that T² would underflow:
@@ -95,7 +95,7 @@ pub(crate) struct Decay {
 /// Above this e, D is formed about the corner (1, 1).
 const CORNER: f64 = 0.17;
 
-/// How well D = 4e − T² must be known.
+/// The required precision of D = 4e − T².
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Digits {
     /// Relative error that is always good enough.
@@ -105,24 +105,25 @@ pub(crate) struct Digits {
 }
 
 impl Digits {
-    /// For a count: a last resort to more digits once in some hundred trains.
+    /// Digits for a count: more digits are a last resort, needed once in some hundred trains.
     pub(crate) const COUNT: Self = Self { all: power_of_two(-44), strike: power_of_two(-10) };
-    /// For the end of a train: a hundredth of what is allowed, of the angle from one strike to the next. The last
-    /// strike stands at a random share of it.
+    /// Digits for the end of a train: a hundredth of the allowed error, of the angle from one strike to the next. The
+    /// last strike stands at a random share of that angle.
     pub(crate) const ENDING: Self = Self { all: power_of_two(-44), strike: 0.01 * FINAL.error };
-    /// For peaks and strikes.
+    /// Digits for peaks and strikes.
     pub(crate) const ALL: Self = Self { all: power_of_two(-50), strike: 0.0 };
-    /// For angles beyond f64.
+    /// Digits for angles beyond f64.
     const ANGLES: Self = Self { all: power_of_two(-80), strike: 0.0 };
 
-    /// Whether a relative error will do, where D is a difference of terms larger by the factor `cancels`.
+    /// Returns whether a relative error is small enough, where D is a difference of terms larger by the factor
+    /// `cancels`.
     fn allow(self, error: f64, cancels: f64) -> bool {
         // N ≈ π/θ with θ² ≈ D/T².
         error <= self.all || error * error * cancels * 10.0 <= self.strike * self.strike
     }
 }
 
-/// How many steps until a sign changes: below 2¹²⁰ for every bar and start that is let in.
+/// The number of steps until a sign changes: below 2¹²⁰ for every bar and start that is let in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Steps {
     Exactly(u128),
@@ -137,7 +138,7 @@ struct Last {
     time: f64,
 }
 
-/// How a train ends.
+/// The end of a train.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ending {
     pub(crate) count: Count,
@@ -149,8 +150,8 @@ pub(crate) struct Ending {
 /// The impact with the largest |a_n|, and that value.
 pub(crate) type Largest = (PeakImpact, f64);
 
-/// Which solution of the recurrence: that of the velocities, or that of their differences a_{n+1} − a_n, whose
-/// first sign change is where |a_n| is largest.
+/// The solution of the recurrence: that of the velocities, or that of their differences a_{n+1} − a_n, whose first sign
+/// change is where |a_n| is largest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Series {
     Velocity,
@@ -159,7 +160,7 @@ enum Series {
 
 #[expect(clippy::inline_always, reason = "a count in one piece, in registers, takes two thirds of the time")]
 impl Drive {
-    /// For T > 0 and e > 0.
+    /// Creates the recurrence of a bar and a start, for T > 0 and e > 0.
     #[inline(always)]
     pub(crate) fn new(bar: &Symmetric, start: &Start, digits: Digits) -> Self {
         let [va, vb] = start.velocity();
@@ -175,7 +176,7 @@ impl Drive {
             exponent(va).max(exponent(vb) + m)
         };
         let (alpha, beta) = if unit == 0 && m == 0 { (-va, -vb) } else { (ldexp(-va, -unit), ldexp(-vb, m - unit)) };
-        // The kind comes last: a whole that is written and at once copied makes the processor wait.
+        // The kind comes last: a struct that is written and copied at once makes the processor wait.
         let drive = Self { bar: *bar, start: *start, m, unit, t, e: scaled_e, alpha, beta, kind: Kind::Edge };
         let (d, d_error) = drive.discriminant(digits);
         let kind = if d.hi > 0.0 {
@@ -190,7 +191,7 @@ impl Drive {
         Self { kind, ..drive }
     }
 
-    /// D = 4e − T² and a bound on its relative error; its sign is certain.
+    /// Returns D = 4e − T² and a bound on its relative error; its sign is certain.
     #[inline(always)]
     fn discriminant(&self, digits: Digits) -> (Dd, f64) {
         let Symmetric { e, less, more, .. } = self.bar;
@@ -218,7 +219,7 @@ impl Drive {
         self.wide_discriminant(digits)
     }
 
-    /// The same where more digits are needed.
+    /// Returns the same as [`discriminant`](Self::discriminant), with more digits.
     #[cold]
     fn wide_discriminant(&self, digits: Digits) -> (Dd, f64) {
         let (e, q) = (self.bar.e, self.bar.wide_q());
@@ -245,7 +246,7 @@ impl Drive {
         (self.bar.exact_q().over_square(&exact.discriminant(), 2 * self.m), power_of_two(-100))
     }
 
-    /// αT + 2β, to a relative 2⁻⁹⁰ of the amplitude at the very least.
+    /// Returns αT + 2β, to a relative 2⁻⁹⁰ of the amplitude at the very least.
     fn slope(&self, t: Dd, d: f64) -> Dd {
         let at = t * self.alpha;
         let x = at + self.wide_beta() * 2.0;
@@ -258,7 +259,7 @@ impl Drive {
         self.bar.exact_q().over_nu(&x, self.m - self.unit)
     }
 
-    /// σ τ = αβT + β² + α²e, to a relative 2⁻⁵² at the very least, its sign for certain.
+    /// Returns σ τ = αβT + β² + α²e, to a relative 2⁻⁵² at the very least, its sign for certain.
     fn product(&self) -> f64 {
         let (alpha, beta) = (self.alpha, self.wide_beta());
         let terms = [beta * alpha * self.wide_t(), beta.sqr(), two_prod(alpha, alpha) * self.e];
@@ -273,7 +274,7 @@ impl Drive {
     fn decay(&self, d: Dd, d_error: f64) -> Decay {
         let (alpha, beta) = (self.alpha, self.beta);
         if beta >= 0.0 {
-            // Sums of what is not negative.
+            // All terms of these sums are positive or 0.
             let (s, product) = ((-d.hi).sqrt(), alpha * beta * self.t + beta * beta + alpha * alpha * self.e);
             let sigma = 0.5 * (alpha * (self.t + s)) + beta;
             return Decay { s, plus: 0.5 * (self.t + s), sigma, tau: product / sigma };
@@ -294,7 +295,7 @@ impl Drive {
         Decay { s, plus, sigma, tau }
     }
 
-    /// ln(λ₊/λ₋) of a decay, and ln λ₊ of the true λ₊.
+    /// Returns ln(λ₊/λ₋) of a decay, and ln λ₊ of the true λ₊.
     fn rates(&self, &Decay { s, plus, .. }: &Decay) -> [f64; 2] {
         let shift = f64::from(self.m) * LN_2;
         let rate = if s < 0.5 * plus { -log1p(-s / plus) } else { 2.0 * (log(plus) - shift) - self.ln_e() };
@@ -307,43 +308,43 @@ impl Drive {
         [rate, ln_plus]
     }
 
-    /// T to about 2⁻¹⁰⁰.
+    /// Returns T to about 2⁻¹⁰⁰.
     fn wide_t(&self) -> Dd {
         let q = self.bar.wide_q();
         (if self.m == 0 { q } else { q.scale(self.m) }) * two_sum(1.0, self.bar.e)
     }
 
-    /// β to about 2⁻¹⁰⁰.
+    /// Returns β to about 2⁻¹⁰⁰.
     fn wide_beta(&self) -> Dd {
         let beta = -self.start.wide_b();
         if self.unit == 0 && self.m == 0 { beta } else { beta.scale(self.m - self.unit) }
     }
 
-    /// ln e of the true e.
+    /// Returns ln e of the true e.
     fn ln_e(&self) -> f64 {
         let e = self.bar.e;
         if e > 0.5 { log1p(e - 1.0) } else { log(e) }
     }
 
-    /// hypot(αT + 2β, αS) of a wave.
+    /// Returns hypot(αT + 2β, αS) of a wave.
     fn amplitude(&self, wave: &Wave) -> f64 {
         let (x, y) = (wave.x, self.alpha * wave.s);
         // Squares leave the range only where a scale has been brought in.
         if self.m == 0 { (x * x + y * y).sqrt() } else { hypot(x, y) }
     }
 
-    /// 1 − e and (1 − q)(1 + e), without cancellation: u + w = 2 − T, u − w = T − 2e, w = 1 − T + e.
+    /// Returns 1 − e and (1 − q)(1 + e), without cancellation: u + w = 2 − T, u − w = T − 2e, w = 1 − T + e.
     fn corner(&self) -> (f64, f64) {
         (1.0 - self.bar.e, self.bar.less * (1.0 + self.bar.e))
     }
 
-    /// The number of impacts.
+    /// Returns the number of impacts.
     #[inline(always)]
     pub(crate) fn count(&self) -> Count {
         if let Kind::Wave(Wave { theta, psi, .. }) = self.kind
             && psi / theta > BEYOND_NUMBERS
         {
-            // Only the nearest float is asked for: no need to know the last impact by integers.
+            // The nearest float is enough: the last impact need not be known by integers.
             let (theta, psi, _) = self.angles(false);
             return Count::Huge((psi / theta).hi);
         }
@@ -353,7 +354,7 @@ impl Drive {
         }
     }
 
-    /// Count, time and final velocities.
+    /// Returns count, time and final velocities.
     pub(crate) fn ending(&self) -> Ending {
         match self.steps() {
             Steps::Exactly(n) => {
@@ -397,16 +398,16 @@ impl Drive {
         }
     }
 
-    /// ln(τ/σ), with τ − σ = −αS, for σ < 0.
+    /// Returns ln(τ/σ), with τ − σ = −αS, for σ < 0.
     fn span(&self, &Decay { s, sigma, tau, .. }: &Decay) -> f64 {
         let gap = self.alpha * s / -sigma;
         if gap < 1.0 { log1p(gap) } else { log(tau / sigma) }
     }
 
-    /// ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
+    /// Returns ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
     #[inline(always)]
     fn settle(&self, series: Series, quotient: f64, error: f64) -> Steps {
-        // By integers, which take fewer instructions than `round` and `ceil`.
+        // Integers take fewer instructions than `round` and `ceil`.
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_precision_loss,
@@ -419,12 +420,12 @@ impl Drive {
         self.settle_exactly(series, quotient, error)
     }
 
-    /// The same with more digits.
+    /// Returns the same as [`settle`](Self::settle), with more digits.
     #[cold]
     fn settle_exactly(&self, series: Series, quotient: f64, error: f64) -> Steps {
         let (mut middle, mut error) = (Dd::from(quotient), error);
         if let (Kind::Wave(_), Series::Velocity) = (self.kind, series) {
-            // Of some thousand strikes no more digits count.
+            // A count of some thousand strikes needs no more digits.
             let (theta, psi, angle_error) = self.angles(quotient < 4096.0);
             middle = psi / theta;
             // αT + 2β as `slope` guarantees. A larger bound would let the search below leave the half turn.
@@ -456,8 +457,8 @@ impl Drive {
         Steps::Exactly(high)
     }
 
-    /// θ and ψ of a wave in double-double, and a bound on the relative error that both share: 2⁻⁸¹ where that is
-    /// `enough`, else 2⁻⁹⁵, beside that of D.
+    /// Returns θ and ψ of a wave in double-double, and a bound on the relative error that both share: 2⁻⁸¹ where that
+    /// is `enough`, else 2⁻⁹⁵, plus that of D.
     fn angles(&self, enough: bool) -> (Dd, Dd, f64) {
         let (d, d_error) = self.discriminant(Digits::ANGLES);
         let (s, t) = (d.sqrt(), self.wide_t());
@@ -465,7 +466,8 @@ impl Drive {
         (theta, psi, d_error + power_of_two(if enough { -81 } else { -95 }))
     }
 
-    /// |δ_n| = |ψ − nθ| for each n, to a relative `error` or from double-double angles, and what they are off by at most.
+    /// Returns |δ_n| = |ψ − nθ| for each n, to a relative `error` or from double-double angles, and a bound on their
+    /// error.
     fn remainders<const K: usize>(&self, wave: &Wave, n: [u128; K], error: f64) -> ([f64; K], f64) {
         let deltas = n.map(|n| (wave.psi - to_f64(n) * wave.theta).abs());
         let least = deltas.iter().fold(f64::INFINITY, |least, delta| delta.min(least));
@@ -477,7 +479,7 @@ impl Drive {
         (n.map(|n| (psi - theta * wide(n)).abs().hi), 2.0 * angle_error * wave.psi)
     }
 
-    /// Approach velocity and time of strike n.
+    /// Returns the approach velocity and time of strike n.
     pub(crate) fn strike(&self, n: u64) -> (f64, f64) {
         let n = u128::from(n);
         if let Kind::Decay(decay) = self.kind
@@ -490,7 +492,7 @@ impl Drive {
             let time = ldexp(self.start.height_gap() * (g / sum), self.m - self.unit);
             return (-self.power(count * ln_plus, sum / plus), time);
         }
-        // What an f64 angle may be off, spread by the amplitude, relative to |v_a|.
+        // The error of an f64 angle, spread by the amplitude, relative to |v_a|.
         let spread = match self.kind {
             Kind::Wave(wave) => {
                 let amplitude = self.decayed(n, self.amplitude(&wave) / wave.s);
@@ -503,7 +505,7 @@ impl Drive {
         (a, time)
     }
 
-    /// a_{n−1}, a_n and the time of strike n, of a wave from angles to a relative `error`.
+    /// Returns a_{n−1}, a_n and the time of strike n, of a wave from angles to a relative `error`.
     fn last(&self, n: u128, error: f64) -> Last {
         if n == 1 {
             return Last { a: self.start.velocity()[0], next: self.first(), time: 0.0 };
@@ -575,7 +577,7 @@ impl Drive {
         Last { a: power(c, cx, n - 1), next: power(next, nx, n), time }
     }
 
-    /// The time an endless train tends to: h0/σ.
+    /// Returns the time an endless train tends to: h0/σ.
     fn limit(&self) -> f64 {
         let h0 = self.start.height_gap();
         let sigma = match self.kind {
@@ -585,40 +587,40 @@ impl Drive {
         if h0 == 0.0 { 0.0 } else { ldexp(h0 / sigma.abs(), self.m - self.unit) }
     }
 
-    /// e^{n/2} v, of true scale.
+    /// Returns e^{n/2} v, of true scale.
     fn decayed(&self, n: u128, v: f64) -> f64 {
         self.power(0.5 * to_f64(n) * self.ln_e(), v)
     }
 
-    /// Whether the amplitude that the first strikes have of a wave is no float, though they are: next to e = 0 they are
-    /// its lesser part.
+    /// Returns whether the amplitude of a wave, formed for its first strikes, overflows although the strikes do not:
+    /// next to e = 0 they are a small part of it.
     pub(crate) fn is_out_of_range(&self, wave: &Wave) -> bool {
         self.decayed(0, self.amplitude(wave) / wave.s) == f64::INFINITY
     }
 
-    /// exp(x) v, of true scale.
+    /// Returns exp(x) v, of true scale.
     fn power(&self, x: f64, v: f64) -> f64 {
         let [power] = self.powers(x, [v]);
         power
     }
 
-    /// exp(x) v for each v, of true scale.
+    /// Returns exp(x) v for each v, of true scale.
     fn powers<const K: usize>(&self, x: f64, v: [f64; K]) -> [f64; K] {
         if self.unit == 0 && x > -600.0 {
             let factor = exp(x);
             return v.map(|v| factor * v);
         }
-        // By halves: a factor may leave the range of floats where the product does not.
+        // The product is formed by halves: a factor may leave the range of floats where the product does not.
         let half = exp(0.5 * x);
         v.map(|v| ldexp(half * v, self.unit) * half)
     }
 
-    /// −(αT + β), the next velocity after the first strike, true scale.
+    /// Returns −(αT + β), the next velocity after the first strike, true scale.
     fn first(&self) -> f64 {
         -after_first(&self.bar, &self.start)
     }
 
-    /// The impact of the largest |a_n|, the first if several tie, `Limit` where none attains it; and the value.
+    /// Returns the impact of the largest |a_n|, the first if several tie, `Limit` where none attains it; and the value.
     pub(crate) fn peak(&self) -> Largest {
         let (steps, largest) = self.peak_steps();
         let impact = match steps {
@@ -628,7 +630,7 @@ impl Drive {
         (impact, largest)
     }
 
-    /// Index n and value of the largest |a_n|, the first if several tie; `Endless` where it is a limit.
+    /// Returns the index n and the value of the largest |a_n|, the first if several tie; `Endless` where it is a limit.
     fn peak_steps(&self) -> (Steps, f64) {
         if !rises(&self.bar, &self.start) {
             return (Steps::Exactly(0), -self.start.velocity()[0]);
@@ -674,7 +676,7 @@ impl Drive {
         }
     }
 
-    /// |a_n|, of true scale. Meant for n near the peak, where e^{n/2} is not small.
+    /// Returns |a_n|, of true scale, for n near the peak, where e^{n/2} is not small.
     fn magnitude(&self, n: Steps) -> f64 {
         let n = match n {
             Steps::Exactly(0) => return -self.start.velocity()[0],
@@ -699,7 +701,7 @@ impl Drive {
         }
     }
 
-    /// The same recurrence with whole numbers.
+    /// Returns the same recurrence in whole numbers.
     fn exact(&self, series: Series) -> Recurrence {
         let exact = exact(&self.bar, &self.start);
         match series {
@@ -709,21 +711,22 @@ impl Drive {
     }
 }
 
-/// With q = μ/ν: P = μ(1 + e), Q = eν², `c_0` = `v_a`, w = ν `v_b`. For an off-center bar, whose `v_b` is κ times that of
-/// its end and κ = I_a/ν, w is I_a times the velocity of its end: whole again.
+/// Returns the recurrence in whole numbers. With q = μ/ν: P = μ(1 + e), Q = eν², `c_0` = `v_a`, w = ν `v_b`. For an
+/// off-center bar, whose `v_b` is κ times that of its end and κ = I_a/ν, w is I_a times the velocity of its end: whole
+/// again.
 pub(crate) fn exact(bar: &Symmetric, start: &Start) -> Recurrence {
-    let (Ratio { mu, square, beside, .. }, e) = (bar.exact_q(), Dyadic::from(bar.e));
+    let (Ratio { mu, square, factor_b, .. }, e) = (bar.exact_q(), Dyadic::from(bar.e));
     Recurrence {
         p: mu.mul(&Dyadic::from(1.0).add(&e)),
         q: e.mul(&square),
         v: Dyadic::from(start.velocity()[0]),
-        w: beside.mul(&Dyadic::from(start.own_b)),
+        w: factor_b.mul(&Dyadic::from(start.own_b)),
     }
 }
 
 impl Recurrence {
-    /// The differences a_{n+1} − a_n, times ν^{n+1}: they obey the same recurrence, from
-    /// (T − `1)v_a` + `v_b` and −(`v_b` + e `v_a`). Whole but for an off-center bar, whose ν is rounded.
+    /// Returns the recurrence of the differences a_{n+1} − a_n, times ν^{n+1}: it is the same one, from (T − 1) `v_a` +
+    /// `v_b` and −(`v_b` + e `v_a`). These are whole but for an off-center bar, whose ν is rounded.
     fn differences(&self, bar: &Symmetric) -> Self {
         let nu = bar.exact_q().nu;
         let v = self.p.sub(&nu).mul(&self.v).add(&self.w);
@@ -732,9 +735,9 @@ impl Recurrence {
     }
 }
 
-/// D = 4e − T² with T = q(1 + `restitution`) = t + τ, τ what rounding leaves beside t: `((4e − s) − s') − 2tτ` with s +
-/// s' = t² exactly. Where that cancels, 4e − s is exact; else its rounding is one of D. Error: 3 roundings of D, 2⁻¹⁰²
-/// of 4e.
+/// Returns D = 4e − T² with T = q(1 + `restitution`) = t + τ, where τ is the rounding error of t: `((4e − s) − s') −
+/// 2tτ` with s + s' = t² exactly. Where that cancels, 4e − s is exact; else its rounding is one of D. The error is 3
+/// roundings of D and 2⁻¹⁰² of 4e.
 #[inline]
 fn compensated(q: Dd, restitution: f64, e: f64) -> f64 {
     let product = two_prod(q.hi, restitution);
@@ -744,7 +747,7 @@ fn compensated(q: Dd, restitution: f64, e: f64) -> f64 {
     ((4.0 * e - square.hi) - square.lo) - 2.0 * t.hi * rest
 }
 
-/// The same with T = t + τ + τ' exactly: what is left out is below 2⁻¹⁵⁵ of 4e.
+/// Returns the same with T = t + τ + τ' exactly: the neglected terms are below 2⁻¹⁵⁵ of 4e.
 fn expanded(q: f64, restitution: f64, e: f64) -> Dd {
     let product = two_prod(q, restitution);
     let t = two_sum(q, product.hi);
@@ -754,17 +757,17 @@ fn expanded(q: f64, restitution: f64, e: f64) -> Dd {
     two_sum(4.0 * e, -square.hi) - two_sum(square.lo, cross.hi) - Dd::from(small)
 }
 
-/// Velocities after the last strike: of the end that struck, a for an odd count, and of the other.
+/// Returns the velocities of ends a and b after the last strike: the struck end is a for an odd count.
 #[inline]
 pub(crate) fn rebound(bar: &Symmetric, odd: bool, a: f64, next: f64) -> [f64; 2] {
-    // By bits: a branch on the parity would be mispredicted every other time.
+    // The swap is by bits: a branch on the parity would be mispredicted every other time.
     let (next, struck) = (next.to_bits(), (-bar.e * a).to_bits());
     let swap = (next ^ struck) & u64::from(odd).wrapping_neg();
     [f64::from_bits(next ^ swap), f64::from_bits(struck ^ swap)]
 }
 
-/// Velocities an endless train tends to: rest, unless the ends have no mass (q = 1), where only a bar that turns about
-/// a still center comes to rest.
+/// Returns the velocities that an endless train tends to: rest, unless the ends have no mass (q = 1), where only a bar
+/// that turns about a still center comes to rest.
 pub(crate) fn rest(bar: &Symmetric, start: &Start) -> Option<[f64; 2]> {
     let still = || {
         let va = start.velocity()[0];
@@ -776,7 +779,7 @@ pub(crate) fn rest(bar: &Symmetric, start: &Start) -> Option<[f64; 2]> {
     (bar.less > 0.0 || (bar.e < 1.0 && still())).then_some([0.0, 0.0])
 }
 
-/// αT + β = −a_1, to a relative 4 ε unless it is subnormal, its sign for certain.
+/// Returns αT + β = −a_1, to a relative 4 ε unless it is subnormal; its sign is certain.
 pub(crate) fn after_first(bar: &Symmetric, start: &Start) -> f64 {
     let at = bar.wide_q() * two_sum(1.0, bar.e) * -start.velocity()[0];
     let sum = at - start.wide_b();
@@ -795,7 +798,7 @@ pub(crate) fn after_first(bar: &Symmetric, start: &Start) -> f64 {
     }
 }
 
-/// Whether |a_1| > |a_0|, for certain: α(T − 1) + β > 0.
+/// Returns whether |a_1| > |a_0|, for certain: α(T − 1) + β > 0.
 pub(crate) fn rises(bar: &Symmetric, start: &Start) -> bool {
     let [va, vb] = start.velocity();
     // T − 1 = e − (1 − q)(1 + e), the smaller of two ways to cancel.
@@ -806,13 +809,14 @@ pub(crate) fn rises(bar: &Symmetric, start: &Start) -> bool {
     exact(bar, start).differences(bar).sign(0) == Ordering::Less
 }
 
-/// Angle of the point (x, y) for y ≥ 0, (x, y) ≠ 0: a relative 2 ε. In the first octant it is that of the nearest
-/// quarter, atan(j/4), and a rest of no more than 1/8 from its series: one division, and no branch to mispredict.
+/// Returns the angle of the point (x, y) for y ≥ 0, (x, y) ≠ 0, to a relative 2 ε. In the first octant it is the angle
+/// of the nearest quarter, atan(j/4), and a rest of no more than 1/8 from its series: one division, and no branch to
+/// mispredict.
 #[inline]
 fn angle(y: f64, x: f64) -> f64 {
     let ax = x.abs();
     if y <= 0.125 * ax {
-        // As it is for trains of some 25 impacts or more.
+        // This is the case of trains of some 25 impacts or more.
         let small = small_angle(y / ax);
         return if x < 0.0 { PI - small } else { small };
     }
@@ -825,7 +829,7 @@ fn angle(y: f64, x: f64) -> f64 {
     if x < 0.0 { PI - acute } else { acute }
 }
 
-/// Arc tangent for |t| ≤ 1/8.
+/// Returns the arc tangent for |t| ≤ 1/8.
 #[inline]
 fn small_angle(t: f64) -> f64 {
     let z = t * t;
@@ -844,7 +848,7 @@ const QUARTERS: [(f64, f64); 8] = {
     [(0.0, 0.0), (0.25, a), (0.5, b), (0.75, c), (1.0, d), (1.0, d), (1.0, d), (1.0, d)]
 };
 
-/// The exponent of the leading bit.
+/// Returns the exponent of the leading bit.
 fn exponent(x: f64) -> i32 {
     clamp(Dyadic::from(x).to_float().1)
 }
@@ -860,20 +864,20 @@ fn as_f64(x: i128) -> f64 {
     x as f64
 }
 
-/// n as the sum of two floats, without error below 2¹⁰⁶.
+/// Returns n as the sum of two floats, without error below 2¹⁰⁶.
 fn wide(n: u128) -> Dd {
     let low = n & ((1 << 53) - 1);
     two_sum(to_f64(n - low), to_f64(low))
 }
 
-/// ⌈x⌉, at least 1, for x < 2¹²⁷.
+/// Returns ⌈x⌉, at least 1, for x < 2¹²⁷.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range, and saturating beyond")]
 fn ceil_to_int(x: f64) -> u128 {
     let x = x.ceil().max(1.0);
     if x < 1e18 { u128::from(x as u64) } else { x as u128 }
 }
 
-/// An integral double-double in [0, 2¹²⁷).
+/// Returns an integral double-double in [0, 2¹²⁷) as an integer.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range, and saturating beyond")]
 fn integer(x: Dd) -> u128 {
     ((x.hi as i128) + (x.lo as i128)).max(0) as u128

@@ -42,13 +42,13 @@ use crate::{Error, Restitution};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Corner {
-    /// At (−1, −1).
+    /// Corner at (−1, −1).
     A,
-    /// At (1, −1).
+    /// Corner at (1, −1).
     B,
-    /// At (1, 1), opposite of a.
+    /// Corner at (1, 1), opposite of a.
     C,
-    /// At (−1, 1).
+    /// Corner at (−1, 1).
     D,
 }
 
@@ -56,12 +56,12 @@ impl Corner {
     /// All four, around the plate.
     pub const ALL: [Self; 4] = [Self::A, Self::B, Self::C, Self::D];
 
-    /// The letter by which it is told.
+    /// Returns the letter of the corner.
     #[must_use]
     pub fn letter(self) -> char {
         ['a', 'b', 'c', 'd'][self as usize]
     }
-    /// Position (x, y), of which each is −1 or 1.
+    /// Returns the position (x, y); each coordinate is −1 or 1.
     #[must_use]
     pub fn position(self) -> [f64; 2] {
         [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][self as usize]
@@ -93,9 +93,9 @@ pub struct Plate {
     /// s_x and s_y.
     center: [f64; 2],
     e: f64,
-    /// What a strike of unit speed at corner j changes at corner i, (1 + e) w_j(i)/w_j(j), at `[j][i]`.
+    /// Change at corner i by a strike of unit speed at corner j, (1 + e) w_j(i)/w_j(j), at `[j][i]`.
     jump: [[f64; 4]; 4],
-    /// The same, but for e at the corner itself.
+    /// The same, but e at the corner itself.
     change: [[f64; 4]; 4],
     /// w_j(j).
     weight: [f64; 4],
@@ -109,8 +109,8 @@ pub struct Plate {
 const GYRATION: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
 impl Plate {
-    /// From the gyration ratios k_x and k_y, radii of gyration over half the length and half the width, and the
-    /// restitution; the center of mass is the middle.
+    /// Creates a plate from the gyration ratios k_x and k_y, radii of gyration over half the length and half the width,
+    /// and the restitution; the center of mass is the middle.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless both ratios are in [1e−9, 1e9], [`Error::Restitution`] unless 0 ≤ e ≤ 1.
@@ -118,7 +118,7 @@ impl Plate {
         Self::off_center(gyration_ratios, [0.0; 2], e)
     }
 
-    /// A plate whose mass is spread evenly, of any aspect: k_x = k_y = 1/√3.
+    /// Creates a plate whose mass is spread evenly, of any aspect: k_x = k_y = 1/√3.
     ///
     /// # Errors
     /// [`Error::Restitution`] unless 0 ≤ e ≤ 1.
@@ -126,7 +126,8 @@ impl Plate {
         Self::new([(1.0_f64 / 3.0).sqrt(); 2], e)
     }
 
-    /// From the gyration ratios about the center of mass, where that lies, (s_x, s_y), and the restitution.
+    /// Creates a plate from the gyration ratios about the center of mass, the position of that, (s_x, s_y), and the
+    /// restitution.
     ///
     /// # Errors
     /// Those of [`Plate::new`], and [`Error::Quantity`] unless s_x and s_y are in (−1, 1).
@@ -166,34 +167,35 @@ impl Plate {
         Ok(plate)
     }
 
-    /// Gyration ratios k_x and k_y.
+    /// Returns the gyration ratios k_x and k_y.
     #[must_use]
     pub fn gyration_ratios(&self) -> [f64; 2] {
         self.gyration
     }
-    /// Where the center of mass lies, (s_x, s_y).
+    /// Returns the position of the center of mass, (s_x, s_y).
     #[must_use]
     pub fn center_of_mass(&self) -> [f64; 2] {
         self.center
     }
-    /// Coefficient of restitution.
+    /// Returns the coefficient of restitution.
     #[must_use]
     pub fn e(&self) -> f64 {
         self.e
     }
-    /// Whether the center of mass is the middle, so that all corners are alike.
+    /// Returns whether the center of mass is the middle, so that all corners are alike.
     #[must_use]
     pub fn is_centered(&self) -> bool {
         self.center.iter().all(|s| *s == 0.0)
     }
-    /// w_j(j) = 1 + X_j²/k_x² + Y_j²/k_y² of a corner: the mass of the plate over the mass that a strike there moves.
+    /// Returns w_j(j) = 1 + X_j²/k_x² + Y_j²/k_y² of a corner: the mass of the plate over the mass that a strike there
+    /// moves.
     #[must_use]
     pub fn weight(&self, corner: Corner) -> f64 {
         self.weight[corner as usize]
     }
 
-    /// Share of the shock of a strike at `corner` that reaches the place (x, y): w_j(x, y)/w_j(j) of the module's
-    /// formula. It is 0 along the line of percussion of that corner, and 1/w_j(j) at the center of mass.
+    /// Returns the share of the shock of a strike at `corner` that reaches the place (x, y): w_j(x, y)/w_j(j) of the
+    /// module's formula. It is 0 along the line of percussion of that corner, and 1/w_j(j) at the center of mass.
     ///
     /// # Accuracy
     /// 4 ε of the sum of the sizes of its three terms.
@@ -212,24 +214,24 @@ impl Plate {
         constant + (along_x * (x - self.center[0]) + along_y * (y - self.center[1]))
     }
 
-    /// The share as a linear form about the center of mass: constant, and how it grows with X and Y.
+    /// Returns the share as a linear form about the center of mass: its constant, and its slopes along X and Y.
     fn share_form(&self, corner: Corner) -> [f64; 3] {
         let ([x, y], own) = (corner.position(), self.weight(corner));
         let [kx, ky] = self.gyration;
         [1.0 / own, (x - self.center[0]) / kx / kx / own, (y - self.center[1]) / ky / ky / own]
     }
 
-    /// The same plate seen in a mirror across x: a ↔ b and d ↔ c.
+    /// Returns the plate in a mirror across x: a ↔ b and d ↔ c.
     #[must_use]
     pub fn mirrored_x(&self) -> Self {
         self.renamed([0.0 - self.center[0], self.center[1]], self.gyration)
     }
-    /// The same plate seen in a mirror across y: a ↔ d and b ↔ c.
+    /// Returns the plate in a mirror across y: a ↔ d and b ↔ c.
     #[must_use]
     pub fn mirrored_y(&self) -> Self {
         self.renamed([self.center[0], 0.0 - self.center[1]], self.gyration)
     }
-    /// The same plate with its axes exchanged: b ↔ d.
+    /// Returns the plate with its axes exchanged: b ↔ d.
     #[must_use]
     pub fn exchanged(&self) -> Self {
         let [[sx, sy], [kx, ky]] = [self.center, self.gyration];
@@ -240,14 +242,14 @@ impl Plate {
         Self::off_center(gyration, center, self.e).unwrap_or(*self)
     }
 
-    /// k_x² k_y².
+    /// Returns k_x² k_y².
     fn squares(&self) -> Dd {
         let [kx, ky] = self.gyration.map(|k| two_prod(k, k));
         kx * ky
     }
 
-    /// k_x² k_y² w_j(i) = k_x² k_y² + X_i X_j k_y² + Y_i Y_j k_x², and the sum of the sizes of its terms: it is off by
-    /// 2⁻¹⁰⁰ of that.
+    /// Returns k_x² k_y² w_j(i) = k_x² k_y² + X_i X_j k_y² + Y_i Y_j k_x², and the sum of the sizes of its terms: the
+    /// error is 2⁻¹⁰⁰ of that.
     fn coupling(&self) -> [[(Dd, f64); 4]; 4] {
         let [kx, ky] = self.gyration.map(|k| two_prod(k, k));
         let arms = Corner::ALL.map(|corner| {
@@ -263,7 +265,7 @@ impl Plate {
         })
     }
 
-    /// The same in whole numbers, with one factor for all.
+    /// Returns the same as [`coupling`](Self::coupling) in whole numbers, with one factor for all.
     fn exact_coupling(&self) -> [[Dyadic; 4]; 4] {
         let whole = |x: f64| Dyadic::from(x).odd();
         let [kx, ky] = self.gyration.map(|k| whole(k).mul(&whole(k)));
@@ -280,8 +282,9 @@ impl Plate {
         })
     }
 
-    /// √(V² + k_x² Ω_x² + k_y² Ω_y²) of the motion whose corner values are these, with V that of the center of mass: the
-    /// root of twice the kinetic energy per mass. Strikes do not raise it, and no corner j is faster than √w_j(j) times it.
+    /// Returns √(V² + k_x² Ω_x² + k_y² Ω_y²) of the motion with these corner values, where V is that of the center of
+    /// mass: the root of twice the kinetic energy per mass. Strikes do not raise it, and no corner j is faster than
+    /// √w_j(j) times it.
     fn norm(&self, [a, b, _, d]: [f64; 4]) -> f64 {
         let [wx, wy] = [0.5 * (b - a), 0.5 * (d - a)];
         let v = a + (1.0 + self.center[0]) * wx + (1.0 + self.center[1]) * wy;
@@ -290,28 +293,28 @@ impl Plate {
     }
 }
 
-/// How a plate arrives: what its corners do when corner a touches.
+/// The state of a plate when corner a touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateStart {
-    /// Of a, b and d.
+    /// Velocities of a, b and d.
     velocity: [f64; 3],
     /// Heights of b and d.
     gaps: [f64; 2],
 }
 
 impl Default for PlateStart {
-    /// Pure translation at unit speed, tilted along the diagonal: b and d at the same height 1.
+    /// Returns pure translation at unit speed, tilted along the diagonal: b and d at the same height 1.
     fn default() -> Self {
         Self { velocity: [-1.0; 3], gaps: [1.0; 2] }
     }
 }
 
-/// Velocities and gaps beyond leave no room for their products.
+/// Sizes of velocities and gaps whose products stay within the range of floats.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 impl PlateStart {
-    /// Upward velocities of corners a, b and d, and the heights of b and d; c moves and stands as the plane of the other
-    /// three asks, v_c = v_b + v_d − v_a and h_c = h_b + h_d.
+    /// Creates a start from the upward velocities of corners a, b and d, and the heights of b and d; c lies and moves
+    /// in the plane of the other three, v_c = v_b + v_d − v_a and h_c = h_b + h_d.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless v_a is in [−1e60, −1e−60], the other velocities are 0 or of a size in [1e−60, 1e60], and
@@ -337,7 +340,7 @@ impl PlateStart {
         Ok(Self { velocity: velocity.map(|v| v + 0.0), gaps: gaps.map(|h| h + 0.0) })
     }
 
-    /// Pure translation at unit speed with these heights of b and d.
+    /// Creates a start of pure translation at unit speed with these heights of b and d.
     ///
     /// # Errors
     /// Those of [`PlateStart::new`].
@@ -345,26 +348,26 @@ impl PlateStart {
         Self::new([-1.0; 3], gaps)
     }
 
-    /// Velocities of the four corners; that of c rounded.
+    /// Returns the velocities of the four corners; that of c is rounded.
     #[must_use]
     pub fn velocities(&self) -> [f64; 4] {
         let [a, b, d] = self.velocity;
         [a, b, (two_sum(b, d) - Dd::from(a)).hi, d]
     }
-    /// Heights of corners b and d.
+    /// Returns the heights of corners b and d.
     #[must_use]
     pub fn gaps(&self) -> [f64; 2] {
         self.gaps
     }
-    /// Whether all four corners touch at once.
+    /// Returns whether all four corners touch at once.
     fn is_flat(&self) -> bool {
         self.gaps.iter().all(|gap| *gap == 0.0)
     }
-    /// The gaps by which corners are put in order: of a flat drop those of the tilt along the diagonal, of any size.
+    /// Returns the gaps that order the corners: for a flat drop those of the tilt along the diagonal, of any size.
     fn ordering_gaps(&self) -> [f64; 2] {
         if self.is_flat() { [1.0; 2] } else { self.gaps }
     }
-    /// How the gaps change with the tilt that settles a tie: towards h_d, or from h_b = 0 towards h_b.
+    /// Returns the change of the gaps with the tilt that settles a tie: towards h_d, or from h_b = 0 towards h_b.
     fn nudge(&self) -> [f64; 2] {
         let [hx, _] = self.ordering_gaps();
         if hx == 0.0 { [1.0, 0.0] } else { [0.0, 1.0] }

@@ -1,6 +1,6 @@
 //! Adaptive integration of a function of one variable.
 
-/// An integral and a bound on what the quadrature leaves.
+/// An integral and a bound on the error of the quadrature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Integral {

@@ -1,4 +1,4 @@
-//! How the bar arrives: the velocities of both ends at first contact and the height gap.
+//! The arrival of the bar: the velocities of both ends at first contact and the height gap.
 
 use crate::Error;
 use crate::dd::Dd;
@@ -14,7 +14,7 @@ pub enum End {
 }
 
 impl End {
-    /// The other end.
+    /// Returns the other end.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -22,9 +22,9 @@ impl End {
             Self::B => Self::A,
         }
     }
-    /// The end that impact `number` (from 1) falls on: odd numbers on `a`, even ones on `b`.
+    /// Returns the end of impact `number` (from 1): odd numbers fall on `a`, even ones on `b`.
     #[must_use]
-    pub fn of_impact(number: u64) -> Self {
+    pub fn striking(number: u64) -> Self {
         if number % 2 == 1 { Self::A } else { Self::B }
     }
 }
@@ -39,11 +39,11 @@ impl End {
 pub struct Start {
     velocity: [f64; 2],
     height_gap: f64,
-    /// For an off-center bar `velocity[1]` is κ times the velocity of end b. What is left of it after rounding, and the
-    /// velocity of end b itself.
+    /// Rounding error of `velocity[1]`, which for an off-center bar is κ times the velocity of end b, and the velocity
+    /// of end b itself.
     rest: f64,
     pub(crate) own_b: f64,
-    /// Whether a train may begin by plain steps, known before any bar is.
+    /// True if a train may begin by plain steps; it does not depend on the bar.
     pub(crate) plain: bool,
 }
 
@@ -52,14 +52,14 @@ pub struct Start {
 const MODERATE: f64 = 1e-20;
 
 impl Default for Start {
-    /// Pure translation at unit speed, unit height gap: velocities in v0, times in h0/v0.
+    /// Returns pure translation at unit speed with unit height gap: velocities in v0, times in h0/v0.
     fn default() -> Self {
         Self::of([-1.0, -1.0], 1.0)
     }
 }
 
 impl Start {
-    /// Velocities of both ends (upward positive) and the height of end `b` above the ground.
+    /// Creates a start from the velocities of both ends (upward positive) and the height of end `b` above the ground.
     ///
     /// # Errors
     /// [`Error::Velocity`] unless `velocity[0]` is in [−1e150, −1e−150] and `|velocity[1]| ≤ 1e150`;
@@ -84,23 +84,23 @@ impl Start {
         let plain = velocity[1] <= 0.0 && moderate(-velocity[0]) && (height_gap == 0.0 || moderate(height_gap));
         Self { velocity, height_gap, rest: 0.0, own_b: velocity[1], plain }
     }
-    /// With end b's velocity and the height gap times κ, 10⁻⁶ to 10⁶: how an off-center bar arrives in the terms of its
-    /// symmetric one. The bounds leave room for that.
+    /// Returns the start with the velocity of end b and the height gap times κ, 10⁻⁶ to 10⁶: the arrival of an
+    /// off-center bar in the variables of its symmetric one. The bounds of a start leave room for that.
     pub(crate) fn with_b_times(self, kappa: Dd) -> Self {
         let [va, own_b] = self.velocity;
         let Dd { hi, lo } = kappa * own_b;
         Self { rest: lo, own_b, ..Self::of([va, hi], kappa.hi * self.height_gap) }
     }
-    /// Velocity of end b to about 2⁻¹⁰⁰.
+    /// Returns the velocity of end b to about 2⁻¹⁰⁰.
     pub(crate) fn wide_b(&self) -> Dd {
         Dd { hi: self.velocity[1], lo: self.rest }
     }
-    /// Velocities of ends `a` and `b`, upward positive.
+    /// Returns the velocities of ends `a` and `b`, upward positive.
     #[must_use]
     pub fn velocity(&self) -> [f64; 2] {
         self.velocity
     }
-    /// Height of end `b` above the ground when end `a` touches.
+    /// Returns the height of end `b` above the ground when end `a` touches.
     #[must_use]
     pub fn height_gap(&self) -> f64 {
         self.height_gap

@@ -1,23 +1,23 @@
-//! What a train amounts to: count, peak, net change, final velocities, duration.
+//! Summaries of a train: count, peak, net change, final velocities, duration.
 
 use crate::motion::{Digits, Drive, Ending, Largest, NORMAL, after_first, rebound, rest, rises};
 use crate::symmetric::Symmetric;
 use crate::zone::shock;
 use crate::{Bar, Start};
 
-/// How many impacts the train has.
+/// The number of impacts of a train.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Count {
-    /// Exactly so many.
+    /// The exact number of impacts.
     Finite(u64),
-    /// Finite, but beyond 2⁶⁴: the nearest float.
+    /// A finite number beyond 2⁶⁴: the nearest float.
     Huge(f64),
     /// The impacts never end, in finite or infinite time.
     Endless,
 }
 
-/// Which impact holds the peak.
+/// The impact that holds the peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PeakImpact {
@@ -36,7 +36,8 @@ pub enum PeakImpact {
 pub struct Peak {
     /// Largest velocity shock at a struck end, (1 + e) max |a_n|; may be infinite (q = e = 1).
     pub end: f64,
-    /// The impact that holds it; where the center of mass is not the middle any of those that are equal but for roundings.
+    /// The impact that holds it; where the center of mass is not the middle, any of those that are equal but for
+    /// roundings.
     pub impact: PeakImpact,
     /// Largest velocity shock of the center of mass, (1 − q)/2 · `end` where that is the middle; 0 at q = 1.
     pub center: f64,
@@ -48,17 +49,17 @@ pub struct Peak {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Net {
-    /// At end a.
+    /// Net change at end a.
     pub a: f64,
-    /// At end b.
+    /// Net change at end b.
     pub b: f64,
-    /// At the center of mass.
+    /// Net change at the center of mass.
     pub center: f64,
-    /// Of the angular velocity, in v0/L.
+    /// Net change of the angular velocity, in v0/L.
     pub angular: f64,
 }
 
-/// Everything about a train that needs no list of its impacts.
+/// The results about a train that need no list of its impacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Summary {
@@ -74,7 +75,7 @@ pub struct Summary {
     pub net: Option<Net>,
 }
 
-/// Plain steps that are tried before the closed form, which is no faster for a train of so many.
+/// The number of plain steps before the closed form, which is no faster for a train of so many.
 const PLAIN: u32 = 32;
 /// A velocity that came out of a cancellation by more than this factor is left to the closed form. Of a wave with N
 /// impacts, N steps add up to 1.3 N² roundings of its amplitude, of which the last velocities are π/N times this factor
@@ -91,20 +92,20 @@ const SLOW: f64 = 0.009_315;
 struct Short {
     end: Ending,
     peak: Largest,
-    /// Nothing about its end is in doubt.
+    /// True if nothing about its end is in doubt.
     clear: bool,
-    /// Neither is the impact that holds the peak.
+    /// True if the impact that holds the peak is not in doubt either.
     distinct: bool,
 }
 
-/// The lesser of two numbers, neither of them NaN: one instruction, where `f64::min` takes five.
+/// Returns the lesser of two numbers, neither of them NaN: one instruction, where `f64::min` takes five.
 #[inline]
 pub(crate) fn least(x: f64, y: f64) -> f64 {
     if x < y { x } else { y }
 }
 
 impl Bar {
-    /// Count, peak, net change, final velocities and duration of the train, end a first, in constant time.
+    /// Returns the count, peak, net change, final velocities and duration of the train, end a first, in constant time.
     ///
     /// # Method
     /// Up to 32 plain steps of the recurrence `a_{n+1} = T a_n − e a_{n−1}`, T = q(1 + e), where they leave nothing
@@ -121,10 +122,10 @@ impl Bar {
     /// it.
     ///
     /// # Cost
-    /// Measured beside the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the
+    /// Compared with the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the
     /// unit square, and for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to
     /// 250 where double-double is needed (N beyond 10⁷, or next to the endless curve). Where integers decide,
-    /// microseconds to a millisecond for a start next to a tie, and one to a hundred milliseconds to tell which impact
+    /// microseconds to a millisecond for a start next to a tie, and one to a hundred milliseconds to decide which impact
     /// is the largest of more than 10¹⁴ (gyration ratios below 10⁻¹⁴).
     #[must_use]
     #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
@@ -145,11 +146,11 @@ impl Bar {
         Summary { peak: self.off_center_peak(&start), final_velocity, net, ..symmetric }
     }
 
-    /// Number of impacts alone, as exact as in [`summary`](Self::summary), in a fraction of its time: that of the plain
-    /// loop for a short train, of some 70 impacts of it for a train of any length. Beyond 2⁶⁴ it is a float, off by no
-    /// more than its last digit.
+    /// Returns the number of impacts alone, as exact as in [`summary`](Self::summary), in a fraction of its time: that
+    /// of the plain loop for a short train, of some 70 impacts of it for a train of any length. Beyond 2⁶⁴ it is a
+    /// float, off by no more than its last digit.
     ///
-    /// Where the bar is given by masses, [`count_is_exact`](Self::count_is_exact) tells whether it is theirs.
+    /// Where the bar is given by masses, [`count_is_exact`](Self::count_is_exact) returns whether the count is theirs.
     ///
     /// # Examples
     /// This bar is exactly on the endless curve, T = 1 = 2√e. With the next larger e it is not: D = 4e − T² is then 2.4
@@ -171,7 +172,7 @@ impl Bar {
         self.symmetric.count(&self.arrival(start))
     }
 
-    /// Largest velocity shocks alone, those of [`summary`](Self::summary).
+    /// Returns the largest velocity shocks alone, those of [`summary`](Self::summary).
     ///
     /// The peak is the largest shock of an end in its own strikes; those of the center of mass and of the angular
     /// velocity are the largest that any strike gives, not always that same one. The largest shock of every position,
@@ -203,7 +204,8 @@ impl Symmetric {
         Self::long_summary(*self, *start)
     }
 
-    /// Takes copies, so that a bar and a start whose train is short need no place in memory.
+    /// Computes the summary by the closed form. It takes copies, so that a bar and a start whose train is short need no
+    /// place in memory.
     #[inline(never)]
     fn long_summary(self, start: Start) -> Summary {
         let peak = self.plain_peak(&start);
@@ -256,13 +258,13 @@ impl Symmetric {
         }
     }
 
-    /// Whether plain steps are worth a try.
+    /// Returns whether plain steps are worth a try.
     #[inline]
     fn may_be_short(&self, start: &Start) -> bool {
         let (t, e) = (self.t, self.e);
         let [va, vb] = start.velocity();
         let d = 4.0 * e - t * t;
-        // Not for T ≤ 0, e = 0, and a start that cancels, at once or, as a decay does, at every step.
+        // They are not for T ≤ 0, e = 0, and a start that cancels, at once or, as a decay does, at every step.
         t * e > NORMAL
             && if vb > 0.0 {
                 d >= DISCERNIBLE * t * t && (t * va + vb).abs() >= CLEAR * -va * t
@@ -271,7 +273,7 @@ impl Symmetric {
             }
     }
 
-    /// How a train ends that is endless without a doubt.
+    /// Returns the end of a train that is endless without a doubt.
     fn endless(&self, start: &Start) -> Option<Ending> {
         let (t, e) = (self.t, self.e);
         let [va, vb] = start.velocity();
@@ -282,7 +284,7 @@ impl Symmetric {
         })
     }
 
-    /// At most 32 plain steps.
+    /// Follows the train for at most 32 plain steps.
     #[expect(
         clippy::inline_always,
         reason = "the whole summary of a short train takes 15 ns; a call would add a third"
@@ -295,16 +297,15 @@ impl Symmetric {
         let (mut before, mut a, mut next, mut b, mut b_next, mut n) = (0.0, va, first, 0.0, 1.0, 1_u32);
         // The lowest velocity so far, its impact, and how close any two neighbors came to each other.
         let (mut lowest, mut peak, mut margin) = (va, 1, f64::MAX);
-        // |a_n| falls for good once it falls, so that neighbors tell.
+        // |a_n| falls for good once it falls, so that a comparison of neighbors decides.
         let mut compare = |before: f64, velocity: f64, number: u32| {
             let above = velocity - before;
             peak = if above < 0.0 { number } else { peak };
             (lowest, margin) = (least(velocity, lowest), least(above.abs(), margin));
         };
         if vb <= 0.0 {
-            // Which impact is the last is what a branch predictor cannot know: two, three or four of them without a
-            // branch. A second one is certain, and a_3 < 0 comes after a_2 < 0 alone, so that no step too many moves
-            // the peak.
+            // A branch predictor cannot know the last impact: two, three or four of them go without a branch. A second
+            // one is certain, and a_3 < 0 comes after a_2 < 0 alone, so that no step too many moves the peak.
             let second = t * first - e * va;
             let third = t * second - e * first;
             let fourth = t * third - e * second;
@@ -324,8 +325,8 @@ impl Symmetric {
             (before, a, next) = (a, next, t * next - e * a);
             (b, b_next) = (b_next, t * b_next - e * b);
         }
-        // Less than a_N and |a_{N−1}|, so that these too are above the range of subnormal floats. For N = 1, b and
-        // a_{N−2} are 0.
+        // It is less than a_N and |a_{N−1}|, so that these too are above the range of subnormal floats. For N = 1, b
+        // and a_{N−2} are 0.
         let cancels = least(next + CLEAR * e * before, CLEAR * t * before - a);
         let clear = cancels > NORMAL && (n < 2 || b > NORMAL);
         let time = start.height_gap() * (b / -a);
@@ -338,8 +339,8 @@ impl Symmetric {
         }
     }
 
-    /// The peak, where at most 32 plain steps leave nothing in doubt, by d = |a_{n+1}| − |a_n|, which obeys
-    /// `d ← e d − (1 − q)(1 + e) |a|` and falls below zero at the peak.
+    /// Returns the peak, where at most 32 plain steps leave nothing in doubt. The steps follow d = |a_{n+1}| − |a_n|,
+    /// which obeys `d ← e d − (1 − q)(1 + e) |a|` and falls below zero at the peak.
     #[inline]
     fn plain_peak(&self, start: &Start) -> Option<Largest> {
         let [va, vb] = start.velocity();
@@ -364,7 +365,8 @@ impl Symmetric {
         None
     }
 
-    /// T ≤ 0, where the second strike is the last, and e = 0, where all strikes from the second on happen at once.
+    /// Returns the end and the peak for T ≤ 0, where the second strike is the last, and for e = 0, where all strikes
+    /// from the second on happen at once.
     fn special(&self, start: &Start) -> (Ending, Largest) {
         let alpha = -start.velocity()[0];
         let first = after_first(self, start);

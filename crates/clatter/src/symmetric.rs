@@ -1,14 +1,14 @@
-//! The recurrence that every bar obeys, that of a symmetric bar: the numbers that it is made of, and their digits.
+//! The recurrence that every bar obeys, that of a symmetric bar: its numbers and their digits.
 
 use crate::Error;
 use crate::bar::Restitution;
 use crate::dd::{Dd, power_of_two, two_prod, two_sum};
 use crate::exact::{Dyadic, clamp};
 
-/// What the inertia was given as: kept, because rounding it to a q would lose digits near q = 1, and because the
-/// last word on a count is spoken in integers.
+/// The given form of the inertia. It is kept, because rounding it to a q would lose digits near q = 1, and because
+/// integers decide the count in the end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Given {
+enum GivenInertia {
     /// The inertia ratio itself.
     InertiaRatio,
     /// k² = (ρ/L)² as a quotient of products.
@@ -24,7 +24,7 @@ pub(crate) struct OffCenter {
     pub(crate) rho: f64,
 }
 
-/// What a strike at an end of an off-center bar depends on.
+/// Quantities that a strike at an end of an off-center bar depends on.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moments {
     /// I = L² + ρ² of both ends.
@@ -46,102 +46,101 @@ pub(crate) struct Symmetric {
     /// 1 − q and 1 + q rounded, but not from a rounded q.
     pub(crate) less: f64,
     pub(crate) more: f64,
-    given: Given,
+    given: GivenInertia,
 }
 
 impl Symmetric {
-    /// From an inertia ratio in (−1, 1].
+    /// Creates the bar from an inertia ratio in (−1, 1].
     #[inline]
     pub(crate) fn from_inertia_ratio(q: f64, e: Restitution) -> Self {
         let e = e.get();
-        Self { q, e, t: q + q * e, less: 1.0 - q, more: 1.0 + q, given: Given::InertiaRatio }
+        Self { q, e, t: q + q * e, less: 1.0 - q, more: 1.0 + q, given: GivenInertia::InertiaRatio }
     }
 
-    /// k² = over/under, every product within the range of floats.
+    /// Creates the bar from k² = over/under, every product within the range of floats.
     pub(crate) fn from_gyration_squared(over: [f64; 2], under: [f64; 3], e: f64) -> Result<Self, Error> {
         let e = Restitution::new(e)?.get();
-        // Beyond, the count would exceed 2^120; nothing real comes near.
+        // Beyond this range the count would exceed 2^120; nothing real comes near.
         let k = (over[0] / under[0]).sqrt() * (over[1] / under[1] / under[2]).sqrt();
         if k != 0.0 && !(1e-35..=1e35).contains(&k) {
             return Err(Error::Quantity { name: "gyration ratio", value: k, allowed: "0 or in [1e-35, 1e35]" });
         }
-        let given = Given::GyrationSquared { over, under };
+        let given = GivenInertia::GyrationSquared { over, under };
         let ((n, d), two) = (terms(over, under), Dd::from(2.0));
         let (q, less, more) = (((d - n) / (d + n)).hi, (two * n / (d + n)).hi, (two * d / (d + n)).hi);
         Ok(Self { q, e, t: q + q * e, less, more, given })
     }
 
-    /// Of a bar whose ends are at different distances from its center of mass. They
-    /// are sums of two floats, 10⁻⁶ to 10⁶ of each other; the radius is 0 or 10⁻¹² to 10⁶ times half their sum, which
-    /// is about 1.
+    /// Creates the symmetric bar of one whose ends are at different distances from its center of mass. They are sums of
+    /// two floats, 10⁻⁶ to 10⁶ of each other; the radius is 0 or 10⁻¹² to 10⁶ times half their sum, which is about 1.
     pub(crate) fn from_off_center(given: OffCenter, moments: &Moments, e: Restitution) -> Self {
         let (e, q, one) = (e.get(), given.q(moments), Dd::from(1.0));
         // (1 − q)(1 + q) over the one of both that does not cancel.
         let product = given.less_more(moments);
         let [less, more] = if q.hi > 0.0 { [product / (one + q), one + q] } else { [one - q, product / (one - q)] };
-        let given = Given::OffCenter(given);
+        let given = GivenInertia::OffCenter(given);
         Self { q: q.hi, e, t: q.hi + q.hi * e, less: less.hi, more: more.hi, given }
     }
 
-    /// An off-center bar with its ends exchanged.
+    /// Returns an off-center bar with its ends exchanged.
     pub(crate) fn exchanged(self) -> Self {
         match self.given {
-            Given::OffCenter(OffCenter { arms: [a, b], rho }) => {
-                Self { given: Given::OffCenter(OffCenter { arms: [b, a], rho }), ..self }
+            GivenInertia::OffCenter(OffCenter { arms: [a, b], rho }) => {
+                Self { given: GivenInertia::OffCenter(OffCenter { arms: [b, a], rho }), ..self }
             }
-            Given::InertiaRatio | Given::GyrationSquared { .. } => self,
+            GivenInertia::InertiaRatio | GivenInertia::GyrationSquared { .. } => self,
         }
     }
 
-    /// k of the symmetric bar, relative error below 1e−15.
+    /// Returns k of the symmetric bar, relative error below 1e−15.
     pub(crate) fn gyration_ratio(&self) -> f64 {
         (self.less / self.more).sqrt()
     }
 
-    /// The lengths that an off-center bar was given by.
+    /// Returns the given lengths of an off-center bar.
     pub(crate) fn off_center(&self) -> Option<OffCenter> {
-        if let Given::OffCenter(given) = self.given { Some(given) } else { None }
+        if let GivenInertia::OffCenter(given) = self.given { Some(given) } else { None }
     }
 
-    /// q to about 2⁻¹⁰⁰.
+    /// Returns q to about 2⁻¹⁰⁰.
     pub(crate) fn wide_q(&self) -> Dd {
         match self.given {
-            Given::InertiaRatio => Dd::from(self.q),
-            Given::GyrationSquared { over, under } => {
+            GivenInertia::InertiaRatio => Dd::from(self.q),
+            GivenInertia::GyrationSquared { over, under } => {
                 let (n, d) = terms(over, under);
                 (d - n) / (d + n)
             }
-            Given::OffCenter(given) => given.q(&given.moments()),
+            GivenInertia::OffCenter(given) => given.q(&given.moments()),
         }
     }
 
-    /// (1 − q)(1 + q) to a relative 2⁻¹⁰⁰: with k² = n/d, 4nd/(d + n)².
+    /// Returns (1 − q)(1 + q) to a relative 2⁻¹⁰⁰: 4nd/(d + n)² with k² = n/d.
     pub(crate) fn wide_less_more(&self) -> Dd {
         match self.given {
-            Given::InertiaRatio => two_sum(1.0, -self.q) * two_sum(1.0, self.q),
-            Given::GyrationSquared { over, under } => {
+            GivenInertia::InertiaRatio => two_sum(1.0, -self.q) * two_sum(1.0, self.q),
+            GivenInertia::GyrationSquared { over, under } => {
                 let (n, d) = terms(over, under);
                 n * d * 4.0 / (d + n).sqr()
             }
-            Given::OffCenter(given) => given.less_more(&given.moments()),
+            GivenInertia::OffCenter(given) => given.less_more(&given.moments()),
         }
     }
 
-    /// q as a quotient of whole numbers.
+    /// Returns q as a quotient of whole numbers.
     pub(crate) fn exact_q(&self) -> Ratio {
-        let ratio = |mu: Dyadic, nu: Dyadic| Ratio { mu, square: nu.mul(&nu), beside: nu.clone(), nu };
+        let ratio = |mu: Dyadic, nu: Dyadic| Ratio { mu, square: nu.mul(&nu), factor_b: nu.clone(), nu };
         match self.given {
-            Given::InertiaRatio => ratio(Dyadic::from(self.q), Dyadic::from(1.0)),
-            Given::GyrationSquared { over, under } => {
+            GivenInertia::InertiaRatio => ratio(Dyadic::from(self.q), Dyadic::from(1.0)),
+            GivenInertia::GyrationSquared { over, under } => {
                 let product = |f: &[f64]| f.iter().fold(Dyadic::from(1.0), |p, &x| p.mul(&Dyadic::from(x)));
                 let (n, d) = (product(&over), product(&under));
                 ratio(d.sub(&n), d.add(&n))
             }
-            Given::OffCenter(given) => {
+            GivenInertia::OffCenter(given) => {
                 let ([a, b], square) = (given.arms.map(Dyadic::from), Dyadic::from(two_prod(given.rho, given.rho)));
                 let [i_a, i_b] = [&a, &b].map(|arm| arm.mul(arm).add(&square));
                 let nu = Dyadic::from(given.moments().root);
-                Ratio { mu: a.mul(&b).sub(&square), square: i_a.mul(&i_b), beside: i_a, nu }
+                Ratio { mu: a.mul(&b).sub(&square), square: i_a.mul(&i_b), factor_b: i_a, nu }
             }
         }
     }
@@ -152,31 +151,31 @@ pub(crate) struct Ratio {
     pub(crate) mu: Dyadic,
     /// ν².
     pub(crate) square: Dyadic,
-    /// What the velocity of end b counts beside μ times that of end a: ν, or I_a of an off-center bar.
-    pub(crate) beside: Dyadic,
+    /// Factor of the velocity of end b, where that of end a has μ: ν, or I_a of an off-center bar.
+    pub(crate) factor_b: Dyadic,
     /// ν; of an off-center bar rounded to about 2⁻¹⁰⁰.
     pub(crate) nu: Dyadic,
 }
 
 impl Ratio {
-    /// `2^shift x/ν`.
+    /// Returns `2^shift x/ν`.
     pub(crate) fn over_nu(&self, x: &Dyadic, shift: i32) -> Dd {
         quotient(x, &self.nu, shift)
     }
-    /// `2^shift x/ν²`.
+    /// Returns `2^shift x/ν²`.
     pub(crate) fn over_square(&self, x: &Dyadic, shift: i32) -> Dd {
         quotient(x, &self.square, shift)
     }
 }
 
-/// `2^shift x/d` as a double-double.
+/// Returns `2^shift x/d` as a double-double.
 fn quotient(x: &Dyadic, d: &Dyadic, shift: i32) -> Dd {
     let ((x, of_x), (d, of_d)) = (x.to_wide(), d.to_wide());
     (x / d).scale(clamp(of_x - of_d + i128::from(shift)))
 }
 
 impl OffCenter {
-    /// Half the length.
+    /// Returns the half the length.
     pub(crate) fn half(&self) -> f64 {
         0.5 * (self.arms[0].hi + self.arms[1].hi)
     }
@@ -186,7 +185,7 @@ impl OffCenter {
         let (square, cross) = (two_prod(rho, rho), [two_prod(a.hi, b.lo), two_prod(a.lo, b.hi)]);
         let low = cross[0].lo + cross[1].lo + a.lo * b.lo;
         let mut excess = two_prod(a.hi, b.hi) - square + two_sum(cross[0].hi, cross[1].hi) + Dd::from(low);
-        // Where more cancels, the low parts do.
+        // Where the difference cancels more than that, integers form it.
         if excess.hi.abs() <= power_of_two(-40) * square.hi {
             let [a, b, square] = [a, b, square].map(Dyadic::from);
             let (high, exponent) = a.mul(&b).sub(&square).to_wide();
@@ -196,19 +195,19 @@ impl OffCenter {
         Moments { inertia, excess, root: (inertia[0] * inertia[1]).sqrt() }
     }
 
-    /// P/√(I_a I_b).
+    /// Returns P/√(I_a I_b).
     fn q(&self, moments: &Moments) -> Dd {
         if self.rho == 0.0 { Dd::from(1.0) } else { moments.excess / moments.root }
     }
 
-    /// (1 − q)(1 + q) = ρ² (L_a + L_b)²/(I_a I_b).
+    /// Returns (1 − q)(1 + q) = ρ² (L_a + L_b)²/(I_a I_b).
     fn less_more(&self, Moments { inertia, .. }: &Moments) -> Dd {
         let [a, b] = self.arms;
         two_prod(self.rho, self.rho) * (a + b).sqr() / (inertia[0] * inertia[1])
     }
 }
 
-/// Numerator and denominator of k².
+/// Returns numerator and denominator of k².
 fn terms(over: [f64; 2], under: [f64; 3]) -> (Dd, Dd) {
     (two_prod(over[0], over[1]), two_prod(under[0], under[1]) * under[2])
 }

@@ -9,11 +9,11 @@ use crate::{Bar, Count, End, Start};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact {
-    /// From 1.
+    /// Number of the impact, from 1.
     pub number: u64,
     /// The end that strikes.
     pub end: End,
-    /// Since the first contact, in h0/v0.
+    /// Time since the first contact, in h0/v0.
     pub time: f64,
     /// Velocity of the striking end just before, negative.
     pub approach: f64,
@@ -23,10 +23,10 @@ pub struct Impact {
 }
 
 impl Impact {
-    /// Velocity shock at position `s` in [−1, 1] (−1 is end a): `((1 − s) Δv_a + (1 + s) Δv_b)/2` (Eq. 3).
+    /// Returns the velocity shock at position `s` in [−1, 1] (−1 is end a): `((1 − s) Δv_a + (1 + s) Δv_b)/2` (Eq. 3).
     ///
     /// # Examples
-    /// The center of percussion of strikes at end a feels nothing of them:
+    /// A strike at end a does not move its center of percussion:
     /// ```
     /// let bar = clatter::Bar::new(0.5, 0.3)?;
     /// let first = bar.train(&clatter::Start::default()).next().unwrap();
@@ -47,22 +47,22 @@ pub struct Train {
     bar: Symmetric,
     jumps: Jumps,
     start: Start,
-    /// Impacts given so far.
+    /// Number of impacts given so far.
     number: u64,
     steps: Steps,
     later: Option<Box<Later>>,
-    /// Where in the buffers of `later` the next impact stands.
+    /// Index of the next impact in the buffers of `later`.
     at: usize,
 }
 
-/// What the strikes of a bar change, by the approach velocities of the symmetric one.
+/// Jumps of a bar, by the approach velocities of the symmetric one.
 #[derive(Debug, Clone, Copy)]
 struct Jumps {
     e: f64,
     /// q(1 + e) of strikes at end a: jump of the other end over the approach velocity.
     far: f64,
-    /// That of strikes at end b, and κ, where the center of mass is not the middle. Symmetric bars pay a branch for it
-    /// every other impact, no more.
+    /// The jump of strikes at end b, and κ, where the center of mass is not the middle. Symmetric bars pay a branch for
+    /// it every other impact, no more.
     end_b: Option<[f64; 2]>,
 }
 
@@ -72,13 +72,13 @@ impl Jumps {
         Self { e: bar.e, far: bar.t, end_b: None }
     }
 
-    /// An impact of the symmetric bar as one of this bar.
+    /// Returns an impact of the symmetric bar as one of this bar.
     #[inline]
     fn own(&self, Impact { number, end, approach, time, .. }: Impact) -> Impact {
         self.impact(number, end, approach, time)
     }
 
-    /// The impact as a whole.
+    /// Returns the impact with the jumps of both ends.
     #[inline]
     fn impact(&self, number: u64, end: End, approach: f64, time: f64) -> Impact {
         let jumps = |approach: f64, far: f64| [(-1.0 - self.e) * approach, far * approach];
@@ -90,7 +90,7 @@ impl Jumps {
     }
 }
 
-/// The recurrence as it stands before the next impact.
+/// The recurrence before the next impact.
 ///
 /// Each end has one of its own, so that the strikes of one need not wait for those of the other. With
 /// g_n = a_{n+2} − e a_n and D = 4e − T²,
@@ -107,18 +107,19 @@ struct Steps {
     turn: [f64; 2],
     /// (t_n − t_{n+1}) a_n a_{n+1} = h0 a_1 e^{n−1}, the Casoratian of velocities and heights.
     gap: f64,
-    /// Of the next impact.
+    /// Time of the next impact.
     time: f64,
-    /// How far a_{n+2} may cancel.
+    /// The share of its terms down to which a_{n+2} may cancel.
     clear: f64,
     /// No plain step leads beyond this impact.
     last: u64,
-    /// Whether it is that of the train.
+    /// True if `last` is the last impact of the train.
     ends: bool,
 }
 
 impl Steps {
-    /// No plain steps are left. Said after every call, so that what they consist of need not be kept through it.
+    /// No plain steps are left. It is set after every call, so that the fields of the steps need not be kept through
+    /// it.
     const OVER: Self = Self {
         approach: [0.0; 2],
         growth: [0.0; 2],
@@ -130,7 +131,7 @@ impl Steps {
         ends: false,
     };
 
-    /// Before the first impact.
+    /// Creates the steps before the first impact.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as `Bar::train`")]
     fn new(bar: &Symmetric, start: &Start) -> Self {
@@ -176,7 +177,7 @@ impl Steps {
     }
 }
 
-/// What the impacts after the plain steps need to know.
+/// The state that the impacts after the plain steps begin from.
 struct SoFar {
     latest: f64,
     ahead: u64,
@@ -184,7 +185,7 @@ struct SoFar {
     bar: Symmetric,
 }
 
-/// Impacts that are not worked out by plain steps, some at a time.
+/// Impacts that plain steps do not give, computed some at a time.
 #[derive(Debug, Clone)]
 struct Later {
     bar: Symmetric,
@@ -192,16 +193,16 @@ struct Later {
     source: Source,
     /// Number of impacts, unless it is endless, beyond 2⁶⁴ or not yet known.
     count: Option<u64>,
-    /// Impacts worked out or passed over so far.
+    /// Number of impacts computed or skipped so far.
     ahead: u64,
-    /// The latest of them, up to the end of the buffers.
+    /// The latest impacts, up to the end of the buffers.
     approach: [f64; BUFFER],
     times: [f64; BUFFER],
     /// Time of the last of them.
     latest: f64,
 }
 
-/// Where the impacts come from.
+/// The method that gives the impacts.
 #[derive(Debug, Clone)]
 enum Source {
     /// A train of up to some 400 impacts.
@@ -214,23 +215,23 @@ enum Source {
     Instant { first: f64, a: f64, t: f64, h0: f64 },
 }
 
-/// Impacts worked out together.
+/// Number of impacts computed together.
 const BUFFER: usize = 16;
 /// Plain steps taken before the closed form, which forgets no digit, takes over.
 const PLAIN: u64 = 32;
-/// Those of a slow wave whose D is known well enough: it ends before.
+/// Plain steps of a slow wave whose D is known well enough: it ends before.
 const SLOW: u64 = 256;
 /// A velocity that cancels by more than this factor times its number is left to the closed form: |a_{n+2}| against e
 /// |a_n|.
 ///
-/// Of a wave with N impacts and θ ≈ π/N, one that is let through is N · 2θ times this factor of the amplitude at least,
-/// or 1/326. What it is off by, in roundings of 2⁻⁵³ of the amplitude:
+/// Of a wave with N impacts and θ ≈ π/N, a velocity that passes is N · 2θ times this factor of the amplitude at least,
+/// or 1/326. Its error, in roundings of 2⁻⁵³ of the amplitude, is:
 /// * 2.7 N from the steps: each of N/2 rounds the velocity twice and g, which is 2θ of the amplitude at most and counts
 ///   1/2θ times, three times;
 /// * 0.64 N² from D = 4e − T², which is off by 16 roundings of e at most and turns the wave by N/8eθ of that;
 /// * or 13 (1 + (1 − e)²/D) from D = (1 − q²)(1 + e)² − (1 − e)², off by 8 of D and of (1 − e)².
 ///
-/// That is 2700 at most, where [`Bar::train`] lets plain steps go on: an error of 2700 · 326 · 2⁻⁵³ ≤ 1e−10.
+/// The sum is 2700 at most, where [`Bar::train`] lets plain steps go on: an error of 2700 · 326 · 2⁻⁵³ ≤ 1e−10.
 const CLEAR: f64 = 1.0 / 2048.0;
 /// Plain steps need T and e of at least this size, so that no term of theirs comes near the subnormal floats.
 const LARGE: f64 = 1e-8;
@@ -259,7 +260,7 @@ impl Iterator for Train {
         }
         let (approach, time) = (*later.approach.get(self.at)?, *later.times.get(self.at)?);
         (self.at, self.number) = (self.at + 1, self.number + 1);
-        Some(self.jumps.impact(self.number, End::of_impact(self.number), approach, time))
+        Some(self.jumps.impact(self.number, End::striking(self.number), approach, time))
     }
 
     #[inline]
@@ -271,7 +272,7 @@ impl Iterator for Train {
         self.fold_inline(init, f)
     }
 
-    /// Skips in constant time, but for the plain steps at the beginning.
+    /// Skips in constant time, except for the plain steps at the beginning.
     fn nth(&mut self, mut skip: usize) -> Option<Impact> {
         while self.later.is_none() {
             let impact = self.next()?;
@@ -295,7 +296,7 @@ impl Iterator for Train {
 }
 
 impl Train {
-    /// Step by step, then buffer by buffer: sums over whole trains need not ask, impact by impact, where it comes from.
+    /// Folds step by step, then buffer by buffer: sums over whole trains need not ask for each impact separately.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as `next`")]
     fn fold_inline<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
@@ -305,7 +306,7 @@ impl Train {
         {
             all = f(all, impact);
         }
-        // By pairs: nothing need be chosen by the number.
+        // Impacts come in pairs, so that nothing depends on the number.
         if self.number.is_multiple_of(2) {
             while let Some(impact) = self.step::<0>() {
                 all = f(all, impact);
@@ -316,7 +317,7 @@ impl Train {
         if self.later.is_none() && self.steps.ends {
             return all;
         }
-        // What comes later is of the symmetric bar.
+        // Later impacts are those of the symmetric bar.
         let jumps = self.jumps;
         let f = |all, impact| f(all, if jumps.end_b.is_some() { jumps.own(impact) } else { impact });
         match self.later {
@@ -331,13 +332,14 @@ impl Train {
         self.fold_inline(init, f)
     }
 
-    /// Copies, so that a train that needs no more than plain steps stays in registers.
+    /// Returns copies, so that a train that needs no more than plain steps stays in registers.
     #[inline]
     fn so_far(&self) -> SoFar {
         SoFar { latest: self.steps.time, ahead: self.number, start: self.start, bar: self.bar }
     }
 
-    /// The next impact by a plain step, at end `I`; none where the train has ended, and where more digits are needed.
+    /// Returns the next impact by a plain step, at end `I`; none where the train has ended, and where more digits are
+    /// needed.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as `next`")]
     fn step<const I: usize>(&mut self) -> Option<Impact> {
@@ -353,8 +355,8 @@ impl Train {
         // At one instant no time passes, also where velocities fade below the floats.
         steps.time -= if steps.gap == 0.0 { 0.0 } else { steps.gap / (approach * steps.approach[1 - I]) };
         if then >= doubt && self.number < steps.last {
-            // The next impact is the last one; where the terms of a_{n+2} nearly cancel, more digits from that impact
-            // on. It is left as it is now: what is not worked out needs no place.
+            // The next impact is the last one; where the terms of a_{n+2} nearly cancel, that impact needs more digits.
+            // The state stays as it is: it is not used again.
             steps.ends = then > -doubt;
             steps.last = self.number + u64::from(steps.ends);
             return Some(impact);
@@ -368,7 +370,7 @@ impl Train {
 }
 
 impl Source {
-    /// From impact `ahead` + 1 on, and the number of impacts.
+    /// Returns the source from impact `ahead` + 1 on, and the number of impacts.
     fn new(bar: &Symmetric, start: &Start, ahead: u64) -> (Self, Option<u64>) {
         if bar.t <= 0.0 || bar.e == 0.0 {
             let first = after_first(bar, start);
@@ -389,7 +391,7 @@ impl Source {
         (if closed { Self::Closed(Box::new(drive)) } else { Self::Fours(fours()) }, count)
     }
 
-    /// Whether strikes may be so close that roundings exceed what is between them.
+    /// Returns whether strikes may be so close that roundings exceed the time between them.
     fn crowded(&self) -> bool {
         match self {
             Self::Sweep(_) => false,
@@ -400,7 +402,7 @@ impl Source {
 }
 
 impl Later {
-    /// From impact `ahead` + 1 on, none before `latest`.
+    /// Creates the impacts from number `ahead` + 1 on, none before `latest`.
     #[cold]
     fn boxed(so_far: &SoFar) -> Box<Self> {
         let SoFar { bar, start, ahead, latest } = *so_far;
@@ -411,7 +413,8 @@ impl Later {
         Box::new(Self { bar, start, source, count, ahead, approach, times, latest })
     }
 
-    /// Works out the next impacts and returns where in the buffers they begin: at their end where the train has ended.
+    /// Computes the next impacts and returns their first index in the buffers: the end of these where the train has
+    /// ended.
     #[cold]
     fn fill(&mut self) -> usize {
         // Beyond 2^64 − 1 impacts there are no numbers left.
@@ -451,7 +454,7 @@ impl Later {
                 let (drive, fours) = &mut **fours;
                 fours.take(drive, &mut self.approach, &mut self.times);
                 to_the_end(n, [&mut self.approach, &mut self.times]);
-                // The first strike by itself, and a last one that is next to a tie: it takes more digits.
+                // The first strike is computed by itself, and so is a last one next to a tie: it takes more digits.
                 if self.ahead == 0 {
                     (self.approach[at], self.times[at]) = drive.strike(1);
                 }
@@ -483,8 +486,8 @@ impl Later {
         if self.start.height_gap() == 0.0 {
             self.times[at..].fill(0.0);
         }
-        // Roundings of times that hardly differ, or of two ways to the same time, may step back. Looked for all at
-        // once: it is rare, and a running maximum is a chain of operations that wait for each other.
+        // Roundings of times that hardly differ, or of two ways to the same time, may step back. All times are checked
+        // at once: a step back is rare, and a running maximum is a chain of operations that wait for each other.
         let back = self.times[at] < self.latest;
         if back || self.source.crowded() && (1..BUFFER).filter(|&i| self.times[i] < self.times[i - 1]).count() > 0 {
             for time in &mut self.times[at..] {
@@ -496,8 +499,8 @@ impl Later {
         at
     }
 
-    /// All impacts, from where `at` stands in the buffers. Not part of the fold of a [`Train`], whose plain steps then
-    /// stay in registers.
+    /// Folds all impacts, from index `at` of the buffers on. It is not part of the fold of a [`Train`], whose plain
+    /// steps then stay in registers.
     #[inline(never)]
     fn fold<B, F: FnMut(B, Impact) -> B>(mut self: Box<Self>, mut at: usize, init: B, mut f: F) -> B {
         let (mut all, jumps) = (init, Jumps::symmetric(&self.bar));
@@ -511,7 +514,7 @@ impl Later {
         }
     }
 
-    /// Passes over impacts after those of the buffers, in constant time.
+    /// Skips impacts after those of the buffers, in constant time.
     fn skip(&mut self, skip: usize) {
         if skip == 0 {
             return;
@@ -523,7 +526,7 @@ impl Later {
         match &mut self.source {
             Source::Fours(fours) => fours.1 = Fours::new(&fours.0, self.ahead),
             Source::Sweep(_) | Source::Closed(_) => {}
-            // Past the second impact, of which the rest is a geometric series.
+            // The rest, past the second impact, is a geometric series.
             Source::Instant { a, t, .. } => {
                 #[expect(clippy::cast_precision_loss, reason = "beyond 2^53 the power is 0, or 1 at q = 1")]
                 let steps = skip as f64;
@@ -533,7 +536,7 @@ impl Later {
     }
 }
 
-/// As [`Later::fold`], from impact `ahead` + 1 on; a sweep is not stored anywhere.
+/// Folds as [`Later::fold`] does, from impact `ahead` + 1 on; a sweep is not stored anywhere.
 #[inline(never)]
 fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: &SoFar, init: B, mut f: F) -> B {
     let SoFar { bar, start, mut ahead, mut latest } = *so_far;
@@ -559,7 +562,7 @@ fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: &SoFar, init: B, mut f: F) ->
     Later::boxed(&SoFar { latest, ahead, start, bar }).fold(BUFFER, all, f)
 }
 
-/// Folds the impacts after number `number`, by pairs: nothing need be chosen by the number.
+/// Folds the impacts after number `number`, in pairs, so that nothing depends on the number.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "four at a time, without a loop")]
 fn hand_out<B, F: FnMut(B, Impact) -> B>(
@@ -569,7 +572,7 @@ fn hand_out<B, F: FnMut(B, Impact) -> B>(
     init: B,
     f: &mut F,
 ) -> B {
-    let (mut all, first) = (init, End::of_impact(number + 1));
+    let (mut all, first) = (init, End::striking(number + 1));
     let ((approach, rest), (times, last)) = (approach.as_chunks::<2>(), times.as_chunks::<2>());
     for (approach, times) in approach.iter().zip(times) {
         all = f(all, jumps.impact(number + 1, first, approach[0], times[0]));
@@ -592,16 +595,16 @@ fn to_the_end(n: usize, buffers: [&mut [f64; BUFFER]; 2]) {
 }
 
 impl Bar {
-    /// The impacts, one by one, end a first.
+    /// Returns the impacts one by one, end a first.
     ///
     /// # Method
     /// The recurrence of every other strike, one for each end, `a_{n+2} = (2e − D) a_n − e² a_{n−2}` in the form of
-    /// differences, to the end of a train of up to 60 strikes, or 222 where e is not small, and for 32 strikes of a
-    /// longer one; the closed form next to a tie. Beyond, four neighboring strikes are carried on together by rotations
+    /// differences, gives trains of up to 60 strikes, or 222 where e is not small, and the first 32 strikes of a longer
+    /// one; the closed form serves next to a tie. Beyond, four neighboring strikes are carried on together by rotations
     /// that keep small angles exact. In a train of up to some 400 strikes they follow from the discriminant alone, from
     /// the first one on, and the train ends where the velocity changes its sign. In longer ones the four are anchored
     /// in the closed form anew every 256 strikes, and the number of impacts is settled beforehand, as exactly as by
-    /// [`Bar::count`]. Times between strikes are h0 |v_a| e^{n−1}/(a_n a_{n+1}): sums of what is positive.
+    /// [`Bar::count`]. Times between strikes are h0 |v_a| e^{n−1}/(a_n a_{n+1}): sums of positive terms.
     ///
     /// # Accuracy
     /// [`crate::accuracy::APPROACH`], [`JUMP`](crate::accuracy::JUMP) and [`TIME`](crate::accuracy::TIME), for a train
@@ -631,7 +634,7 @@ impl Bar {
 }
 
 impl Symmetric {
-    /// As [`Bar::train`], for a start in the terms of the symmetric bar.
+    /// Returns the same as [`Bar::train`], for a start in the variables of the symmetric bar.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as `Bar::train`")]
     pub(crate) fn train(&self, start: &Start) -> Train {
@@ -645,7 +648,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Trains of all kinds and lengths: short, long, hardly ending, endless, at one instant.
+    /// Returns the trains of all kinds and lengths: short, long, hardly ending, endless, at one instant.
     fn trains() -> impl Strategy<Value = Train> {
         let bars = (-0.9..1.0_f64, 0.0..1.0_f64, 0.0..16.0_f64, 0..5_u8).prop_map(|(q, e, x, kind)| match kind {
             0 => Bar::new(q, e),
@@ -668,7 +671,7 @@ mod tests {
                 assert_eq!(times, zero[..times.len()], "q = {q:?}, e = {e:?}");
                 let summary = train.bar.summary(&train.start);
                 assert_eq!(summary.duration.to_bits(), 0, "q = {q:?}, e = {e:?}: {summary:?}");
-                // Folded, as sums are.
+                // This folds, as sums do.
                 let sum = train.take(100).fold(0.0, |sum, impact| sum + impact.time);
                 assert_eq!(sum.to_bits(), 0, "q = {q:?}, e = {e:?}");
             }
@@ -676,8 +679,8 @@ mod tests {
     }
 
     proptest! {
-        /// Across the hand-over from plain steps, new anchors, and to the last strike by itself; also where strikes are
-        /// so close that roundings exceed what is between them.
+        /// It covers the hand-over from plain steps, new anchors, and the last strike by itself; also strikes so close
+        /// that roundings exceed the time between them.
         #[test]
         fn times_never_step_back(train in trains()) {
             let mut latest = 0.0;
@@ -704,7 +707,7 @@ mod tests {
             let (got, want) = (skipping.nth(skip), one_by_one.get(skip));
             prop_assert_eq!(got.map(|i| (i.number, i.end)), want.map(|i| (i.number, i.end)));
             if let (Some(got), Some(want)) = (got, want) {
-                // From an anchor of its own, within twice the allowed error.
+                // It starts from an anchor of its own, within twice the allowed error.
                 prop_assert!((got.time - want.time).abs() <= 2e-10 * want.time.max(1.0), "{got:?}, not {want:?}");
                 prop_assert_eq!(skipping.next().map(|i| i.number), one_by_one.get(skip + 1).map(|i| i.number));
             }

@@ -19,11 +19,11 @@
 use crate::symmetric::Symmetric;
 use crate::{Bar, End, Peak, PeakImpact, Start};
 
-/// How much of the bar a safe zone covers.
+/// The share of the bar that a safe zone covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Extent {
-    /// s < 0: even the safest place, the center of a symmetric bar, sees more than the threshold.
+    /// s < 0: even the safest place, the center of a symmetric bar, gets more than the threshold.
     None,
     /// 0 ≤ s < 1.
     Part,
@@ -39,7 +39,7 @@ pub struct Zone {
     pub threshold: f64,
     /// Half-width over half-length, as Eq. 5 gives it: not clipped.
     pub s: f64,
-    /// What `s` means for the bar.
+    /// The share of the bar that `s` stands for.
     pub extent: Extent,
 }
 
@@ -54,9 +54,9 @@ pub struct EndPeaks {
 }
 
 impl Symmetric {
-    /// Largest velocity shocks of ends a and b in their own strikes, end a striking first, and the impacts that hold them;
-    /// for an end that never strikes 0 and any impact. The larger of both is [`Peak::end`]; the other is held by a
-    /// neighboring impact, because |a_n| rises to its peak, then falls.
+    /// Returns the largest velocity shocks of ends a and b in their own strikes, end a striking first, and the impacts
+    /// that hold them; for an end that never strikes 0 and any impact. The larger of both is [`Peak::end`]; the other
+    /// is held by a neighboring impact, because |a_n| rises to its peak, then falls.
     pub(crate) fn struck_peaks(&self, start: &Start) -> [(f64, PeakImpact); 2] {
         let Peak { end, impact, .. } = self.peak(start);
         let PeakImpact::Number(number) = impact else {
@@ -66,13 +66,13 @@ impl Symmetric {
         let around = self.train(start).skip(skip).take(3).filter(|impact| impact.number != number);
         let struck = around.map(|impact| (-(1.0 + self.e) * impact.approach, PeakImpact::Number(impact.number)));
         let beside = struck.fold((0.0, impact), |most, next| if next.0 > most.0 { next } else { most });
-        if End::of_impact(number) == End::A { [(end, impact), beside] } else { [beside, (end, impact)] }
+        if End::striking(number) == End::A { [(end, impact), beside] } else { [beside, (end, impact)] }
     }
 }
 
 impl Bar {
-    /// The largest shocks of one train, everywhere on the bar. The start is that of the end `first` and then of the
-    /// other.
+    /// Returns the largest shocks of one train, everywhere on the bar. The velocities of the start are those of the end
+    /// `first` and then of the other.
     #[must_use]
     pub fn shocks(&self, start: &Start, first: End) -> Shocks {
         let peaks = match first {
@@ -85,7 +85,7 @@ impl Bar {
         Shocks { bar: *self, peaks }
     }
 
-    /// The largest shocks whichever end strikes first.
+    /// Returns the largest shocks whichever end strikes first.
     #[must_use]
     pub fn shocks_either(&self, start: &Start) -> Shocks {
         let first = self.struck(start);
@@ -118,14 +118,14 @@ pub struct Safest {
 }
 
 impl Shocks {
-    /// Largest shocks of each end in its own strikes.
+    /// Returns the largest shocks of each end in its own strikes.
     #[must_use]
     pub fn struck(&self) -> EndPeaks {
         self.peaks
     }
 
-    /// Largest velocity shock at position s in [−1, 1]: `((1 − q) + |s| (1 + q))/2` of the peak at the ends for a
-    /// symmetric bar of which either end may strike first (Eq. 4).
+    /// Returns the largest velocity shock at position s in [−1, 1]: `((1 − q) + |s| (1 + q))/2` of the peak at the ends
+    /// for a symmetric bar of which either end may strike first (Eq. 4).
     ///
     /// # Accuracy
     /// 1e−12 of the larger of A and B.
@@ -135,11 +135,11 @@ impl Shocks {
         of(End::A, self.peaks.a).max(of(End::B, self.peaks.b))
     }
 
-    /// The position with the least largest shock, and that shock (formula and proof in the module).
+    /// Returns the position with the least largest shock, and that shock (formula and proof in the module).
     ///
     /// # Examples
-    /// For a symmetric bar it is the middle, if either end may strike first; if end a does, it leans away from the end
-    /// that is struck hardest, here b.
+    /// For a symmetric bar it is the middle, if either end may strike first. If end a does, it leans away from the end
+    /// with the hardest strike, here b.
     /// ```
     /// use clatter::{Bar, End, Start};
     /// let bar = Bar::new(0.5, 0.3)?;
@@ -164,8 +164,8 @@ impl Shocks {
         Safest { s, shock: self.at(s) }
     }
 
-    /// The positions in [−1, 1] where no shock exceeds `threshold`: an interval, because the largest shock is a convex
-    /// function of the position; `None` where there are none, as for NaN.
+    /// Returns the positions in [−1, 1] where no shock exceeds `threshold`: an interval, because the largest shock is a
+    /// convex function of the position; `None` where there are none, as for NaN.
     ///
     /// # Accuracy
     /// 1e−12.
@@ -184,9 +184,9 @@ impl Shocks {
         (lo <= hi && lo <= 1.0 && hi >= -1.0).then(|| [lo.max(-1.0), hi.min(1.0)])
     }
 
-    /// The safe zone as a width: `s` is half that of the interval between its bounds, not clipped at the ends, in
-    /// half-lengths, below 0 where even the safest place sees more. For a symmetric bar of which either end may strike
-    /// first it is `(2 threshold/peak + q − 1)/(1 + q)` (Eq. 5).
+    /// Returns the safe zone as a width: `s` is half that of the interval between its bounds, not clipped at the ends,
+    /// in half-lengths, below 0 where even the safest place sees more. For a symmetric bar of which either end may
+    /// strike first it is `(2 threshold/peak + q − 1)/(1 + q)` (Eq. 5).
     ///
     /// # Accuracy
     /// 1e−12 of the larger of |s| and 1.
@@ -211,7 +211,7 @@ impl Shocks {
         Zone { threshold, s: 0.5 * (hi - lo), extent }
     }
 
-    /// Where |share · peak| reaches the threshold on either side, for the strikes of both ends.
+    /// Returns the positions where |share · peak| reaches the threshold on either side, for the strikes of both ends.
     fn bounds(&self, threshold: f64) -> [f64; 2] {
         let (Bar { center, turn, .. }, c) = (self.bar, self.bar.center_of_mass());
         let reach = [threshold / self.peaks.a, threshold / self.peaks.b];
@@ -221,7 +221,7 @@ impl Shocks {
     }
 }
 
-/// `share · peak`, where nothing of an infinite peak is nothing.
+/// Returns `share · peak`, and 0 for a share of 0 even if the peak is infinite.
 pub(crate) fn shock(share: f64, peak: f64) -> f64 {
     if share == 0.0 { 0.0 } else { share * peak }
 }
@@ -232,7 +232,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Eq. 4 and the interval against the list of impacts, at any position.
+        /// Compares Eq. 4 and the interval with the list of impacts, at any position.
         #[test]
         fn peaks_and_intervals_are_those_of_the_impacts(
             q in -0.9..0.95_f64, e in 0.05..0.95_f64, vb in -2.0..0.5_f64, s in -1.0..1.0_f64, threshold in 0.1..4.0_f64,

@@ -1,4 +1,4 @@
-//! What must hold whatever the bar and the start: physics, symmetry, scaling, and that all ways agree.
+//! Laws that hold for every bar and start: physics, symmetry, scaling, and the agreement of all ways.
 #![expect(clippy::float_cmp, reason = "exact answers are compared exactly")]
 
 use clatter::accuracy::{APPROACH, FINAL, PEAK, TIME};
@@ -23,7 +23,7 @@ fn some(bar: &Bar, start: &Start) -> Vec<Impact> {
     bar.train(start).take(SOME).collect()
 }
 
-/// Velocities of ends a and b before each impact and after the last: the start and the jumps added up.
+/// Returns the velocities of ends a and b before each impact and after the last: the start and the jumps added up.
 fn velocities(start: &Start, impacts: &[Impact]) -> Vec<[f64; 2]> {
     let mut v = start.velocity();
     let after = impacts.iter().map(|i| {
@@ -33,7 +33,7 @@ fn velocities(start: &Start, impacts: &[Impact]) -> Vec<[f64; 2]> {
     std::iter::once(start.velocity()).chain(after).collect()
 }
 
-/// Largest velocity so far: what roundings and allowed errors are measured by.
+/// Returns the largest velocity so far: what roundings and allowed errors are measured by.
 fn size(start: &Start, impacts: &[Impact]) -> f64 {
     let [va, vb] = start.velocity();
     impacts.iter().flat_map(|i| i.delta_v).fold(va.abs().max(vb.abs()), |most, v| most.max(v.abs()))
@@ -46,7 +46,7 @@ fn sum_error(impacts: &[Impact], size: f64) -> f64 {
     (n + 1.0) * 2.0 * (APPROACH.error + 2.0 * ROUNDING) * size
 }
 
-/// Twice the energy per mass, v² + (ρω)² with Lω = (`v_b` − `v_a`)/2 and (ρ/L)² = k².
+/// Returns twice the energy per mass, v² + (ρω)² with Lω = (`v_b` − `v_a`)/2 and (ρ/L)² = k².
 fn energy(bar: &Bar, [a, b]: [f64; 2]) -> f64 {
     let (center, spin) = (0.5 * (a + b), 0.5 * (b - a));
     center * center + bar.percussion(End::A) * spin * spin
@@ -83,7 +83,7 @@ proptest! {
         }
     }
 
-    /// Newton's law at the struck end, and a blow that never pulls.
+    /// Checks Newton's law at the struck end, and that a blow never pulls.
     #[test]
     fn each_struck_end_departs_at_e_times_its_approach(bar in bars(), start in starts()) {
         let impacts = some(&bar, &start);
@@ -247,7 +247,7 @@ proptest! {
         prop_assert!(count(more_q) >= count(q), "count in q from {q} to {more_q} at e = {e}");
     }
 
-    /// One bar, given in four ways.
+    /// Checks one bar that is given in four ways.
     #[test]
     fn the_ways_of_giving_the_inertia_agree(k in 0.01..20.0_f64, half in 0.01..10.0_f64, m in 0.01..100.0_f64, e in 0.0..=1.0_f64) {
         let rho = k * half;

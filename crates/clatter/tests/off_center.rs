@@ -29,8 +29,8 @@ fn plain(arms: [f64; 2], rho: f64, e: f64, start: &Start, most: usize) -> Vec<Im
     list
 }
 
-/// A rigid body of unit mass that falls with velocity v and turns with ω: an impulse p at distance x from its center of
-/// mass changes them by p and p x/ρ², and is as large as −e times the approach velocity asks for.
+/// Returns the impacts of a rigid body of unit mass that falls with velocity v and turns with ω. An impulse p at
+/// distance x from its center of mass changes v and ω by p and p x/ρ²; it reverses the approach velocity to −e times it.
 fn by_impulses([a, b]: [f64; 2], rho: f64, e: f64, motion: [f64; 2], gap: f64, most: usize) -> Vec<Impact> {
     let ends = [-a, b];
     let at = |[v, w]: [f64; 2]| ends.map(|x| v + w * x);
@@ -175,7 +175,7 @@ proptest! {
         }
     }
 
-    /// Against every impact, at any position and on a grid.
+    /// The comparison is with every impact, at any position and on a grid.
     #[test]
     fn shocks_zones_and_the_safest_place_are_those_of_the_impacts((arms, rho, e) in any_bar(), vb in -2.0..0.5_f64, s in -1.0..1.0_f64, threshold in 0.1..4.0_f64) {
         let bar = Bar::from_arms(arms, rho, e).unwrap();
@@ -228,7 +228,7 @@ fn the_safest_place_moves_with_the_mass() {
     let bar = Bar::from_center_of_mass(0.4, 0.5, 0.3).unwrap();
     let safest = bar.shocks_either(&start).safest();
     assert!(safest.s > 0.25 && safest.s < 0.35, "{safest:?}");
-    // Where end b never strikes, the center of percussion feels nothing at all.
+    // Where end b never strikes, the center of percussion gets no shock at all.
     let spun = Start::new([-1.0, 2.5], 1.0).unwrap();
     let shocks = bar.shocks(&spun, End::A);
     assert_eq!(bar.count(&spun), Count::Finite(1));
@@ -267,7 +267,7 @@ fn any_masses_between_the_ends_make_a_bar() {
     let board = Mass::Slab { mass_kg: 0.1, from_m: -0.07, to_m: 0.07 };
     let battery = |position_m: f64| Mass::Point { mass_kg: 0.05, position_m };
     let bar = Bar::from_masses(0.14, &[board, battery(0.035)], 0.3).unwrap();
-    // By Steiner, in half-lengths: c = 1/6, ρ² = (2/3)(1/3 + c²) + (1/3)(1/2 − c)².
+    // Steiner gives, in half-lengths: c = 1/6, ρ² = (2/3)(1/3 + c²) + (1/3)(1/2 − c)².
     let rho2: f64 = 2.0 / 3.0 * (1.0 / 3.0 + 1.0 / 36.0) + 1.0 / 27.0;
     assert!((bar.center_of_mass() - 1.0 / 6.0).abs() < 1e-15);
     assert!((bar.gyration_ratio() - rho2.sqrt()).abs() < 1e-14);

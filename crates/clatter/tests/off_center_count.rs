@@ -1,10 +1,10 @@
-//! How often an off-center bar strikes, against whole numbers: next to the endless curve and next to ties, where one
-//! rounding of the inertia ratio or of the starting velocity decides.
+//! Counts of off-center bars against whole numbers: next to the endless curve and next to ties, where one rounding of
+//! the inertia ratio or of the starting velocity decides.
 use clatter::{Bar, Count, Mass, Start};
 use num_bigint::{BigInt, Sign};
 
 /// The two matrices of a bar (Eqs. 1 and 2 with q_a and q_b), each times a positive integer that makes it whole, and
-/// the velocities of the ends times another one. Signs are all that is asked for.
+/// the velocities of the ends times another one. Only signs are needed.
 struct Whole {
     strike: [[[BigInt; 2]; 2]; 2],
     velocity: [BigInt; 2],
@@ -15,7 +15,7 @@ struct Whole {
 /// Binary digits that are kept of numbers in a product of matrices.
 const BITS: u64 = 4096;
 
-/// The whole numbers v 2^x with the least x that makes all of them whole.
+/// Returns the whole numbers v 2^x with the least x that makes all of them whole.
 fn whole<const N: usize>(v: [f64; N]) -> [BigInt; N] {
     let parts = v.map(|v| {
         let (fraction, biased) = (v.abs().to_bits() & ((1 << 52) - 1), v.abs().to_bits() >> 52);
@@ -26,13 +26,13 @@ fn whole<const N: usize>(v: [f64; N]) -> [BigInt; N] {
     parts.map(|(m, x)| m << (x - least))
 }
 
-/// v 2^112, for v = 0 or |v| ≥ 2⁻⁶⁰.
+/// Returns v 2^112, for v = 0 or |v| ≥ 2⁻⁶⁰.
 fn fixed(v: f64) -> BigInt {
     assert!(v == 0.0 || v.abs() >= 2f64.powi(-60), "{v} has more digits");
     whole([v, 2f64.powi(-60)])[0].clone() * i32::from(v != 0.0)
 }
 
-/// Matrix product, without the digits that no sign will need.
+/// Returns the matrix product, without the digits that no sign will need.
 fn product<const N: usize>(m: &[[BigInt; 2]; 2], by: &[[BigInt; N]; 2]) -> [[BigInt; N]; 2] {
     let mut p = [0, 1].map(|i| std::array::from_fn(|j| &m[i][0] * &by[0][j] + &m[i][1] * &by[1][j]));
     let bits = p.iter().flatten().map(|x: &BigInt| x.bits()).max().unwrap();
@@ -43,13 +43,13 @@ fn product<const N: usize>(m: &[[BigInt; 2]; 2], by: &[[BigInt; N]; 2]) -> [[Big
 }
 
 impl Whole {
-    /// From the distances of both ends to the center of mass, as sums of two floats each.
+    /// Creates it from the distances of both ends to the center of mass, as sums of two floats each.
     fn new([[a, a_rest], [b, b_rest]]: [[f64; 2]; 2], rho: f64, e: f64, velocity: [f64; 2]) -> Self {
         let [a, a_rest, b, b_rest, rho] = whole([a, a_rest, b, b_rest, rho]);
         Self::of([a + a_rest, b + b_rest], &rho * &rho, e, velocity)
     }
 
-    /// From masses on a bar of half-length 1, at points or spread evenly from one to another. With the sums M of m, F of
+    /// Creates it from masses on a bar of half-length 1, at points or spread evenly from one to another. With the sums M of m, F of
     /// m x and S of m (x² + w²/12) the arms are (M ± F)/M and the square of the radius is (S M − F²)/M².
     fn of_masses(masses: &[[f64; 3]], e: f64, velocity: [f64; 2]) -> Self {
         // M, 2 F and 12 S.
@@ -76,7 +76,7 @@ impl Whole {
         Self { strike: [first, second], velocity: whole(velocity), discriminant }
     }
 
-    /// Sign of the velocity of the end about to make strike n + 1.
+    /// Returns the sign of the velocity of the end about to make strike n + 1.
     fn sign(&self, n: u64) -> Sign {
         let mut power = product(&self.strike[1], &self.strike[0]);
         let mut v = self.velocity.clone().map(|v| [v]);
@@ -94,7 +94,7 @@ impl Whole {
         v[usize::from(n % 2 == 1)][0].sign()
     }
 
-    /// The number of impacts, strike by strike, where it is at most `most`.
+    /// Returns the number of impacts, strike by strike, where it is at most `most`.
     fn count(&self, most: u64) -> Option<u64> {
         let mut v = self.velocity.clone().map(|v| [v]);
         for n in 1..=most {
@@ -106,8 +106,8 @@ impl Whole {
         None
     }
 
-    /// Whether `count` is that of these numbers. A wave that has a second half turn behind it is not negative at half
-    /// of it.
+    /// Returns whether `count` is that of these numbers. A wave that has a second half turn behind it is not negative
+    /// at half of it.
     fn has(&self, count: Count) -> bool {
         match count {
             Count::Finite(n) if n < 200 => self.count(200) == Some(n),
@@ -121,7 +121,7 @@ impl Whole {
     }
 }
 
-/// Numbers in [0, 1), always the same.
+/// Returns numbers in [0, 1), always the same.
 fn random() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
@@ -167,14 +167,14 @@ impl Wrong {
     }
 }
 
-/// e for which this bar is on the endless curve: √e = (1 − k)/(1 + k) with k² = (1 − q)/(1 + q).
+/// Returns e for which this bar is on the endless curve: √e = (1 − k)/(1 + k) with k² = (1 − q)/(1 + q).
 fn on_the_curve(q: f64) -> f64 {
     let k = ((1.0 - q) / (1.0 + q)).sqrt();
     ((1.0 - k) / (1.0 + k)).powi(2)
 }
 
-/// Restitutions beside the curve: neighboring floats, and 10⁻¹⁶ to 10⁻⁹ off.
-fn beside(e: f64, random: &mut impl FnMut() -> f64) -> f64 {
+/// Returns a restitution near the curve: a neighboring float, or one 10⁻¹⁶ to 10⁻⁹ off.
+fn near_curve(e: f64, random: &mut impl FnMut() -> f64) -> f64 {
     let x = random() * 12.0;
     let e = if x < 5.0 { f64::from_bits(e.to_bits() + 3).min(e + (x.floor() - 2.0) * e * f64::EPSILON) } else { e };
     let off = 10f64.powf(-16.0 + 7.0 * random());
@@ -191,7 +191,7 @@ fn counts_next_to_the_endless_curve_are_those_of_whole_numbers() {
         if q < 1e-3 {
             continue;
         }
-        let e = beside(on_the_curve(q), &mut random);
+        let e = near_curve(on_the_curve(q), &mut random);
         let velocity = [-1.0, [-1.0, 0.0, -3.0 * random()][wrong.of as usize % 3]];
         let start = Start::new(velocity, 1.0).unwrap();
         let bar = Bar::from_arms([a, b], rho, e).unwrap();
@@ -211,7 +211,7 @@ fn counts_of_a_bar_with_a_given_center_of_mass_are_those_of_whole_numbers() {
         if q < 1e-3 {
             continue;
         }
-        let e = beside(on_the_curve(q), &mut random);
+        let e = near_curve(on_the_curve(q), &mut random);
         let velocity = [-1.0, [-1.0, 0.0, -3.0 * random()][wrong.of as usize % 3]];
         let start = Start::new(velocity, 1.0).unwrap();
         let bar = Bar::from_center_of_mass(c, k, e).unwrap();
@@ -287,7 +287,7 @@ fn a_count_of_masses_says_whether_it_is_exact() {
         let bar = |e| Bar::from_masses(2.0, &list, e).unwrap();
         let (q, velocity) = (bar(0.0).q(), [-1.0, [-1.0, 0.5 * random(), -2.0 * random()][case % 3]]);
         let e = if anywhere { random() } else { on_the_curve(q.max(1e-3)) };
-        let e = if anywhere { e } else { beside(e, &mut random) };
+        let e = if anywhere { e } else { near_curve(e, &mut random) };
         let (bar, start) = (bar(e), Start::new(velocity, 1.0).unwrap());
         if bar.count_is_exact(&start) {
             sure += 1;

@@ -71,7 +71,7 @@ fn every_case_of_the_oracle_is_within_the_allowed_errors() {
         assert_eq!(impacts.len() as u64, n, "{name}: impacts listed");
         for (i, (got, (a, t))) in impacts.iter().zip(c.approach.iter().zip(&c.times)).enumerate() {
             let (a, t) = (decimal(a), decimal(t));
-            assert_eq!((got.number, got.end), (i as u64 + 1, End::of_impact(i as u64 + 1)), "{name}: order");
+            assert_eq!((got.number, got.end), (i as u64 + 1, End::striking(i as u64 + 1)), "{name}: order");
             let size = a.abs().max(c.va.abs());
             worst.hold(name, &APPROACH, got.approach, a, size);
             worst.hold(name, if edge { &NEAR_ENDLESS } else { &TIME }, got.time, t, t.max(1.0));

@@ -65,7 +65,7 @@ impl Fraction {
     fn cmp(&self, o: &Self) -> Ordering {
         (&self.0 * &o.1).cmp(&(&o.0 * &self.1))
     }
-    /// Rounded, for numbers of moderate size.
+    /// Returns the rounded value, for numbers of moderate size.
     fn float(&self) -> f64 {
         let shift = 1100 + self.1.bits() as i64 - self.0.bits() as i64;
         let whole = (self.0.clone() << shift as usize) / &self.1;
@@ -83,7 +83,7 @@ struct Struck {
     velocities: [f64; 4],
 }
 
-/// At most so many strikes, and whether the plate has bounced clear.
+/// Returns at most so many strikes, and whether the plate has bounced clear.
 fn brute(k: [f64; 2], s: [f64; 2], e: f64, velocity: [f64; 3], gaps: [f64; 2], most: usize) -> (Vec<Struck>, bool) {
     let f = Fraction::of;
     let (zero, one, two) = (f(0.0), f(1.0), f(2.0));
@@ -140,7 +140,7 @@ fn brute(k: [f64; 2], s: [f64; 2], e: f64, velocity: [f64; 3], gaps: [f64; 2], m
     (list, true)
 }
 
-/// Numbers of few digits, so that ties come up, and of all digits.
+/// Returns numbers of few digits, so that ties come up, and of all digits.
 fn number(lo: i32, hi: i32) -> impl Strategy<Value = f64> {
     prop_oneof![8 => (lo..=hi).prop_map(|n| f64::from(n) / 32.0), 1 => f64::from(lo) / 32.0..f64::from(hi) / 32.0]
 }
@@ -160,7 +160,7 @@ fn starts() -> impl Strategy<Value = ([f64; 3], [f64; 2])> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// Order, count, times and velocities, with ties, flat drops, edges and gaps in ratios of 10¹².
+    /// Checks order, count, times and velocities, with ties, flat drops, edges and gaps in ratios of 10¹².
     #[test]
     fn trains_are_those_of_fractions(
         (k, s) in plates(), e in number(0, 32), (velocity, gaps) in starts(),
@@ -230,7 +230,7 @@ proptest! {
         prop_assert!(most <= atlas.peak().corner * (1.0 + 1e-12), "{most} is more than the worst of all");
     }
 
-    /// Energy: (1 − e²) v²/(2 w) is lost at each strike.
+    /// The energy (1 − e²) v²/(2 w) is lost at each strike.
     #[test]
     fn a_strike_takes_the_energy_that_it_should((k, s) in plates(), e in 0.0..=1.0_f64, r in 0.01..0.99_f64) {
         let plate = Plate::off_center(k, s, e).unwrap();
@@ -251,7 +251,7 @@ proptest! {
         }
     }
 
-    /// What is outside of the polygon is not safe, what is inside is.
+    /// No point outside of the polygon is safe, and every point inside is.
     #[test]
     fn safe_zones_are_where_no_shock_is_larger(
         (k, s) in plates(), e in 0.1..0.9_f64, place in [-1.0..1.0_f64, -1.0..1.0_f64], threshold in 0.2..3.0_f64,
@@ -407,7 +407,7 @@ fn endless_trains_tend_to_what_is_said() {
         assert_eq!(impacts.len(), 200, "{plate:?}, {start:?}");
         let corners = Corner::ALL.iter().filter(|corner| impacts[150..].iter().any(|i| i.corner == **corner)).count();
         endless[usize::from(corners > 2)] += 1;
-        // What still comes down then strikes at that speed or more.
+        // A corner that still comes down then strikes at that speed or more.
         let down =
             summary.final_velocity.unwrap().into_iter().fold(0.0, |most: f64, v| most.max(-v)) * (1.0 + plate.e());
         assert!(
@@ -434,7 +434,7 @@ fn ties_are_told_and_taken_as_a_tilt_that_differs_by_next_to_nothing() {
         let word: String = impacts.iter().map(|impact| impact.corner.letter()).collect();
         (word, impacts.iter().map(|impact| impact.tie).collect::<Vec<_>>(), impacts)
     };
-    // On an edge: a and d together.
+    // The plate lands on an edge: a and d together.
     let (edge, ties, _) = first([1.0, 0.0]);
     assert_eq!(edge, first([1.0, 1e-50]).0, "the limit of a vanishing tilt");
     assert!(ties[0] && ties[1..].iter().all(|tie| !tie), "{ties:?}");

@@ -118,7 +118,7 @@ fn drops_are_those_of_exact_arithmetic() {
     }
 }
 
-/// Every word, also those of intervals that are too short for floats.
+/// Checks every word, also those of intervals that are too short for floats.
 #[test]
 fn atlases_are_those_of_exact_arithmetic() {
     for c in cases::<AtlasCase>(include_str!("data/atlas.json")) {

@@ -1,4 +1,4 @@
-//! Where plain floats go wrong: one test a trap, expected values derived on the spot in integers.
+//! Traps for plain floats: one test a trap, expected values derived on the spot in integers.
 #![expect(clippy::float_cmp, reason = "exact answers are compared exactly")]
 #![expect(clippy::cast_precision_loss, reason = "counts that are compared with floats")]
 
@@ -18,7 +18,7 @@ fn close(got: f64, want: f64, error: f64) -> bool {
     (got - want).abs() <= error * want.abs()
 }
 
-/// (m, x) with v = m 2^−x, x ≥ 0.
+/// Returns (m, x) with v = m 2^−x, x ≥ 0.
 fn dyadic(v: f64) -> (BigInt, u64) {
     let bits = v.abs().to_bits();
     let (m, biased) = (bits & ((1 << 52) - 1), bits >> 52);
@@ -27,7 +27,7 @@ fn dyadic(v: f64) -> (BigInt, u64) {
     (if v < 0.0 { -m } else { m }, x)
 }
 
-/// n/d to the nearest float or its neighbor; within the range of floats.
+/// Returns n/d to the nearest float or its neighbor; within the range of floats.
 fn ratio(n: &BigInt, d: &BigInt) -> f64 {
     let shift = 70 + i64::try_from(d.bits()).unwrap() - i64::try_from(n.bits()).unwrap();
     let whole = if shift >= 0 { (n << shift) / d } else { n / (d << -shift) };
@@ -58,7 +58,7 @@ impl Whole {
         let q = me << (2 * r - y);
         Self { p, q, r, s, a: [va, next], b: [0.into(), 1.into()], n: 0 }
     }
-    /// On to strike n + 2.
+    /// Goes on to strike n + 2.
     fn step(&mut self) {
         for pair in [&mut self.a, &mut self.b] {
             let next = &self.p * &pair[1] - &self.q * &pair[0];
@@ -70,11 +70,11 @@ impl Whole {
     fn ended(&self) -> bool {
         self.a[0].sign() != Sign::Minus
     }
-    /// Approach velocity of strike n + 1.
+    /// Returns the approach velocity of strike n + 1.
     fn approach(&self) -> f64 {
         ratio(&self.a[0], &(BigInt::from(1) << (self.r * self.n + self.s)))
     }
-    /// Its time at h0 = 1.
+    /// Returns the time of strike n + 1 at h0 = 1.
     fn time(&self) -> f64 {
         if self.n == 0 { 0.0 } else { ratio(&(&self.b[0] << (self.r + self.s)), &-&self.a[0]) }
     }
@@ -92,7 +92,7 @@ fn times(a: &BigInt, b: &BigInt) -> BigInt {
     (a * b) >> POINT
 }
 
-/// atan(y/x) by its series, for 0 < y ≤ x/2.
+/// Returns atan(y/x) by its series, for 0 < y ≤ x/2.
 fn atan(y: &BigInt, x: &BigInt) -> BigInt {
     let t = (y << POINT) / x;
     let square = times(&t, &t);
@@ -120,7 +120,7 @@ fn count_by_angles(q: f64, e: f64) -> u64 {
     u64::try_from(whole).unwrap()
 }
 
-/// The count of a loop in plain floats, cut off after `limit`.
+/// Returns the count of a loop in plain floats, cut off after `limit`.
 fn naive_count(q: f64, e: f64, limit: u64) -> Option<u64> {
     let (t, mut a, mut next) = (q * (1.0 + e), -1.0, -(q * (1.0 + e)) - 1.0);
     for n in 1..limit {
@@ -132,7 +132,7 @@ fn naive_count(q: f64, e: f64, limit: u64) -> Option<u64> {
     None
 }
 
-/// An endless train whose plain recurrence underflows to zero and so "ends" after 469 impacts.
+/// Checks an endless train whose plain recurrence underflows to zero and so "ends" after 469 impacts.
 #[test]
 fn underflow_below_one_half_ends_no_endless_train() {
     // q = 2√e/(1 + e) rounded up: T = 0.4 < ½.
@@ -146,7 +146,7 @@ fn underflow_below_one_half_ends_no_endless_train() {
     assert!(close(late.time, limit, 1e-5) && late.time < limit, "{} tends to {limit}", late.time);
 }
 
-/// An endless train whose plain recurrence sticks at the smallest float.
+/// Checks an endless train whose plain recurrence sticks at the smallest float.
 #[test]
 fn underflow_from_one_half_on_sticks_at_no_subnormal() {
     // q = 2√e/(1 + e) rounded up: T = 0.6 ≥ ½.
@@ -199,7 +199,7 @@ fn the_gyration_ratio_is_kept() {
     }
 }
 
-/// Every strike of a train of thousands, against integers; the plain loop is far off at its end.
+/// Compares every strike of a train of thousands with integers; the plain loop is far off at its end.
 #[test]
 fn strike_times_do_not_drift() {
     for (q, e, n) in [(0.984_304_929_263_587, 0.7, 2221), (0.999_671_114_885_08, 0.95, 7025)] {
@@ -228,7 +228,7 @@ fn strike_times_do_not_drift() {
     }
 }
 
-/// q = 1: speeds rise to 2 v0/(1 − e), which no strike attains; strikes for ever until h0/(2 v0).
+/// With q = 1 speeds rise to 2 v0/(1 − e), which no strike attains; strikes go on without end until h0/(2 v0).
 #[test]
 fn massless_ends_strike_for_ever_and_never_settle() {
     for e in [1e-3, 0.3, 0.999] {
@@ -251,7 +251,7 @@ fn massless_ends_strike_for_ever_and_never_settle() {
     }
 }
 
-/// q = 1, e = 0: the second strike attains the limit, and all later ones.
+/// With q = 1 and e = 0 the second strike attains the limit, and so do all later ones.
 #[test]
 fn massless_dead_ends_reach_the_limit_at_the_second_strike() {
     let s = bar(1.0, 0.0).summary(&Start::default());
@@ -260,7 +260,7 @@ fn massless_dead_ends_reach_the_limit_at_the_second_strike() {
     assert_eq!(s.final_velocity, None);
 }
 
-/// q = e = 1: the peak grows without bound at the ends, and is 0 at the center, not 0 · ∞.
+/// With q = e = 1 the peak grows without bound at the ends, and is 0 at the center, not 0 · ∞.
 #[test]
 fn massless_elastic_ends_have_an_infinite_peak_about_a_center_at_peace() {
     let bar = bar(1.0, 1.0);
@@ -293,7 +293,7 @@ fn a_turning_massless_bar_strikes_for_ever() {
     assert_eq!((s.count, s.duration, s.final_velocity), (Count::Endless, f64::INFINITY, Some([0.0, 0.0])));
 }
 
-/// e = 0, q > 0: no end, strike 2 and all later ones at one instant.
+/// With e = 0 and q > 0 the train has no end; strike 2 and all later ones happen at one instant.
 #[test]
 fn dead_ends_strike_for_ever_at_one_instant() {
     for q in [0.5, 1e-9, 5e-324] {
@@ -314,7 +314,7 @@ fn dead_ends_strike_for_ever_at_one_instant() {
     assert_eq!(bar(5e-324, 0.0).count(&start(-1e-9, 0.0)), Count::Endless);
 }
 
-/// e = 0, q ≤ 0: two impacts.
+/// With e = 0 and q ≤ 0 there are two impacts.
 #[test]
 fn dead_ends_with_mass_beyond_them_strike_twice() {
     for q in [0.0, -0.0, -5e-324, -0.5, -0.999] {
@@ -326,7 +326,7 @@ fn dead_ends_with_mass_beyond_them_strike_twice() {
     }
 }
 
-/// The last float before the endless curve: constant time, the exact integer.
+/// At the last float before the endless curve the count is the exact integer, in constant time.
 #[test]
 fn counts_just_inside_the_endless_curve_are_exact() {
     let mut longest = 0;
@@ -350,7 +350,7 @@ fn counts_just_inside_the_endless_curve_are_exact() {
     assert!(longest > 100_000_000, "{longest}");
 }
 
-/// Exact ties: a velocity of exactly zero ends the train, with the strike before.
+/// At an exact tie a velocity of exactly zero ends the train, with the strike before.
 #[test]
 fn ties_are_decided_not_guessed() {
     assert_eq!(bar(-0.5, 1.0).count(&Start::default()), Count::Finite(1), "(−½, 1)");
@@ -395,7 +395,7 @@ fn ties_are_decided_not_guessed() {
     assert!(ties > 100, "{ties} exact ties");
 }
 
-/// More impacts than f64 has integers: e = 2⁻⁵², q = 2√e/(1 + e).
+/// Checks more impacts than f64 has integers: e = 2⁻⁵², q = 2√e/(1 + e).
 #[test]
 fn counts_beyond_2_to_the_53_are_exact() {
     let e = 2f64.powi(-52);
@@ -412,7 +412,7 @@ fn counts_beyond_2_to_the_64_say_so() {
         let s = Bar::from_gyration_ratio(k, 1.0).unwrap().summary(&Start::default());
         let Count::Huge(n) = s.count else { panic!("k = {k}: {:?}", s.count) };
         assert!(close(n, std::f64::consts::FRAC_PI_2 / k, 8.0 * f64::EPSILON), "k = {k}: {n:e}");
-        // Turning about the center, a quarter turn less: ψ = π/2 for a start that the center does not feel.
+        // Turning about the center, a quarter turn less: ψ = π/2 for a start that does not move the center.
         let Count::Huge(n) = Bar::from_gyration_ratio(k, 1.0).unwrap().count(&start(-1.0, 1.0)) else {
             panic!("k = {k}")
         };
@@ -420,7 +420,7 @@ fn counts_beyond_2_to_the_64_say_so() {
     }
 }
 
-/// The flat drop: all strikes at one instant, in order.
+/// In a flat drop all strikes happen at one instant, in order.
 #[test]
 fn a_flat_drop_strikes_in_order_at_one_instant() {
     let flat = Start::new([-1.0, -1.0], 0.0).unwrap();
@@ -435,7 +435,7 @@ fn a_flat_drop_strikes_in_order_at_one_instant() {
     }
 }
 
-/// End b at rest or on its way up at first contact.
+/// Checks drops with end b at rest or on its way up at first contact.
 #[test]
 fn an_end_that_rises_at_first_contact() {
     // T = 0.65: at rest it is thrown down; from v_b = 0.65 on it is not.
@@ -561,7 +561,7 @@ fn tiny_and_huge_velocities_and_heights_lose_no_digit() {
     }
 }
 
-/// A start that leaves at once, beside a decay so slow that its rate is below 10⁻¹⁵⁰: no search for what is clear.
+/// A start that leaves at once needs no search, though the decay is so slow that its rate is below 10⁻¹⁵⁰.
 #[test]
 fn a_start_that_leaves_at_once_beside_the_slowest_decay() {
     let bar = bar(2.983_336_292_480_083e-154, f64::MIN_POSITIVE);
@@ -582,7 +582,7 @@ fn the_last_impact_that_has_a_number() {
     assert_eq!(bar(0.5, 0.3).train(&Start::default()).nth(usize::MAX), None);
 }
 
-/// The corners of the plane in a map: none of them is NaN.
+/// Checks that a map is nowhere NaN, corners of the plane included.
 #[test]
 fn maps_have_an_answer_at_every_corner() {
     let (q, e) = (Axis::q((-1.0_f64).next_up(), 1.0, 3).unwrap(), Axis::e(0.0, 1.0, 3).unwrap());

@@ -1,9 +1,9 @@
-//! What the goldens share: where they lie, how many digits they keep, what a page says.
+//! Common parts of the goldens: their place, the number of digits, the text of a page.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-/// Holds `text` against the snapshot of this name.
+/// Compares `text` with the snapshot of this name.
 pub(crate) fn golden(name: &str, text: &str) {
     let mut settings = insta::Settings::clone_current();
     settings.set_snapshot_path("../../snapshots");
@@ -12,7 +12,7 @@ pub(crate) fn golden(name: &str, text: &str) {
     settings.bind(|| insta::assert_snapshot!(name, text));
 }
 
-/// `digits` significant digits; what is only rounding is told as such.
+/// Returns `digits` significant digits; a value that is only rounding is marked as such.
 pub(crate) fn digits(value: f64, digits: u8) -> String {
     match value {
         v if v.is_infinite() => "inf".into(),
@@ -26,8 +26,8 @@ pub(crate) fn digits(value: f64, digits: u8) -> String {
     }
 }
 
-/// What the page of a report says, where a reader or a screen reader looks for it: with the text that follows each of
-/// the `openings`.
+/// Returns the text of the page of a report where a reader or a screen reader looks for it, with the text that follows
+/// each of the `openings`.
 pub(crate) fn page(report: clatter_studies::Report, openings: &[&str]) -> Option<String> {
     let dir = tempfile::tempdir().expect("a temporary directory");
     // an opt-out for machines that cannot have typst; it is never set in CI

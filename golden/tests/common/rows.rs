@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value;
 
-/// One line for each number, or row of numbers, and the path to it.
+/// Writes one line for each number, or row of numbers, with the path to it.
 pub(crate) fn rows(path: &str, value: &Value, text: &mut String) {
     let nested = |value: &Value| value.is_array() || value.is_object();
     let deep = |value: &Value| match value {

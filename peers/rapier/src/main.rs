@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
 const STEP_S: f64 = 1e-6;
-/// Of the balls; the ground is as much lower.
+/// Radius of the balls; the ground is as much lower.
 const RADIUS_M: f64 = 1e-3;
 /// Changes of velocity below this share of the drop speed are rounding; the last shocks are 2·10⁻¹³ of it.
 const ROUNDING: f64 = 1e-14;
@@ -24,7 +24,8 @@ struct Scene {
     until_s: f64,
 }
 
-/// Impacts, and the largest jump of the velocity of an end; the bar begins `lifted_m` above its first touch.
+/// Returns the number of impacts, and the largest jump of the velocity of an end; the bar begins `lifted_m` above its
+/// first touch.
 fn run(scene: &Scene, lifted_m: f64) -> (u32, f64) {
     let mut world = PhysicsWorld { gravity: Vector::ZERO, ..PhysicsWorld::default() };
     world.integration_parameters.dt = STEP_S;

@@ -1,4 +1,4 @@
-//! What `clatter assess` tells of random products, beside what the brute force finds.
+//! Comparison of `clatter assess` with the brute force on random products.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -14,10 +14,10 @@ use crate::product::{Kind, Product};
 use crate::random::{KINDS, Random, product};
 use crate::spatial;
 
-/// A finding above what was told counts beyond this, the error of the integration here.
+/// Relative excess of a finding over the reported value from which on it counts: the error of the integration here.
 pub(crate) const SLACK: f64 = 1e-3;
 
-/// What was counted.
+/// The counts of a comparison.
 #[derive(Debug, Default)]
 struct Counts {
     limits: usize,
@@ -33,19 +33,19 @@ struct Counts {
     reasons: BTreeMap<String, usize>,
 }
 
-/// One limit as it was told.
+/// One limit as reported by `clatter assess`.
 pub(crate) struct Claimed {
     pub(crate) verdict: String,
     pub(crate) demand: f64,
     pub(crate) allowed: f64,
     pub(crate) uncertainty: f64,
-    /// What no drop of the ranges exceeds; NaN where none is told.
+    /// Bound over all drops of the ranges; NaN where none is given.
     pub(crate) bound: f64,
     reason: String,
 }
 
 impl Claimed {
-    /// Whether what was found exceeds the bound.
+    /// Returns whether a found value exceeds the bound.
     pub(crate) fn is_beyond_bound(&self, found: f64) -> bool {
         found > self.bound * (1.0 + SLACK)
     }
@@ -96,7 +96,7 @@ pub fn compare(
     Ok(())
 }
 
-/// Compares one product: a first assessment tells the demands, a second has limits somewhat above them.
+/// Compares one product: a first assessment gives the demands, a second has limits somewhat above them.
 fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: &mut Counts) -> Result<String, String> {
     let first = assess(clatter, text)?;
     let limited = with_room(text, &first, &mut Random::new(seed + 77));
@@ -136,7 +136,7 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
             counts.above += 1;
             counts.turning += usize::from(worst.still < demand * (1.0 + uncertainty) * (1.0 + SLACK));
             let repeat = repeat(&worst);
-            // A flat landing of instant impacts is none that can be given by its tilt.
+            // A flat landing of instant impacts cannot be given by its tilt.
             let same = if worst.flat { None } else { answer(clatter, &repeat, worst.kind) };
             counts.search += usize::from(same.is_some_and(|same| same > found * (1.0 - 0.01)));
             lines += &format!(
@@ -153,7 +153,7 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
     Ok(lines)
 }
 
-/// The same file with limits up to 30 % above the demands that were told.
+/// Returns the same file with limits up to 30 % above the reported demands.
 pub(crate) fn with_room(text: &str, told: &BTreeMap<(String, String), Claimed>, random: &mut Random) -> String {
     let mut limited = String::new();
     let mut part = -1;
@@ -188,7 +188,7 @@ fn unit(kind: &str) -> &str {
     }
 }
 
-/// Every limit by its part and kind.
+/// Returns every limit by its part and kind.
 pub(crate) fn assess(clatter: &Path, text: &str) -> Result<BTreeMap<(String, String), Claimed>, String> {
     let file: PathBuf = std::env::temp_dir().join(format!("clatter-brute-{}.toml", std::process::id()));
     std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
@@ -222,13 +222,13 @@ pub(crate) fn assess(clatter: &Path, text: &str) -> Result<BTreeMap<(String, Str
     Ok(limits)
 }
 
-/// Reasons differ from file to file by their numbers alone.
+/// Returns a reason without its numbers, by which alone reasons differ from file to file.
 fn without_numbers(text: &str) -> String {
     let word = |word: &str| if word.contains(|c: char| c.is_ascii_digit()) { "#" } else { word }.to_owned();
     text.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// The arguments by which clatter answers the very drop; its end a is the one that touches first.
+/// Returns the arguments for the same drop in clatter; its end a is the one that touches first.
 #[must_use]
 pub fn repeat(worst: &Worst) -> Vec<String> {
     let Worst { drop, place, suspension, .. } = worst;
@@ -253,7 +253,7 @@ pub fn repeat(worst: &Worst) -> Vec<String> {
         let law = if law == Law::Dashpot { "dashpot" } else { "hysteretic" };
         args.extend([format!("--contact-law={law}"), format!("--contact-time-s={time}")]);
     }
-    // Its end a is the one that touches first.
+    // In clatter end a is the one that touches first.
     for (end, own) in drop.own.iter().enumerate().filter(|(_, own)| **own != Own::default()) {
         let (e, time) = (own.e.unwrap_or(drop.e), own.time.or(drop.contact.map(|(_, time)| time)).unwrap_or(0.0));
         args.push(format!("--contact={},{e},{time}", ["a", "b"][end ^ usize::from(drop.b_first)]));

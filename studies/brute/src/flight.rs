@@ -6,17 +6,17 @@ pub use crate::ground::{Law, Own};
 /// A bar at the moment when its lower end touches the ground; SI units.
 #[derive(Debug, Clone, Copy)]
 pub struct Drop {
-    /// From end a to end b.
+    /// Length from end to end.
     pub length: f64,
     /// Radius of gyration about the center of mass.
     pub gyration: f64,
-    /// Center of mass, from the middle towards end b.
+    /// Position of the center of mass, from the middle towards end b.
     pub center: f64,
     /// Restitution of the ends.
     pub e: f64,
     /// Law and time of a lone contact; none for instant impacts.
     pub contact: Option<(Law, f64)>,
-    /// What ends a and b have of their own.
+    /// Own contacts of ends a and b.
     pub own: [Own; 2],
     /// Speed of the center of mass.
     pub speed: f64,
@@ -24,44 +24,45 @@ pub struct Drop {
     pub spin: f64,
     /// Angle to the ground.
     pub tilt: f64,
-    /// Whether end b is the lower one.
+    /// True if end b is the lower one.
     pub b_first: bool,
     /// Gravity.
     pub gravity: f64,
 }
 
-/// When to stop.
+/// Conditions that end the integration.
 #[derive(Debug, Clone, Copy)]
 pub struct Until {
-    /// After this time.
+    /// Time limit.
     pub time: f64,
-    /// When both ends strike more slowly than this share of the speed of the drop.
+    /// Share of the speed of the drop: it ends when both ends strike more slowly.
     pub quiet: f64,
 }
 
-/// One step of time under contact. A place at x from the center of mass feels `push + x · lift`, at begin, middle and end.
+/// One step of time under contact. The acceleration above free fall at x from the center of mass is `push + x · lift`,
+/// at begin, middle and end.
 #[derive(Debug, Clone, Copy)]
 pub struct Step {
-    /// When it begins.
+    /// Time of its begin.
     pub time: f64,
-    /// How long it is; 0 for an instant impact, whose three values are then changes of velocity.
+    /// Its length; 0 for an instant impact, whose three values are then changes of velocity.
     pub length: f64,
-    /// Whether neither end is down.
+    /// True if neither end is down.
     pub flying: bool,
-    /// Felt acceleration of the center of mass.
+    /// Acceleration of the center of mass above free fall.
     pub push: [f64; 3],
-    /// Felt acceleration for each meter from it.
+    /// Acceleration above free fall for each meter from the center of mass.
     pub lift: [f64; 3],
     /// Angular acceleration.
     pub turn: [f64; 3],
 }
 
-/// An end meets the ground.
+/// A touch of an end on the ground.
 #[derive(Debug, Clone, Copy)]
 pub struct Touch {
-    /// When.
+    /// Time of the touch.
     pub time: f64,
-    /// 0 for end a, 1 for end b.
+    /// Index of the end: 0 for end a, 1 for end b.
     pub end: usize,
     /// Velocity of the end, upward positive.
     pub velocity: f64,
@@ -69,38 +70,38 @@ pub struct Touch {
     pub energy: f64,
 }
 
-/// A drop that was followed.
+/// A followed drop.
 #[derive(Debug, Clone, Default)]
 pub struct Flight {
-    /// All steps under contact, in order; between them nothing is felt.
+    /// All steps under contact, in order; between them the acceleration above free fall is 0.
     pub steps: Vec<Step>,
-    /// Each time that an end met the ground.
+    /// All touches of ends.
     pub touches: Vec<Touch>,
-    /// When it was left.
+    /// End of the integration.
     pub end: f64,
-    /// Whether the bar lies still from then on, and its weight is on.
+    /// True if the bar lies still from then on, under its weight.
     pub at_rest: bool,
     /// Gravity.
     pub gravity: f64,
     /// Radius of gyration about the center of mass, the least of all.
     pub gyration: f64,
-    /// Energy per mass when it was left.
+    /// Energy per mass at the end.
     pub energy: f64,
 }
 
 /// Height of the center of mass, angle, and their rates.
 type State = [f64; 4];
 
-/// Steps of free flight in radians that the bar turns.
+/// Angle of rotation per step of free flight, in radians.
 const TURN: f64 = 0.1;
-/// A drop that needs more is left.
+/// The largest number of steps; a drop is followed no further.
 const MOST_STEPS: usize = 1_000_000;
 /// Rebound speed below which an end that strikes at an instant hops on, as a share of the speed of the drop.
 const HOP: f64 = 1e-4;
 
 struct Bar {
     drop: Drop,
-    /// The ends from the center of mass.
+    /// Positions of the ends from the center of mass.
     ends: [f64; 2],
     inertia: f64,
     grounds: [Ground; 2],
@@ -133,17 +134,17 @@ impl Bar {
         s[2] + self.ends[end] * s[1].cos() * s[3]
     }
 
-    /// Acceleration of an end for each unit of force on it, per mass.
+    /// Returns the acceleration of an end for each unit of force on it, per mass.
     fn mobility(&self, end: usize, s: &State) -> f64 {
         1.0 + (self.ends[end] * s[1].cos()).powi(2) / self.inertia
     }
 
-    /// Force per mass, on the line of the present phase.
+    /// Returns the force per mass, on the line of the present phase.
     fn force(&self, end: usize, s: &State) -> f64 {
         self.contacts[end].force(&self.grounds[end], self.height(end, s), self.velocity(end, s))
     }
 
-    /// Felt acceleration of the center of mass and angular acceleration.
+    /// Returns the acceleration of the center of mass above free fall, and the angular acceleration.
     fn accelerations(&self, s: &State) -> (f64, f64) {
         let [a, b] = [self.force(0, s), self.force(1, s)];
         (a + b, (a * self.ends[0] + b * self.ends[1]) * s[1].cos() / self.inertia)
@@ -154,7 +155,7 @@ impl Bar {
         [s[2], s[3], push - self.drop.gravity, turn]
     }
 
-    /// A step of Runge and Kutta.
+    /// Makes a step of Runge and Kutta.
     fn step(&self, s: &State, h: f64) -> State {
         let along = |rate: &State, h: f64| -> State { std::array::from_fn(|i| s[i] + h * rate[i]) };
         let k1 = self.rate(s);
@@ -164,12 +165,12 @@ impl Bar {
         std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
     }
 
-    /// Positive within a phase, negative when it is over.
+    /// Returns a value that is positive within a phase, and negative when it is over.
     fn room(&self, end: usize, s: &State) -> f64 {
         self.contacts[end].room(&self.grounds[end], self.height(end, s), self.velocity(end, s))
     }
 
-    /// The phase of an end is over: the next one begins. Tells whether it is a touch.
+    /// Begins the next phase of an end, and returns whether it is a touch.
     fn advance(&mut self, end: usize, s: &State) -> bool {
         let (height, mobility) = (self.height(end, s), self.mobility(end, s));
         self.contacts[end].advance(&self.grounds[end], height, mobility)
@@ -182,7 +183,7 @@ impl Bar {
         kinetic + self.drop.gravity * s[0] + stored(0) + stored(1)
     }
 
-    /// A step of time that resolves the fastest oscillation of what presses.
+    /// Returns a step of time that resolves the fastest oscillation of the pressing ends.
     fn fine(&self, s: &State) -> f64 {
         let of = |end: usize| (self.height(end, s), self.velocity(end, s), self.mobility(end, s));
         let each = [0, 1].map(|end| {
@@ -192,7 +193,7 @@ impl Bar {
         fine(&each, self.drop.gravity)
     }
 
-    /// Time until an end comes to the ground, in free flight: steps that cannot reach beyond it.
+    /// Returns the time until an end comes to the ground, in free flight, by steps that cannot reach beyond it.
     fn fall(&self, s: &State, most: f64) -> (f64, usize) {
         let mut time = 0.0;
         loop {
@@ -228,13 +229,14 @@ impl Bar {
         flight
     }
 
-    /// The longest lone contact.
+    /// Returns the longest lone contact.
     fn longest(&self) -> f64 {
         let of = |time: f64| self.drop.own.iter().map(|own| own.time.unwrap_or(time)).fold(0.0, f64::max);
         self.drop.contact.map_or(0.0, |(_, time)| of(time))
     }
 
-    /// How long both ends have to press without an event to be at rest: twice the slower oscillation on the steep lines.
+    /// Returns the time for which both ends have to press without an event to be at rest: twice the slower oscillation
+    /// on the steep lines.
     fn patience(&self, s: &State) -> f64 {
         let mobility = self.mobility(0, s).min(self.mobility(1, s));
         let steep = self.grounds.map(|ground| ground.omega / ground.e.max(LEAST_RESTITUTION));
@@ -249,7 +251,7 @@ pub fn follow(drop: &Drop, until: Until) -> Flight {
     if drop.contact.is_some() { contacts(drop, until) } else { instants(drop, until) }
 }
 
-/// Contacts that take time.
+/// Follows a drop with contacts that take time.
 fn contacts(drop: &Drop, until: Until) -> Flight {
     let mut bar = Bar::new(drop);
     let mut flight = Flight::default();
@@ -302,20 +304,20 @@ fn contacts(drop: &Drop, until: Until) -> Flight {
     bar.leave(flight, &s, time, false)
 }
 
-/// What a step felt like; its middle by the cubic through both ends.
+/// Returns the accelerations of a step; its middle follows by the cubic through both ends.
 fn record(bar: &Bar, time: f64, h: f64, s: &State, next: &State) -> Step {
     let (from, to) = (bar.rate(s), bar.rate(next));
     let middle: State = std::array::from_fn(|i| f64::midpoint(s[i], next[i]) + h / 8.0 * (from[i] - to[i]));
-    let felt = [s, &middle, next].map(|s| {
+    let values = [s, &middle, next].map(|s| {
         let (push, turn) = bar.accelerations(s);
         [push, turn * s[1].cos() - s[3] * s[3] * s[1].sin(), turn]
     });
-    let [push, lift, turn] = [0, 1, 2].map(|what| felt.map(|felt| felt[what]));
+    let [push, lift, turn] = [0, 1, 2].map(|what| values.map(|values| values[what]));
     let flying = bar.contacts.iter().all(|c| c.phase == Phase::Free);
     Step { time, length: h, flying, push, lift, turn }
 }
 
-/// Free flight for a time: nothing but that the bar turns is felt.
+/// Follows free flight for a time: only the turning of the bar gives an acceleration above free fall.
 fn fly(bar: &Bar, flight: &mut Flight, s: &State, time: f64, wait: f64) -> State {
     let spin = s[3];
     let parts = if spin == 0.0 { 0.0 } else { (wait * spin.abs() / TURN).ceil() };
@@ -327,8 +329,8 @@ fn fly(bar: &Bar, flight: &mut Flight, s: &State, time: f64, wait: f64) -> State
     bar.ballistic(s, wait)
 }
 
-/// Instant impacts, one after the other. An end that would come to rest hops on by a share of the first speed too small
-/// to count, so that a bar pivots about it without a law of its own.
+/// Follows a drop with instant impacts, one after the other. An end that would come to rest hops on by a negligible
+/// share of the first speed, so that a bar pivots about it without a law of its own.
 fn instants(drop: &Drop, until: Until) -> Flight {
     let bar = Bar::new(drop);
     let mut flight = Flight::default();
@@ -367,7 +369,7 @@ fn instants(drop: &Drop, until: Until) -> Flight {
     bar.leave(flight, &s, time, false)
 }
 
-/// A flat landing of instant impacts: all places lose their speed at once and rebound with e of it.
+/// Returns a flat landing of instant impacts: all places lose their speed at once and rebound with e of it.
 #[must_use]
 pub fn flat(drop: &Drop, until: Until) -> Flight {
     let mut flight = Flight::default();

@@ -11,12 +11,12 @@ pub enum Law {
 
 /// Restitution below which the unloading line of the hysteretic law is too steep to be stepped.
 pub(crate) const LEAST_RESTITUTION: f64 = 0.01;
-/// Steps of time in radians of the fastest oscillation.
+/// Angle of the fastest oscillation per step of time, in radians.
 const FINE: f64 = 0.08;
 /// The same while nothing but the weight is carried.
 const COARSE: f64 = 0.5;
 
-/// Restitution and contact time of one point, where they are its own.
+/// Restitution and contact time of one point, where it has its own.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Own {
     /// Restitution.
@@ -25,7 +25,7 @@ pub struct Own {
     pub time: Option<f64>,
 }
 
-/// What a point of a body meets.
+/// The contact law of a point of a body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ground {
     is_hysteretic: bool,
@@ -48,17 +48,18 @@ pub(crate) enum Phase {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Contact {
     pub(crate) phase: Phase,
-    /// Height of the ground under this point: 0, or below it where it was parted in its dent.
+    /// Height of the ground under this point: 0, or the bottom of its dent.
     pub(crate) ground: f64,
     stiffness: f64,
     pub(crate) dashpot: f64,
-    /// Depth where the unloading line begins, and where it meets zero.
+    /// Depth of the begin of the unloading line, and of its zero.
     deepest: f64,
     zero: f64,
 }
 
 impl Ground {
-    /// Of a law whose lone contact takes a time and gives back the restitution; without one, of instant impacts.
+    /// Creates the ground of a law whose lone contact takes a time and has the restitution; without one, that of
+    /// instant impacts.
     pub(crate) fn new(contact: Option<(Law, f64)>, e: f64) -> Self {
         let is_hysteretic = matches!(contact, Some((Law::Hysteretic, _)));
         let (omega, damping, e) = match contact {
@@ -75,7 +76,7 @@ impl Ground {
         Self { is_hysteretic, e, omega, damping }
     }
 
-    /// Of points that have their own, where this is what the others meet.
+    /// Returns the grounds of points with their own contacts; the others have the given one.
     pub(crate) fn own<const N: usize>(contact: Option<(Law, f64)>, e: f64, own: &[Own; N]) -> [Self; N] {
         own.map(|own| {
             let contact = contact.map(|(law, time)| (law, own.time.unwrap_or(time)));
@@ -87,7 +88,7 @@ impl Ground {
 /// A point on the ground with height, velocity and mobility.
 pub(crate) type Point = (Contact, Ground, f64, f64, f64);
 
-/// A step of time that resolves the fastest oscillation of what presses.
+/// Returns a step of time that resolves the fastest oscillation of the pressing points.
 pub(crate) fn fine(points: &[Point], gravity: f64) -> f64 {
     let (mut square, mut rate) = (0.0, 0.0);
     for (c, ground, _, _, mobility) in points {
@@ -112,12 +113,12 @@ pub(crate) fn fine(points: &[Point], gravity: f64) -> f64 {
 }
 
 impl Contact {
-    /// Whether the point is up, its dent and its dashpot forgotten.
+    /// Returns whether the point is up, without a dent or a pressed dashpot.
     pub(crate) fn is_up(&self) -> bool {
         self.phase == Phase::Free && self.ground == 0.0 && self.dashpot == 0.0
     }
 
-    /// Force per mass, on the line of the present phase.
+    /// Returns the force per mass, on the line of the present phase.
     pub(crate) fn force(&self, ground: &Ground, height: f64, velocity: f64) -> f64 {
         let depth = self.ground - height;
         match self.phase {
@@ -127,7 +128,7 @@ impl Contact {
         }
     }
 
-    /// Energy per mass in the spring; that of a dashpot keeps what it has until its point is up.
+    /// Returns the energy per mass in the spring; that of a dashpot is kept until its point is up.
     pub(crate) fn stored(&self, ground: &Ground, height: f64, velocity: f64) -> f64 {
         let force = self.force(ground, height, velocity);
         match self.phase {
@@ -137,10 +138,10 @@ impl Contact {
         }
     }
 
-    /// Positive within a phase, negative when it is over.
+    /// Returns a value that is positive within a phase, and negative when it is over.
     pub(crate) fn room(&self, ground: &Ground, height: f64, velocity: f64) -> f64 {
         match self.phase {
-            // Parted below the ground: presses again when spring and dashpot together push.
+            // After parting below the ground it presses again when spring and dashpot together push.
             Phase::Free if self.dashpot > 0.0 => (self.stiffness * height + self.dashpot * velocity).min(-height),
             Phase::Free if self.ground < 0.0 => (height - self.ground).min(-height),
             Phase::Free => height,
@@ -150,8 +151,8 @@ impl Contact {
         }
     }
 
-    /// The phase is over: the next one begins, for a point that an impulse of 1 over the mass moves by `mobility`. Tells whether it is a
-    /// touch.
+    /// Begins the next phase, for a point that an impulse of 1 over the mass moves by `mobility`, and returns whether
+    /// it is a touch.
     pub(crate) fn advance(&mut self, ground: &Ground, height: f64, mobility: f64) -> bool {
         match self.phase {
             Phase::Free if height >= 0.0 && (self.ground < 0.0 || self.dashpot > 0.0) => {
@@ -181,10 +182,10 @@ impl Contact {
     }
 }
 
-/// Frequency and damping ratio of spring and dashpot that touch for a time of 1 and part, where they would pull, with
-/// restitution e.
+/// Returns frequency and damping ratio of spring and dashpot that touch for a time of 1 and part, where they would
+/// pull, with restitution e.
 fn dashpot(e: f64) -> (f64, f64) {
-    // Time to the end of the push, in units of 1/ω; the restitution is then exp(−ζ ω t).
+    // This is the time to the end of the push, in units of 1/ω; the restitution is then exp(−ζ ω t).
     let time = |zeta: f64| {
         let d = (1.0 - zeta * zeta).abs();
         match zeta {

@@ -1,19 +1,19 @@
 //! The worst drop of each limit by sampling and climbing.
 
 use crate::flight::{Drop, Flight, Until, flat, follow};
-use crate::part::{INSTANT, Motion, Peak, felt, largest, respond, shocks};
+use crate::part::{INSTANT, Motion, Peak, largest, largest_acceleration, respond, shocks};
 use crate::product::{Kind, Part, Product, Sample};
 use crate::random::Random;
 
-/// Drops are followed so far while they are compared, and again when the worst is told.
+/// End of the drops during the search; the worst one is followed again.
 const ROUGH: Until = Until { time: 0.6, quiet: 1e-2 };
-/// See `ROUGH`.
+/// End of the worst drop.
 const WHOLE: Until = Until { time: 0.6, quiet: 1e-4 };
-/// Without a contact time, the ends of a tilt that land within this time land together as well.
+/// Without a contact time, the ends of a tilt that land within this time also land together.
 const MERGE: f64 = 1e-3;
 /// Parts drawn for each drop that is followed.
 const DRAWS: usize = 4;
-/// Samples from which is climbed.
+/// Samples from which the search climbs.
 const STARTS: usize = 8;
 
 /// The worst drop of one limit.
@@ -21,15 +21,15 @@ const STARTS: usize = 8;
 pub struct Worst {
     /// Name of the part.
     pub part: String,
-    /// What is limited.
+    /// Kind of the limit.
     pub kind: Kind,
-    /// Its largest value, of a damage boundary as a share of what is allowed.
+    /// Its largest value; for a damage boundary as a share of the allowed one.
     pub peak: Peak,
-    /// Which touch it comes after; micro-touches are not counted.
+    /// Number of the touch before it; micro-touches are not counted.
     pub impact: usize,
-    /// The value without what the turning of the bar does in free flight.
+    /// The value without the effect of the turning of the bar in free flight.
     pub still: f64,
-    /// Whether it was a flat landing of instant impacts.
+    /// True for a flat landing of instant impacts.
     pub flat: bool,
     /// The drop.
     pub drop: Drop,
@@ -39,12 +39,12 @@ pub struct Worst {
     pub suspension: Option<(f64, f64)>,
 }
 
-/// The values of limits of one part in one flight.
+/// Returns the values of limits of one part in one flight.
 #[must_use]
 pub fn values(kinds: &[Kind], flight: &Flight, place: f64, suspension: Option<(f64, f64)>) -> Vec<Peak> {
     let response = suspension.map(|(omega, zeta)| respond(flight, place, omega, zeta, None));
     let value = |kind: &Kind| match (*kind, response) {
-        (Kind::Acceleration, None) => felt(flight, place),
+        (Kind::Acceleration, None) => largest_acceleration(flight, place),
         (Kind::Acceleration, Some(response)) => response.acceleration,
         (Kind::RattleSpace, response) => response.unwrap_or_default().displacement,
         (Kind::VelocityChange, _) => largest(&shocks(flight, place, Motion::Velocity)),
@@ -60,8 +60,8 @@ pub fn values(kinds: &[Kind], flight: &Flight, place: f64, suspension: Option<(f
     kinds.iter().map(value).collect()
 }
 
-/// The flights of a drop: its own and, without a contact time and nearly flat, the flat one; that alone where strikes are so close
-/// that the motion does not tell them apart.
+/// Returns the flights of a drop: its own and, without a contact time and nearly flat, the flat one; that alone where
+/// strikes are so close that the motion does not resolve them.
 fn flights(drop: &Drop, until: Until) -> Vec<(Flight, bool)> {
     let gap = drop.length * drop.tilt.sin() / drop.speed;
     let mut list = Vec::with_capacity(2);
@@ -74,15 +74,15 @@ fn flights(drop: &Drop, until: Until) -> Vec<(Flight, bool)> {
     list
 }
 
-/// The highest value of a sample.
+/// Returns the highest value of a sample.
 fn high(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> f64 {
     let (place, suspension) = part.at(sample);
     let value = |(flight, _): &(Flight, bool)| values(&[kind], flight, place, suspension)[0].value;
     flights(&product.drop(sample), ROUGH).iter().map(value).fold(0.0, f64::max)
 }
 
-/// A sample followed as far as it is told.
-fn told(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> Worst {
+/// Follows a sample to its full end.
+fn evaluate(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> Worst {
     let drop = product.drop(sample);
     let (place, suspension) = part.at(sample);
     let (mut flight, flat, peak) = flights(&drop, WHOLE)
@@ -142,12 +142,12 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
             .collect();
         tops.sort_by(|a, b| b.0.total_cmp(&a.0));
         let top = climb(tops[0], 2 * tries, spins, &mut random, |sample| high(part, kind, product, sample));
-        told(part, kind, product, &top.1)
+        evaluate(part, kind, product, &top.1)
     });
     climbed.collect()
 }
 
-/// A sample: uniform, some inputs at an end of their range, tilts rather small.
+/// Draws a sample: uniform, some inputs at an end of their range, tilts rather small.
 fn draw(random: &mut Random, spins: bool) -> Sample {
     let corners = random.chance(0.5);
     let mut one = || match random.unit() {
@@ -162,7 +162,7 @@ fn draw(random: &mut Random, spins: bool) -> Sample {
     sample
 }
 
-/// Random steps that shrink where they find nothing higher.
+/// Makes random steps that shrink where they find nothing higher.
 fn climb(
     start: (f64, Sample),
     tries: usize,

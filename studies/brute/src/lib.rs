@@ -1,5 +1,5 @@
-//! A brute force over the drops of a product: it finds the worst of each limit by following thousands of drops, without a
-//! formula or a line of code of `clatter`, and holds what `clatter assess` tells against it.
+//! A brute force over the drops of a product: it finds the worst of each limit by following thousands of drops, without
+//! a formula or a line of code of `clatter`, and compares with the results of `clatter assess`.
 //!
 //! ```sh
 //! cargo run --release -p clatter-brute -- hunt PRODUCT.toml --drops=4000
@@ -8,7 +8,8 @@
 //! ```
 //!
 //! `hunt` prints the worst value of each limit with its drop, `random` a product file as a designer would write one,
-//! `compare` what such files make `clatter assess` tell beside what was found. Each drop is integrated in small steps
+//! `compare` the results of `clatter assess` for such files and those of the search. Each drop is integrated in small
+//! steps
 //! ([`flight`]): equations of motion at any angle, a law of force at each end, bisection where a phase ends. Parts and
 //! shocks are taken from the stored history ([`part`]). Plates and boxes of all directions and attitudes are followed as boxes in
 //! space ([`solid`]), `--kind=plate`, `--kind=box` and the same with own contacts ([`spatial`]).

@@ -1,13 +1,13 @@
-//! What a place of the bar and a suspended part there go through.
+//! The load of a place on the bar, and the response of a suspended part there.
 
 use crate::flight::{Flight, Step};
 
-/// A largest value and when it came.
+/// A largest value and its time.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Peak {
     /// Its magnitude.
     pub value: f64,
-    /// When.
+    /// Its time.
     pub time: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct Response {
 /// One shock.
 #[derive(Debug, Clone, Copy)]
 pub struct Shock {
-    /// When it is largest.
+    /// Time of its peak.
     pub time: f64,
     /// Change of velocity, or of angular velocity.
     pub change: f64,
@@ -39,7 +39,7 @@ pub struct Shock {
     pub acceleration: f64,
 }
 
-/// What changes in a shock.
+/// The motion that changes in a shock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Motion {
     /// The velocity of the place.
@@ -48,10 +48,10 @@ pub enum Motion {
     Turning,
 }
 
-/// Steps of time of a part, in its radians.
+/// Angle of the part's oscillation per step of time, in radians.
 const FINE: f64 = 0.25;
-/// Strikes that come closer than this are one: longer than an end that hops in place of resting is off the ground when the
-/// other lands.
+/// Strikes that come closer than this are one: longer than an end that hops in place of resting is off the ground when
+/// the other lands.
 pub const INSTANT: f64 = 2e-8;
 
 /// A mass on spring and dashpot.
@@ -67,7 +67,7 @@ struct Suspended {
 }
 
 impl Suspended {
-    /// Absolute acceleration.
+    /// Returns the absolute acceleration.
     fn acceleration(&self, z: f64, v: f64) -> f64 {
         -self.omega * (2.0 * self.zeta * v + self.omega * z)
     }
@@ -77,13 +77,13 @@ impl Suspended {
         self.peaks.acceleration.see(self.acceleration(self.z, self.v), self.time);
     }
 
-    /// A step under a felt acceleration that is a parabola through three values.
-    fn push(&mut self, h: f64, felt: [f64; 3]) {
+    /// Makes a step under an acceleration of the place that is a parabola through three values.
+    fn push(&mut self, h: f64, acceleration: [f64; 3]) {
         let parts = (self.omega * (1.0 + 2.0 * self.zeta) * h / FINE).ceil().max(1.0);
         let (from, h) = (self.time, h / parts);
         for i in 0..parts as u64 {
             let at = |u: f64| {
-                let [p, q, r] = felt;
+                let [p, q, r] = acceleration;
                 p + u * (4.0 * q - 3.0 * p - r + u * 2.0 * (p + r - 2.0 * q))
             };
             let [f0, f1, f2] = [0.0, 0.5, 1.0].map(|j| at((i as f64 + j) / parts));
@@ -102,7 +102,7 @@ impl Suspended {
             let time = from + i as f64 * h;
             self.time = time + h;
             self.see();
-            // Between the samples: the turning points of the cubics through values and slopes.
+            // Peaks between the samples are the turning points of the cubics through values and slopes.
             let (u, w) = (spring(z, v), spring(self.z, self.v));
             self.peaks.displacement.see(turning(h, [z, v], [self.z, self.v]), time);
             self.peaks.acceleration.see(turning(h, [u, spring(v, a1)], [w, spring(self.v, w - f2)]), time);
@@ -110,10 +110,10 @@ impl Suspended {
         self.time = from + parts * h;
     }
 
-    /// Rings for a time with a constant felt acceleration.
-    fn ring(&mut self, h: f64, felt: f64) {
+    /// Follows the part for a time under a constant acceleration of the place.
+    fn ring(&mut self, h: f64, acceleration: f64) {
         let w = self.omega;
-        let rest = -felt / (w * w);
+        let rest = -acceleration / (w * w);
         let (z, v) = (self.z - rest, self.v);
         // The turning points: of the displacement, and of the acceleration, which obeys the same equation.
         let (u, ut) = (self.acceleration(z, v), self.acceleration(v, self.acceleration(z, v)));
@@ -129,7 +129,7 @@ impl Suspended {
                 if displacement {
                     peaks.displacement.see(rest + at, self.time + from);
                 } else {
-                    peaks.acceleration.see(felt + at, self.time + from);
+                    peaks.acceleration.see(acceleration + at, self.time + from);
                 }
             }
         }
@@ -140,7 +140,7 @@ impl Suspended {
     }
 }
 
-/// Largest value of the cubic with these values and slopes, where it turns within; else 0.
+/// Returns the largest value of the cubic with these values and slopes, where it turns within; else 0.
 fn turning(h: f64, [u, ut]: [f64; 2], [w, wt]: [f64; 2]) -> f64 {
     if ut * wt >= 0.0 {
         return 0.0;
@@ -151,7 +151,7 @@ fn turning(h: f64, [u, ut]: [f64; 2], [w, wt]: [f64; 2]) -> f64 {
     u * r * r * (1.0 + 2.0 * t) + a * t * r * r + w * t * t * (3.0 - 2.0 * t) - b * t * t * r
 }
 
-/// Free motion of a part after a time.
+/// Returns the free motion of a part after a time.
 fn free(omega: f64, zeta: f64, z: f64, v: f64, t: f64) -> (f64, f64) {
     let (a, d) = (omega * zeta, omega * omega * (1.0 - zeta * zeta));
     let (c, s) = if d.abs() * t * t < 1e-12 {
@@ -167,7 +167,7 @@ fn free(omega: f64, zeta: f64, z: f64, v: f64, t: f64) -> (f64, f64) {
     (z * c + (v + a * z) * s, v * c - (a * v + omega * omega * z) * s)
 }
 
-/// Times from one turning point of a free motion to the next, two of them.
+/// Returns the times from one turning point of a free motion to the next, two of them.
 fn turns(omega: f64, zeta: f64, z: f64, v: f64) -> [f64; 2] {
     let (a, d) = (omega * zeta, omega * omega * (1.0 - zeta * zeta));
     let pull = a * v + omega * omega * z;
@@ -185,8 +185,8 @@ fn turns(omega: f64, zeta: f64, z: f64, v: f64) -> [f64; 2] {
     }
 }
 
-/// Answers a part at `place` from the center of mass; it is followed until a time, or for two of its periods after the
-/// drop was left.
+/// Returns the response of a part at `place` from the center of mass; it is followed until a time, or for two of its
+/// periods after the end of the drop.
 #[must_use]
 pub fn respond(flight: &Flight, place: f64, omega: f64, zeta: f64, until: Option<f64>) -> Response {
     let mut part = Suspended { omega, zeta, z: 0.0, v: 0.0, time: 0.0, peaks: Response::default() };
@@ -195,30 +195,31 @@ pub fn respond(flight: &Flight, place: f64, omega: f64, zeta: f64, until: Option
             part.ring(step.time - part.time, 0.0);
             part.time = step.time;
         }
-        let felt: [f64; 3] = std::array::from_fn(|i| step.push[i] + place * step.lift[i]);
+        let acceleration: [f64; 3] = std::array::from_fn(|i| step.push[i] + place * step.lift[i]);
         if step.length == 0.0 {
-            part.v -= felt[0];
+            part.v -= acceleration[0];
             part.see();
         } else if step.flying && omega * step.length > 5.0 {
-            part.ring(step.length, felt[1]); // so slow for the part that steps do not shake it
+            part.ring(step.length, acceleration[1]); // so slow for the part that steps do not shake it
         } else {
-            part.push(step.length, felt);
+            part.push(step.length, acceleration);
         }
     }
     if flight.end > part.time {
         part.ring(flight.end - part.time, 0.0);
     }
-    let felt = if flight.at_rest { flight.gravity } else { 0.0 };
+    let acceleration = if flight.at_rest { flight.gravity } else { 0.0 };
     let until = until.unwrap_or(flight.end + 2.0 * std::f64::consts::TAU / omega * (1.0 + zeta));
     if until > part.time {
-        part.ring(until - part.time, felt);
+        part.ring(until - part.time, acceleration);
     }
     part.peaks
 }
 
-/// The largest felt acceleration of a place from the center of mass; 0 for instant impacts, which have none.
+/// Returns the largest acceleration above free fall of a place from the center of mass; 0 for instant impacts, which
+/// have none.
 #[must_use]
-pub fn felt(flight: &Flight, place: f64) -> Peak {
+pub fn largest_acceleration(flight: &Flight, place: f64) -> Peak {
     let mut peak = Peak::default();
     for step in flight.steps.iter().filter(|step| !step.flying && step.length > 0.0) {
         peak.see(crest([0, 1, 2].map(|j| step.push[j] + place * step.lift[j])), step.time);
@@ -226,14 +227,20 @@ pub fn felt(flight: &Flight, place: f64) -> Peak {
     peak
 }
 
-/// The shocks of a place from the center of mass, from the largest peak down.
+/// Returns the shocks of a place from the center of mass, from the largest peak down.
 #[must_use]
 pub fn shocks(flight: &Flight, place: f64, motion: Motion) -> Vec<Shock> {
     let is_velocity = motion == Motion::Velocity;
     let (fall, least) = if is_velocity { (flight.gravity, 1.0) } else { (0.0, flight.gyration) };
     let push = |step: &Step| {
-        let felt = [0, 1, 2].map(|j| if is_velocity { step.push[j] + place * step.lift[j] } else { step.turn[j] });
-        Push { time: step.time, length: step.length, felt, moved: [felt.map(|felt| felt - fall), [0.0; 3], [0.0; 3]] }
+        let acceleration =
+            [0, 1, 2].map(|j| if is_velocity { step.push[j] + place * step.lift[j] } else { step.turn[j] });
+        Push {
+            time: step.time,
+            length: step.length,
+            acceleration,
+            moved: [acceleration.map(|acceleration| acceleration - fall), [0.0; 3], [0.0; 3]],
+        }
     };
     let pushes: Vec<Push> = flight.steps.iter().filter(|step| !step.flying).map(push).collect();
     if pushes.iter().any(|push| push.length == 0.0) {
@@ -242,17 +249,17 @@ pub fn shocks(flight: &Flight, place: f64, motion: Motion) -> Vec<Shock> {
     pulses(&pushes, 2.0 * flight.gravity / least)
 }
 
-/// A step in which something presses: what is felt at its begin, middle and end, and by what the velocity changes, along one axis or
-/// along three.
+/// A step with contact: the acceleration above free fall at its begin, middle and end, and the velocity change, along
+/// one axis or along three.
 pub(crate) struct Push {
     pub(crate) time: f64,
     pub(crate) length: f64,
-    pub(crate) felt: [f64; 3],
+    pub(crate) acceleration: [f64; 3],
     pub(crate) moved: [[f64; 3]; 3],
 }
 
 impl Push {
-    /// The change of velocity from its begin to a share of it: the integral of a parabola.
+    /// Returns the change of velocity from its begin to a share of it: the integral of a parabola.
     fn moved_by(&self, u: f64) -> [f64; 3] {
         self.moved.map(|[p, q, r]| {
             self.length * u * (p + u * ((4.0 * q - 3.0 * p - r) / 2.0 + u * 2.0 * (p + r - 2.0 * q) / 3.0))
@@ -260,7 +267,7 @@ impl Push {
     }
 }
 
-/// The largest change of all shocks.
+/// Returns the largest change of all shocks.
 #[must_use]
 pub fn largest(shocks: &[Shock]) -> Peak {
     let mut peak = Peak::default();
@@ -270,10 +277,10 @@ pub fn largest(shocks: &[Shock]) -> Peak {
     peak
 }
 
-/// Changes by instant impacts; those at one instant add up.
+/// Returns the changes by instant impacts; those at one instant add up.
 fn strikes(pushes: &[Push]) -> Vec<Shock> {
     let mut list: Vec<Shock> = Vec::with_capacity(pushes.len());
-    for &Push { time, felt: [jump, ..], .. } in pushes {
+    for &Push { time, acceleration: [jump, ..], .. } in pushes {
         match list.last_mut() {
             Some(last) if time - last.time < INSTANT => {
                 last.change += jump;
@@ -285,7 +292,7 @@ fn strikes(pushes: &[Push]) -> Vec<Shock> {
     list
 }
 
-/// The largest magnitude of a parabola through three values over its step.
+/// Returns the largest magnitude of a parabola through three values over its step.
 fn crest([p, q, r]: [f64; 3]) -> f64 {
     let (bend, slope) = (p + r - 2.0 * q, (r - p) / 2.0);
     let ends = if p.abs() > r.abs() { p } else { r };
@@ -299,40 +306,40 @@ fn crest([p, q, r]: [f64; 3]) -> f64 {
     most
 }
 
-/// A moment of a history: when, what is felt, and the velocity gained by then.
+/// A moment of a history: its time, the acceleration, and the velocity gained by then.
 struct Point {
     time: f64,
-    felt: f64,
+    acceleration: f64,
     gained: [f64; 3],
 }
 
-/// Shocks of a history: they are taken from the largest peak down; each reaches on both sides as
-/// long as the sign is kept and a tenth of its peak, at least `least`, is exceeded, and from there as long as it goes on falling,
-/// never into an earlier one, nor beyond what presses without a gap. Peaks below `least` are none beside others above it.
+/// Returns the shocks of a history, from the largest peak down. Each reaches on both sides as long as the sign is kept
+/// and a tenth of its peak, at least `least`, is exceeded, and from there as long as it goes on falling, never into an
+/// earlier one, nor beyond a contact without a gap. Peaks below `least` do not count if others are above it.
 pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
     let mut points: Vec<Point> = Vec::with_capacity(3 * pushes.len() + 2);
     let mut gained = [0.0; 3];
     for push in pushes {
-        let (h, t, [p, q, r]) = (push.length, push.time, push.felt);
+        let (h, t, [p, q, r]) = (push.length, push.time, push.acceleration);
         let before = points.last().map_or(t, |point| point.time);
         if t > before + 1e-12 {
-            points.extend([before, t].map(|time| Point { time, felt: 0.0, gained }));
+            points.extend([before, t].map(|time| Point { time, acceleration: 0.0, gained }));
         }
-        let at = |u: f64, felt: f64| {
+        let at = |u: f64, acceleration: f64| {
             let moved = push.moved_by(u);
-            Point { time: t + u * h, felt, gained: std::array::from_fn(|i| gained[i] + moved[i]) }
+            Point { time: t + u * h, acceleration, gained: std::array::from_fn(|i| gained[i] + moved[i]) }
         };
         points.push(at(0.0, p));
         for (from, to, half) in [(p, q, 0.5), (q, r, 1.0)] {
             if from * to < 0.0 {
-                // Where the sign changes.
+                // This is the change of sign.
                 points.push(at(half - 0.5 * to / (to - from), 0.0));
             }
             points.push(at(half, to));
         }
         gained = at(1.0, r).gained;
     }
-    let size = |i: usize| points[i].felt.abs();
+    let size = |i: usize| points[i].acceleration.abs();
     let mut crests: Vec<usize> = (0..points.len())
         .filter(|&i| {
             size(i) > 0.0 && (i == 0 || size(i) >= size(i - 1)) && (i + 1 == points.len() || size(i) >= size(i + 1))
@@ -350,7 +357,7 @@ pub(crate) fn pulses(pushes: &[Push], least: f64) -> Vec<Shock> {
         }
         let down_to = least.max(0.1 * size(top));
         let goes_on = |from: usize, to: usize| {
-            let kept = !taken[to] && size(from) > 0.0 && points[to].felt * points[top].felt >= 0.0;
+            let kept = !taken[to] && size(from) > 0.0 && points[to].acceleration * points[top].acceleration >= 0.0;
             kept && (size(from) > down_to && size(to) > down_to || size(to) <= size(from))
         };
         let (mut low, mut high) = (top, top);

@@ -1,15 +1,15 @@
-//! A product file: what falls, how, and what its parts stand.
+//! A product file: the body, its drop, and the limits of its parts.
 
 use crate::flight::{Drop, Law, Own};
 use toml::{Table, Value};
 
-/// From, to.
+/// Begin and end of a range.
 pub type Range = [f64; 2];
 
-/// What is limited.
+/// The kind of a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kind {
-    /// Absolute acceleration of a suspended part, felt acceleration of a hard-mounted one.
+    /// Absolute acceleration of a suspended part, acceleration above free fall of a hard-mounted one.
     Acceleration,
     /// Displacement of a suspended part.
     RattleSpace,
@@ -22,7 +22,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// As `clatter assess` calls it.
+    /// Returns its name in `clatter assess`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -40,11 +40,11 @@ impl Kind {
 pub struct Part {
     /// Its name.
     pub name: String,
-    /// From the center of mass towards end b, with its extent.
+    /// Range of its place from the center of mass towards end b, with its extent.
     pub place: Range,
-    /// Natural angular frequency and damping ratio; none of a part that is mounted hard.
+    /// Natural angular frequency and damping ratio; none for a hard-mounted part.
     pub suspension: Option<(Range, Range)>,
-    /// What is limited.
+    /// Its limits.
     pub limits: Vec<Kind>,
 }
 
@@ -75,7 +75,7 @@ fn between(range: Range, share: f64) -> f64 {
 }
 
 impl Product {
-    /// The drop of a sample.
+    /// Returns the drop of a sample.
     #[must_use]
     pub fn drop(&self, sample: &Sample) -> Drop {
         let end = ((sample[4] * self.first.len() as f64) as usize).min(self.first.len() - 1);
@@ -94,7 +94,7 @@ impl Product {
         }
     }
 
-    /// Whether it turns as it lands, at some spin of a range.
+    /// Returns whether it turns as it lands, at some spin of a range.
     #[must_use]
     pub fn spins(&self) -> bool {
         self.spin[1] > self.spin[0]
@@ -103,7 +103,7 @@ impl Product {
     /// Reads a product file.
     ///
     /// # Errors
-    /// What is missing or not understood.
+    /// A message about a part of the file that is missing or not understood.
     pub fn read(text: &str) -> Result<Self, String> {
         let file: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
         let table = |key: &str| file.get(key).and_then(Value::as_table).ok_or(format!("no table [{key}]"));
@@ -145,14 +145,14 @@ impl Product {
 }
 
 impl Part {
-    /// Whether anything of it is a range.
+    /// Returns whether any value of it is a range.
     #[must_use]
     pub fn varies(&self) -> bool {
         let wide = |range: Range| range[1] > range[0];
         wide(self.place) || self.suspension.is_some_and(|(omega, zeta)| wide(omega) || wide(zeta))
     }
 
-    /// Place from the center of mass, natural angular frequency and damping ratio of a sample.
+    /// Returns the place from the center of mass, natural angular frequency and damping ratio of a sample.
     #[must_use]
     pub fn at(&self, sample: &Sample) -> (f64, Option<(f64, f64)>) {
         let suspension = self.suspension.map(|(omega, zeta)| (between(omega, sample[6]), between(zeta, sample[7])));
@@ -192,7 +192,7 @@ fn part(table: &Table, center: f64) -> Result<Part, String> {
     Ok(Part { name, place: [from - half - center, to + half - center], suspension, limits })
 }
 
-/// Radius of gyration and center of mass.
+/// Returns the radius of gyration and the center of mass.
 fn inertia(product: &Table) -> Result<(f64, f64), String> {
     let center = optional(product, "center_of_mass")?.map_or(0.0, |range| range[0]);
     if product.contains_key("radius_of_gyration") {
@@ -218,7 +218,7 @@ fn inertia(product: &Table) -> Result<(f64, f64), String> {
     Ok(((sums[2] / sums[0] - center * center).sqrt(), center))
 }
 
-/// Contacts of their own at ends a and b.
+/// Returns the own contacts of ends a and b.
 fn own(product: &Table) -> Result<[Own; 2], String> {
     let mut own = [Own::default(); 2];
     for contact in product.get("contacts").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_table) {
@@ -245,7 +245,7 @@ fn optional(table: &Table, key: &str) -> Result<Option<Range>, String> {
     table.get(key).map(|value| spread(value).ok_or(format!("{key} = {value:?}: not understood"))).transpose()
 }
 
-/// A value, a range, or the bounds of a distribution.
+/// Returns a value, a range, or the bounds of a distribution.
 fn spread(value: &Value) -> Option<Range> {
     match value {
         Value::Array(list) => Some([quantity(list.first()?)?, quantity(list.last()?)?]),
@@ -254,7 +254,7 @@ fn spread(value: &Value) -> Option<Range> {
     }
 }
 
-/// A number with its unit, in SI.
+/// Returns a number with its unit, in SI.
 fn quantity(value: &Value) -> Option<f64> {
     let text = match value {
         Value::Float(number) => return Some(*number),

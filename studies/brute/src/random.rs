@@ -7,13 +7,13 @@ use std::fmt::Write;
 pub struct Random(u64);
 
 impl Random {
-    /// Begins with a seed.
+    /// Creates the generator from a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x2545_F491_4F6C_DD1D).wrapping_add(0x9E37_79B9))
     }
 
-    /// Uniform from 0 to 1.
+    /// Returns a number that is uniform from 0 to 1.
     pub fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
@@ -22,22 +22,22 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Uniform within bounds.
+    /// Returns a number that is uniform within bounds.
     pub fn within(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// Uniform in the logarithm.
+    /// Returns a number that is uniform in the logarithm.
     pub fn log(&mut self, low: f64, high: f64) -> f64 {
         low * (high / low).powf(self.unit())
     }
 
-    /// True with this probability.
+    /// Returns true with this probability.
     pub fn chance(&mut self, share: f64) -> bool {
         self.unit() < share
     }
 
-    /// Near to normal, of standard deviation 1.
+    /// Returns a nearly normal number of standard deviation 1.
     pub fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.unit()).sum::<f64>() - 6.0
     }
@@ -47,7 +47,7 @@ impl Random {
 pub const KINDS: [&str; 10] =
     ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped", "feet", "own-contacts", "spin"];
 
-/// A value with its unit, or a range about it; three digits, as one writes them.
+/// Returns a value with its unit, or a range about it, with three digits, as one writes them.
 fn spread(random: &mut Random, middle: f64, share: f64, chance: f64, unit: &str) -> String {
     if random.chance(chance) {
         let half = middle * random.within(0.2, 1.0) * share;
@@ -61,7 +61,7 @@ fn digits(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// A random product file of a kind, its limits far above any demand; none for an unknown kind.
+/// Returns a random product file of a kind, its limits far above any demand; none for an unknown kind.
 #[must_use]
 pub fn product(kind: &str, seed: u64) -> Option<String> {
     let index = KINDS.iter().position(|&name| name == kind)?;
@@ -88,7 +88,7 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
         digits(wide)
     );
     if kind == "feet" {
-        // So high that no edge touches.
+        // The feet are so high that no edge touches.
         let inset = digits(length * r.within(0.02, 0.25));
         let _ = writeln!(text, "feet_inset = \"{inset} mm\"\nfeet_height = \"{} mm\"", digits(0.3 * length));
     }
@@ -110,7 +110,7 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
     let (from, to) = match kind {
         "tiny-tilt" => (0.0, r.log(0.05, 1.0)),
         "steep" => (r.within(0.0, 15.0), r.within(15.0, 30.0)),
-        // Without a contact time so steep that no strikes are one.
+        // Without a contact time the tilt is so steep that no strikes are simultaneous.
         "spin" if !contact => (r.within(10.0, 12.0), r.within(13.0, 20.0)),
         _ => (if r.chance(0.5) { 0.0 } else { r.within(0.5, 3.0) }, r.within(4.0, 15.0)),
     };
@@ -124,7 +124,7 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
         digits(to)
     );
     if kind == "spin" {
-        // Over what would turn the first end up, at the least height and the farthest end.
+        // The unit is the spin that would turn the first end up, at the least height and the farthest end.
         let most = (2.0 * 9.806_65 * 0.7 * height).sqrt() / (0.62e-3 * length);
         let spin = r.within(-0.9, 1.2);
         let other = if r.chance(0.7) { r.within(-0.9, 1.2) } else { spin };
@@ -137,7 +137,7 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
     Some(text)
 }
 
-/// Contacts of their own: softer or harder, and livelier or not, than those of a product that last so many ms.
+/// Returns own contacts: softer or harder, and livelier or not, than those of a product that last so many ms.
 pub(crate) fn own_contacts(r: &mut Random, places: &[&str], time: f64) -> String {
     let mut one = |at: &&str| {
         let (e, time) = (digits(r.within(0.02, 0.7)), digits((time * r.log(0.2, 5.0)).min(3.0)));

@@ -24,43 +24,43 @@ pub struct Solid {
     pub e: f64,
     /// Law and time of a lone contact.
     pub contact: (Law, f64),
-    /// What the corners (−, −), (+, −), (+, +) and (−, +) of its bottom have of their own.
+    /// Own contacts of the corners (−, −), (+, −), (+, +) and (−, +) of its bottom.
     pub own: [Own; 4],
     /// Speed of the center of mass.
     pub speed: f64,
     /// Angular velocity, in axes of the box.
     pub spin: Vector,
-    /// The vertical in axes of the box.
+    /// Vertical in axes of the box.
     pub upward: Vector,
     /// Gravity.
     pub gravity: f64,
 }
 
-/// What the box felt in a step: at begin, middle and end, in its own axes, that of the center of mass and what a meter along each axis
-/// adds.
+/// Accelerations above free fall in a step, in axes of the box: at begin, middle and end, that of the center of mass
+/// and its increase per meter along each axis.
 #[derive(Debug, Clone, Copy)]
 struct Moment {
     time: f64,
     length: f64,
     flying: bool,
-    felt: [(Vector, Matrix); 3],
-    /// The vertical in axes of the box.
+    accelerations: [(Vector, Matrix); 3],
+    /// Vertical in axes of the box.
     up: [Vector; 3],
 }
 
-/// A drop that was followed.
+/// A followed drop.
 #[derive(Debug, Clone)]
 pub struct Course {
     moments: Vec<Moment>,
-    /// When it was left.
+    /// End of the integration.
     pub end: f64,
     at_rest: bool,
     gravity: f64,
-    /// The vertical in axes of the box as it was left.
+    /// Vertical in axes of the box at the end.
     upward: Vector,
     /// Corners in the order of their first touches.
     pub order: Vec<usize>,
-    /// Largest gain of energy, as a share of that of the drop: none but for the error of the integration.
+    /// Largest gain of energy, as a share of that of the drop: only the error of the integration.
     pub gain: f64,
 }
 
@@ -68,11 +68,11 @@ pub struct Course {
 /// momentum in axes of the world.
 type State = [f64; 14];
 
-/// Steps of free flight in radians that the box turns.
+/// Angle of rotation per step of free flight, in radians.
 const TURN: f64 = 0.05;
-/// A drop that needs more is left.
+/// The largest number of steps; a drop is followed no further.
 const MOST_STEPS: usize = 400_000;
-/// A corner is down from this height on.
+/// Height from which on a corner is down.
 const DOWN: f64 = 1e-12;
 
 fn cross(a: Vector, b: Vector) -> Vector {
@@ -88,12 +88,12 @@ fn unit(a: Vector) -> Vector {
     a.map(|x| x / size)
 }
 
-/// In axes of the world.
+/// Returns a vector in axes of the world.
 fn out(r: &Matrix, body: Vector) -> Vector {
     r.map(|row| dot(row, body))
 }
 
-/// In axes of the box.
+/// Returns a vector in axes of the box.
 fn back(r: &Matrix, world: Vector) -> Vector {
     std::array::from_fn(|j| r[0][j] * world[0] + r[1][j] * world[1] + r[2][j] * world[2])
 }
@@ -147,14 +147,14 @@ impl Body {
         [[s[2], s[3], s[4]], [s[5], s[6], s[7]], [s[8], s[9], s[10]]]
     }
 
-    /// Attitude and angular velocity in axes of the world.
+    /// Returns the attitude, and the angular velocity in axes of the world.
     fn turning(&self, s: &State) -> (Matrix, Vector) {
         let r = Self::attitude(s);
         let spin = back(&r, [s[11], s[12], s[13]]);
         (r, out(&r, self.over(spin)))
     }
 
-    /// In axes of the box, a torque over the moments of inertia (over the mass): by Gauss' elimination.
+    /// Returns a torque over the moments of inertia (over the mass), in axes of the box, by Gauss' elimination.
     fn over(&self, torque: Vector) -> Vector {
         let [a, b, c] = self.solid.radii.map(|k| k * k);
         let off = -self.solid.askew;
@@ -162,13 +162,13 @@ impl Body {
         [(torque[0] - off * y) / a, y, torque[2] / c]
     }
 
-    /// What a torque in axes of the world turns.
+    /// Returns the angular acceleration by a torque in axes of the world.
     fn turned(&self, r: &Matrix, torque: Vector) -> Vector {
         let own = back(r, torque);
         out(r, self.over(own))
     }
 
-    /// Height, velocity and mobility of a corner.
+    /// Returns height, velocity and mobility of a corner.
     fn corner(&self, k: usize, s: &State) -> (f64, f64, f64) {
         let (r, w) = self.turning(s);
         let arm = out(&r, self.corners[k]);
@@ -185,7 +185,7 @@ impl Body {
         c.force(&self.grounds[k], height, velocity)
     }
 
-    /// Force of the ground on the mass, and its torque about the center of mass.
+    /// Returns the force of the ground on the mass, and its torque about the center of mass.
     fn pushed(&self, s: &State) -> (f64, Vector) {
         let r = Self::attitude(s);
         let (mut push, mut torque) = (0.0, [0.0; 3]);
@@ -215,7 +215,7 @@ impl Body {
         rate
     }
 
-    /// A step of Runge and Kutta.
+    /// Makes a step of Runge and Kutta.
     fn step(&self, s: &State, h: f64) -> State {
         let along = |rate: &State, h: f64| -> State { std::array::from_fn(|i| s[i] + h * rate[i]) };
         let k1 = self.rate(s);
@@ -227,7 +227,7 @@ impl Body {
         next
     }
 
-    /// The rows of the attitude made a rotation again.
+    /// Makes the rows of the attitude orthonormal again.
     fn squared(s: &mut State) {
         let r = Self::attitude(s);
         let x = unit(r[0]);
@@ -237,8 +237,9 @@ impl Body {
         }
     }
 
-    /// What is felt: of the center of mass, and for a meter along each axis of the box (its columns).
-    fn felt(&self, s: &State) -> (Vector, Matrix) {
+    /// Returns the acceleration above free fall: of the center of mass, and its increase per meter along each axis of
+    /// the box (its columns).
+    fn accelerations(&self, s: &State) -> (Vector, Matrix) {
         let ((r, w), (push, torque)) = (self.turning(s), self.pushed(s));
         let spun = cross(w, [s[11], s[12], s[13]]);
         let bend = self.turned(&r, std::array::from_fn(|i| torque[i] - spun[i]));
@@ -260,10 +261,10 @@ impl Body {
         kinetic + self.solid.gravity * s[0] + (0..8).map(stored).sum::<f64>()
     }
 
-    /// A time in which no corner can come to the ground, in free flight.
+    /// Returns a time in which no corner can come to the ground, in free flight.
     fn clear(&self, s: &State) -> f64 {
         let [a, b, c] = self.solid.radii.map(|k| k * k);
-        // No radius of gyration is smaller.
+        // This is the square of the smallest radius of gyration.
         let least = (0.5 * (a + b) - (0.5 * (a - b)).hypot(self.solid.askew)).min(c);
         let fastest = dot([s[11], s[12], s[13]], [s[11], s[12], s[13]]).sqrt() / least;
         let one = |k: usize| {
@@ -272,7 +273,7 @@ impl Body {
                 return 0.0;
             }
             let reach = dot(self.corners[k], self.corners[k]).sqrt();
-            // Turning changes the velocity of a corner by the squared rate at most, and that of the axis by as much again.
+            // Turning accelerates a corner by the squared rate at most, and the change of the axis by as much again.
             let bend = self.solid.gravity + 2.0 * reach * fastest * fastest;
             let root = (velocity * velocity + 2.0 * bend * height.max(0.0)).sqrt();
             if velocity > 0.0 { (velocity + root) / bend } else { 2.0 * height.max(0.0) / (root - velocity) }
@@ -335,9 +336,9 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
             let (from, to) = (body.rate(&s), body.rate(&next));
             let middle: State = std::array::from_fn(|i| f64::midpoint(s[i], next[i]) + h / 8.0 * (from[i] - to[i]));
             let all = [&s, &middle, &next];
-            let (felt, up) = (all.map(|s| body.felt(s)), all.map(|s| Body::attitude(s)[2]));
+            let (accelerations, up) = (all.map(|s| body.accelerations(s)), all.map(|s| Body::attitude(s)[2]));
             let flying = body.contacts.iter().all(|contact| contact.phase == Phase::Free);
-            moments.push(Moment { time, length: h, flying, felt, up });
+            moments.push(Moment { time, length: h, flying, accelerations, up });
         }
         (s, time) = (next, time + h);
         for k in (0..8).filter(|&k| over[k]) {
@@ -361,15 +362,15 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
 }
 
 impl Course {
-    /// What a place from the center of mass felt along an axis of the box, or of any by its size.
+    /// Returns the history of a place from the center of mass along an axis of the box, or of its magnitude.
     #[must_use]
     pub fn at(&self, place: Vector, axis: Option<usize>) -> Flight {
-        let seen = |felt: &(Vector, Matrix)| size(there(felt, place), axis);
+        let seen = |acceleration: &(Vector, Matrix)| size(there(acceleration, place), axis);
         let step = |moment: &Moment| Step {
             time: moment.time,
             length: moment.length,
             flying: moment.flying,
-            push: [0, 1, 2].map(|j| seen(&moment.felt[j])),
+            push: [0, 1, 2].map(|j| seen(&moment.accelerations[j])),
             lift: [0.0; 3],
             turn: [0.0; 3],
         };
@@ -383,29 +384,34 @@ impl Course {
         }
     }
 
-    /// The shocks of a place from the center of mass along an axis of the box, or along any: velocities change by what is felt but for
-    /// gravity, which has its share along each axis.
+    /// Returns the shocks of a place from the center of mass along an axis of the box, or along any: velocities change
+    /// by the acceleration above free fall, less gravity, which has its share along each axis.
     #[must_use]
     pub fn shocks(&self, place: Vector, axis: Option<usize>) -> Vec<Shock> {
         let push = |moment: &Moment| {
-            let felt: [Vector; 3] = [0, 1, 2].map(|j| there(&moment.felt[j], place));
+            let acceleration: [Vector; 3] = [0, 1, 2].map(|j| there(&moment.accelerations[j], place));
             let moved = [0, 1, 2].map(|i| {
                 let counts = axis.is_none_or(|axis| axis == i);
-                [0, 1, 2].map(|j| if counts { felt[j][i] - self.gravity * moment.up[j][i] } else { 0.0 })
+                [0, 1, 2].map(|j| if counts { acceleration[j][i] - self.gravity * moment.up[j][i] } else { 0.0 })
             });
-            Push { time: moment.time, length: moment.length, felt: felt.map(|felt| size(felt, axis)), moved }
+            Push {
+                time: moment.time,
+                length: moment.length,
+                acceleration: acceleration.map(|acceleration| size(acceleration, axis)),
+                moved,
+            }
         };
         let pushes: Vec<Push> = self.moments.iter().filter(|moment| !moment.flying).map(push).collect();
         pulses(&pushes, 2.0 * self.gravity)
     }
 }
 
-/// What a place feels.
+/// Returns the acceleration above free fall at a place.
 fn there((center, lift): &(Vector, Matrix), place: Vector) -> Vector {
     std::array::from_fn(|i| center[i] + place[0] * lift[0][i] + place[1] * lift[1][i] + place[2] * lift[2][i])
 }
 
-/// Along an axis, or in all.
-fn size(felt: Vector, axis: Option<usize>) -> f64 {
-    axis.map_or_else(|| dot(felt, felt).sqrt(), |axis| felt[axis])
+/// Returns the component along an axis, or the magnitude.
+fn size(acceleration: Vector, axis: Option<usize>) -> f64 {
+    axis.map_or_else(|| dot(acceleration, acceleration).sqrt(), |axis| acceleration[axis])
 }

@@ -1,4 +1,4 @@
-//! Random plates and boxes as products, and what `clatter assess` tells of them beside what random drops ask for.
+//! Random plates and boxes as products, and `clatter assess` beside random drops of them.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
@@ -16,7 +16,7 @@ use crate::product::Kind;
 use crate::random::Random;
 use crate::solid::{Solid, Vector, follow};
 
-/// Drops are followed so far.
+/// End of the drops.
 const UNTIL: Until = Until { time: 0.3, quiet: 2e-2 };
 /// Restitution, contact time, speed, tilt, direction, natural frequency, damping, spin, from 0 to 1.
 type Sample = [f64; 8];
@@ -24,7 +24,7 @@ type Sample = [f64; 8];
 pub const KINDS: [&str; 6] = ["plate", "box", "plate-own-contacts", "spin-plate", "spin-box", "box-own-contacts"];
 type Range = [f64; 2];
 
-/// A part: where it is from the center of mass, the axis that it moves along (any of a hard one), and its suspension.
+/// A part: its place from the center of mass, the axis of its motion (any for a hard one), and its suspension.
 struct Part {
     place: Vector,
     axis: Option<usize>,
@@ -32,19 +32,19 @@ struct Part {
     kinds: Vec<Kind>,
 }
 
-/// A plate that falls at any tilt of a range, or a box that is turned off what it lands on.
+/// A plate that falls at any tilt of a range, or a box that is turned away from its face, edge or corner.
 struct Product {
     solid: Solid,
     law: Law,
     e: Range,
     time: Range,
     speed: Range,
-    /// Of a plate off flat; of a box off its attitude.
+    /// Tilt of a plate from flat, of a box from its attitude.
     tilt: Range,
     direction: Range,
-    /// About the axis of the tilt, positive where that grows.
+    /// Spin about the axis of the tilt, positive where that grows.
     spin: Range,
-    /// The vertical of a box on its face, edge or corner.
+    /// Vertical of a box on its face, edge or corner.
     upward: Vector,
     parts: Vec<Part>,
     text: String,
@@ -58,7 +58,8 @@ fn round(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
 }
 
-/// Where mass is: as the file has it, its center, its radii of gyration along the length and the width, and the mean of x y.
+/// Returns a mass distribution: its text in the file, its center, its radii of gyration along the length and the width,
+/// and the mean of x y.
 fn spread(r: &mut Random, sides: [f64; 2]) -> (String, [f64; 2], [f64; 2], f64) {
     if r.chance(0.5) {
         let [kx, ky] = sides.map(|side| round(side * r.within(0.22, 0.36)));
@@ -70,7 +71,7 @@ fn spread(r: &mut Random, sides: [f64; 2]) -> (String, [f64; 2], [f64; 2], f64) 
         );
         return (text, center, [kx, ky], 0.0);
     }
-    // A case all over, and two parts that are small.
+    // The masses are a case all over, and two parts that are small.
     let [half_x, half_y] = sides.map(|side| 0.5 * side);
     let mut text = format!(
         "masses = [{{ mass = \"1 kg\", from = [\"{} m\", \"{} m\"], to = [\"{half_x} m\", \"{half_y} m\"] }}",
@@ -92,7 +93,7 @@ fn spread(r: &mut Random, sides: [f64; 2]) -> (String, [f64; 2], [f64; 2], f64) 
 }
 
 impl Product {
-    /// A random product and its file, its limits far above any demand.
+    /// Creates a random product and its file, its limits far above any demand.
     fn new(kind: &str, seed: u64) -> Self {
         let number = KINDS.iter().position(|&known| known == kind).unwrap_or(0);
         let r = &mut Random::new(seed.wrapping_mul(64).wrapping_add(number as u64));
@@ -166,7 +167,7 @@ impl Product {
         let speed = [(2.0 * solid.gravity * height).sqrt(); 2];
         let mut spin = [0.0; 2];
         if kind.starts_with("spin") {
-            // Over what would turn a corner up, wherever it is.
+            // The unit is the spin that would turn a corner up, for any corner.
             let far = (0..3).map(|i| 0.5 * solid.sides[i] + solid.center[i].abs()).map(|x| x * x).sum::<f64>().sqrt();
             let shares = [r.within(-0.9, 0.9), r.within(-0.9, 0.9)];
             let [low, high] =
@@ -176,7 +177,7 @@ impl Product {
         }
         let parts = (0..2).map(|n| part(r, n, &solid, is_box, &mut text)).collect();
         if !is_box {
-            // What lands of a plate are the corners of its bottom, however deep they dent: those of its top are out of reach.
+            // A plate lands on the corners of its bottom, even in deep dents: those of its top are out of reach.
             solid.sides[2] = length;
             solid.center[2] = 0.5 * (thickness - length);
         }
@@ -185,7 +186,8 @@ impl Product {
 
     fn drop(&self, sample: &Sample) -> Solid {
         let (angle, direction) = (at(self.tilt, sample[3]), at(self.direction, sample[4]));
-        // Two axes across the vertical; of a plate the length and the width, so that it rises towards the direction.
+        // These are two axes across the vertical; for a plate the length and the width, so that it rises towards the
+        // direction.
         let up = self.upward.map(|x| x / self.upward.iter().map(|x| x * x).sum::<f64>().sqrt());
         let first = if up[2] > 1.0 - 1e-12 { [1.0, 0.0, 0.0] } else { across(up) };
         let second = [
@@ -209,7 +211,7 @@ impl Product {
     }
 }
 
-/// Contacts of their own at some corners of a plate, softer or harder, livelier or not.
+/// Returns own contacts at some corners of a plate, softer or harder, livelier or not.
 fn own_contacts(r: &mut Random, own: &mut [Own; 4], time: f64) -> String {
     let first = (r.unit() * 4.0) as usize;
     let count = if r.chance(0.6) { 1 } else { 1 + (r.unit() * 4.0) as usize };
@@ -229,7 +231,7 @@ fn own_contacts(r: &mut Random, own: &mut [Own; 4], time: f64) -> String {
     list.join(", ")
 }
 
-/// An axis across another.
+/// Returns an axis across another.
 fn across(up: Vector) -> Vector {
     let axis = (0..3).min_by(|&i, &j| up[i].abs().total_cmp(&up[j].abs())).unwrap_or(0);
     let mut first = up.map(|x| -x * up[axis]);
@@ -249,7 +251,7 @@ fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String
         suspension: None,
         kinds: vec![Kind::Acceleration],
     };
-    // What a box does across the blow, only hard parts and their velocity changes tell.
+    // Only hard parts and their velocity changes depend on the motion of a box across the blow.
     let is_hard = r.chance(if is_box { 0.5 } else { 0.3 });
     let any = is_box && is_hard && r.chance(0.3);
     if is_box {
@@ -276,7 +278,7 @@ fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String
     part
 }
 
-/// The largest value of each limit among random drops, half of them close to the worst so far.
+/// Returns the largest value of each limit among random drops, half of them close to the worst so far.
 fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f64, Sample)> {
     let limits = product.parts.iter().enumerate().flat_map(|(n, part)| part.kinds.iter().map(move |&kind| (n, kind)));
     let mut best: Vec<(usize, Kind, f64, Sample)> = limits.map(|(n, kind)| (n, kind, -1.0, [0.5; 8])).collect();
@@ -288,7 +290,7 @@ fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f6
             u if u > 0.85 => 1.0,
             _ => r.unit(),
         });
-        // The direction goes round.
+        // The direction is periodic.
         sample[4] = r.unit();
         if r.chance(0.3) {
             sample[3] *= sample[3];
@@ -304,12 +306,12 @@ fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f6
         }
         let course = follow(&product.drop(&sample), UNTIL);
         for (n, part) in product.parts.iter().enumerate() {
-            let felt = course.at(part.place, part.axis);
+            let history = course.at(part.place, part.axis);
             let suspension = part.suspension.map(|(omega, zeta)| (at(omega, sample[5]), at(zeta, sample[6])));
             let (shocks, kinds): (Vec<Kind>, Vec<Kind>) =
                 part.kinds.iter().partition(|&&kind| kind == Kind::VelocityChange);
             let shocks = shocks.into_iter().map(|kind| (kind, largest(&course.shocks(part.place, part.axis))));
-            for (kind, peak) in kinds.iter().copied().zip(values(&kinds, &felt, 0.0, suspension)).chain(shocks) {
+            for (kind, peak) in kinds.iter().copied().zip(values(&kinds, &history, 0.0, suspension)).chain(shocks) {
                 let of = best.iter_mut().find(|of| of.0 == n && of.1 == kind);
                 if let Some(of) = of.filter(|of| peak.value > of.2) {
                     (of.2, of.3) = (peak.value, sample);
@@ -320,12 +322,12 @@ fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f6
     best
 }
 
-/// The arguments by which clatter answers the very drop.
+/// Returns the arguments for the same drop in clatter.
 fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
     let drop = product.drop(sample);
     let list = |values: Vector| values.map(|x| x.to_string()).join(",");
     let [x, y, z] = drop.upward;
-    // The rotation that brings the vertical of the box upright.
+    // This rotation brings the vertical of the box upright.
     let turn = if z > -1.0 + 1e-9 { [1.0 + z, y, -x, 0.0] } else { [0.0, 1.0, 0.0, 0.0] };
     let size = turn.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
     let place: Vector = std::array::from_fn(|i| part.place[i] + drop.center[i]);
@@ -435,7 +437,7 @@ pub fn compare(
     .map_err(|error| error.to_string())
 }
 
-/// A random product file of a [kind](KINDS).
+/// Returns a random product file of a [kind](KINDS).
 #[must_use]
 pub fn product(kind: &str, seed: u64) -> String {
     Product::new(kind, seed).text

@@ -16,7 +16,8 @@ fn every_kind_is_read_and_searched_the_same_way_twice() {
     }
 }
 
-/// A part in the middle of a bar that can only land flat: without a contact time it feels (1 + e) v0 at once.
+/// The part is in the middle of a bar that can only land flat: without a contact time its velocity changes by (1 + e)
+/// v0 at once.
 #[test]
 fn a_flat_drop_without_a_contact_time_lands_at_once() {
     let text = "[product]\nname = \"flat\"\nlength = \"0.2 m\"\nradius_of_gyration = \"60 mm\"\nrestitution = 0.4\n\

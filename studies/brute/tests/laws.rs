@@ -1,14 +1,14 @@
-//! What holds for any drop.
+//! Laws that hold for any drop.
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
 use std::f64::consts::PI;
 
 use clatter_brute::flight::{Drop, Law, Own, Until, flat, follow};
-use clatter_brute::part::{Motion, felt, largest, respond, shocks};
+use clatter_brute::part::{Motion, largest, largest_acceleration, respond, shocks};
 use clatter_brute::random::Random;
 
-/// A body too slow to turn, on one end: a lone contact.
+/// Returns a drop of a body too slow to turn, on one end: a lone contact.
 fn lone(law: Law, e: f64) -> Drop {
     Drop {
         length: 0.2,
@@ -25,15 +25,15 @@ fn lone(law: Law, e: f64) -> Drop {
     }
 }
 
-/// Restitution, time and peak are those that are stated: the half-sine's peak of the hysteretic law at any e; of spring
-/// and dashpot without loss the half-sine itself, with much the force at the touch, 2 v ln(1/e)/τ.
+/// Restitution, time and peak are the stated ones: the half-sine's peak of the hysteretic law at any e; for spring and
+/// dashpot without loss the half-sine itself, with large loss the force at the touch, 2 v ln(1/e)/τ.
 #[test]
 fn a_lone_contact_is_as_stated() {
     for law in [Law::Hysteretic, Law::Dashpot] {
         for e in [0.05, 0.1, 0.25, 0.6, 1.0] {
             let mut drop = lone(law, e);
             if (0.2..0.3).contains(&e) {
-                // Those of the end that lands, not of the product.
+                // These are the values of the end that lands, not of the product.
                 drop.own[0] = Own { e: Some(e), time: Some(4e-4) };
                 (drop.e, drop.contact) = (0.9, Some((law, 2e-3)));
             }
@@ -48,7 +48,7 @@ fn a_lone_contact_is_as_stated() {
                 Law::Dashpot if e < 0.2 => 2.0 * 3.0 * (1.0 / e).ln() / 4e-4,
                 _ => PI / 2.0 * (1.0 + e) * 3.0 / 4e-4,
             };
-            let peak = felt(&flight, 0.0).value;
+            let peak = largest_acceleration(&flight, 0.0).value;
             assert!((peak / want - 1.0).abs() < 1e-5, "{law:?} {e}: peak {peak}, not {want}");
         }
     }
@@ -117,8 +117,8 @@ fn instant_impacts_are_those_of_the_paper() {
     }
 }
 
-/// A velocity shock v does ω v to a part without damping and 0.931 ω v at a damping ratio of 0.05; a damper of ratio 5
-/// passes 2 ζ ω v on at once.
+/// A velocity shock v gives a part without damping ω v and one with a damping ratio of 0.05 0.931 ω v; a damper of
+/// ratio 5 passes 2 ζ ω v on at once.
 #[test]
 fn a_part_answers_one_shock_as_is_known() {
     let drop = Drop { contact: None, e: 0.0, gravity: 9.8, ..lone(Law::Hysteretic, 0.0) };

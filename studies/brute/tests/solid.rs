@@ -1,11 +1,11 @@
-//! What holds for any box.
+//! Laws that hold for any box.
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
 use clatter_brute::flight::{Law, Own, Until};
 use clatter_brute::solid::{Solid, follow};
 
-/// A box of these sides that lands on its lowest corner.
+/// Returns a box of these sides that lands on its lowest corner.
 fn solid(upward: [f64; 3], e: f64, law: Law) -> Solid {
     let sides = [0.15, 0.07, 0.02];
     let k = [0.043, 0.02, 0.02 / 12_f64.sqrt()];
@@ -46,12 +46,12 @@ fn a_box_on_its_corner_is_one_mass() {
     let size = corner.iter().map(|x| x * x).sum::<f64>().sqrt();
     let along: Vec<f64> = (0..3)
         .map(|axis| {
-            let felt = course.at([0.01, 0.02, -0.003], Some(axis));
-            felt.steps.iter().map(|s| s.length / 6.0 * (s.push[0] + 4.0 * s.push[1] + s.push[2])).sum()
+            let history = course.at([0.01, 0.02, -0.003], Some(axis));
+            history.steps.iter().map(|s| s.length / 6.0 * (s.push[0] + 4.0 * s.push[1] + s.push[2])).sum()
         })
         .collect();
     for (axis, change) in along.iter().enumerate() {
-        // Gravity takes some 3e-3 of it back while the corner presses; felt, it is there.
+        // Gravity takes some 3e-3 of it back while the corner presses; the acceleration above free fall includes it.
         let expected = -corner[axis] / size * (1.4 * 4.0 + 9.806_65 * 4e-4);
         assert!((change - expected).abs() < 2e-3, "axis {axis}: {change}, not {expected}");
     }

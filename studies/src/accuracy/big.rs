@@ -1,9 +1,10 @@
-//! Numbers with more digits than anything they judge: 512 bits in the significand, and the matrix exponential in them.
+//! Numbers with more digits than any result that they check: 512 bits in the significand, and the matrix exponential in
+//! them.
 
 use num_bigint::{BigInt, Sign};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Digits kept of a result. A strike beyond 10¹⁶ loses some 60 of them, a phase of 10¹² some 90.
+/// Digits that a result keeps. A strike beyond 10¹⁶ loses some 60 of them, a phase of 10¹² some 90.
 const BITS: u64 = 512;
 
 /// `m · 2^x`, results cut to [`BITS`].
@@ -37,15 +38,15 @@ impl Big {
     pub(super) fn max(&self, other: &Self) -> Self {
         if (self - other).is_negative() { other.clone() } else { self.clone() }
     }
-    /// Times `2^n`.
+    /// Returns the number times `2^n`.
     pub(super) fn scale(&self, n: i64) -> Self {
         Self { m: self.m.clone(), x: self.x + n }
     }
-    /// The exponent of the leading bit; that of nothing for zero.
+    /// Returns the exponent of the leading bit; a very low one for zero.
     fn top(&self) -> i64 {
         if self.is_zero() { i64::MIN / 2 } else { self.x.saturating_add_unsigned(self.m.bits()) }
     }
-    /// Square root; 0 for what is negative.
+    /// Returns the square root; 0 for a negative number.
     pub(super) fn sqrt(&self) -> Self {
         if self.is_zero() || self.is_negative() {
             return Self::zero();
@@ -53,7 +54,7 @@ impl Big {
         let up = 2 * BITS + u64::from(self.x % 2 != 0);
         Self::new((&self.m << up).sqrt(), (self.x - i64::try_from(up).unwrap_or(0)) / 2)
     }
-    /// To the nearest float or its neighbor; 0 or infinite beyond their range.
+    /// Returns the nearest float or its neighbor; 0 or infinite beyond their range.
     pub(super) fn to_f64(&self) -> f64 {
         let bits = self.m.bits();
         let off = bits.saturating_sub(64);
@@ -64,7 +65,7 @@ impl Big {
         let size = libm::ldexp(top, i32::try_from(power).unwrap_or(0));
         if self.is_negative() { -size } else { size }
     }
-    /// The first `digits` significant decimal digits, rounded, and the power of ten of the first.
+    /// Returns the first `digits` significant decimal digits, rounded, and the power of ten of the first.
     pub(super) fn decimal(&self, digits: u32) -> (String, i64) {
         if self.is_zero() {
             return ("0".repeat(digits as usize), 0);
@@ -90,7 +91,7 @@ impl Big {
             }
         }
     }
-    /// π = 16 atan 1/5 − 4 atan 1/239 (Machin 1706).
+    /// Returns π = 16 atan 1/5 − 4 atan 1/239 (Machin 1706).
     pub(super) fn pi() -> Self {
         let one = BigInt::from(1) << (BITS + 32);
         let atan = |n: u32| {
@@ -108,7 +109,7 @@ impl Big {
 }
 
 impl From<f64> for Big {
-    /// Exactly; 0 for what is not finite.
+    /// Converts exactly; 0 for a value that is not finite.
     fn from(v: f64) -> Self {
         if v == 0.0 || !v.is_finite() {
             return Self { m: BigInt::from(0), x: 0 };
@@ -155,7 +156,7 @@ impl Mul for &Big {
 }
 impl Div for &Big {
     type Output = Big;
-    /// 0 over anything is 0; the divisor is not.
+    /// Returns the quotient; 0 over anything is 0, and the divisor must not be 0.
     fn div(self, o: &Big) -> Big {
         if self.is_zero() {
             return Big::zero();
@@ -172,7 +173,7 @@ fn product<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> Matrix<N> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..N).fold(Big::zero(), |sum, k| &sum + &(&a[i][k] * &b[k][j]))))
 }
 
-/// e^A, by its power series at a small share of A, squared back up.
+/// Returns e^A, by its power series at a small share of A, squared back up.
 pub(super) fn exponential<const N: usize>(a: &Matrix<N>) -> Matrix<N> {
     let top = a.iter().flatten().map(Big::top).max().unwrap_or(0);
     let halvings = (top + 8).max(0);
@@ -189,12 +190,12 @@ pub(super) fn exponential<const N: usize>(a: &Matrix<N>) -> Matrix<N> {
     (0..halvings).fold(sum, |power, _| product(&power, &power))
 }
 
-/// The image of a vector.
+/// Returns the image of a vector.
 pub(super) fn image<const N: usize>(a: &Matrix<N>, v: &[Big; N]) -> [Big; N] {
     std::array::from_fn(|i| (0..N).fold(Big::zero(), |sum, k| &sum + &(&a[i][k] * &v[k])))
 }
 
-/// How far `got` is from `want`, over `scale`: 0 where they agree, infinite where `got` is no number.
+/// Returns the difference of `got` from `want`, over `scale`: 0 where they agree, infinite where `got` is not finite.
 pub(super) fn off(got: f64, want: &Big, scale: &Big) -> f64 {
     if !got.is_finite() {
         return f64::INFINITY;
@@ -223,7 +224,7 @@ mod tests {
         }
     }
 
-    /// A turn by one radian, and by a thousand.
+    /// Checks a turn by one radian and by a thousand.
     #[test]
     fn the_exponential_of_a_turn_is_sine_and_cosine() {
         for (angle, sine) in [(1.0, "841470984807896506652502321630"), (1000.0, "826879540532002560255887429109")] {

@@ -1,4 +1,4 @@
-//! A few numbers in full: exact, ours, and what plain f64 makes of a formula as it is printed.
+//! A few numbers in full: exact, ours, and the result of plain f64 by a formula as it is printed.
 
 use clatter::{Bar, Start};
 use clatter_figures::raised;
@@ -6,7 +6,7 @@ use clatter_figures::raised;
 use super::big::Big;
 use super::part::{self, START};
 use super::plain::{closed, recurrence};
-use super::train::{Case, Exact, Found, Given, Row};
+use super::train::{Case, Exact, Found, Inertia, Row};
 use crate::Error;
 
 /// A number or a word.
@@ -17,7 +17,7 @@ pub(super) enum Value {
     Word(&'static str),
 }
 
-/// One line: what is computed, by which plain formula, and the three values.
+/// One line: the quantity, its plain formula, and the three values.
 #[derive(Debug)]
 pub(super) struct Line {
     pub(super) what: &'static str,
@@ -45,16 +45,16 @@ fn found(found: Found) -> Value {
     }
 }
 
-/// The words for a case.
+/// Returns the text for a case.
 pub(super) fn inputs(case: &Case) -> String {
     let given = match case.given {
-        Given::Q(q) => format!("q = {}", short(q)),
-        Given::K(k) => format!("k = {}", short(k)),
+        Inertia::Q(q) => format!("q = {}", short(q)),
+        Inertia::K(k) => format!("k = {}", short(k)),
     };
     format!("{given}, e = {}", short(case.e))
 }
 
-/// A float in as few signs as tell it: next to 1 by its distance, else as it reads back.
+/// Returns a float in as few characters as define it: next to 1 by its distance, else in its shortest form.
 fn short(v: f64) -> String {
     let off = 1.0 - v;
     if off > 0.0 && off <= 4.0 * f64::EPSILON {
@@ -73,8 +73,8 @@ fn short(v: f64) -> String {
     v.to_string().replace('-', "−")
 }
 
-/// The words for a case with its start.
-fn told(case: &Case) -> String {
+/// Returns the text for a case with its start.
+fn inputs_with_start(case: &Case) -> String {
     let [a, b] = case.velocity;
     #[expect(clippy::float_cmp, reason = "the default, to the bit")]
     let plain = a == -1.0 && b == -1.0;
@@ -82,7 +82,7 @@ fn told(case: &Case) -> String {
     inputs(case) + &start
 }
 
-/// The lines about trains.
+/// Returns the lines about trains.
 fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     const RECURRENCE: &str = "aₙ₊₁ = T aₙ − e aₙ₋₁";
     const CLOSED: &str = "⌈(π − φ)/acos(T/2√e)⌉";
@@ -93,7 +93,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
             let plain = if by_recurrence { &row.recurrence } else { &row.closed };
             lines.push(Line {
                 what: "number of impacts",
-                at: told(&row.case),
+                at: inputs_with_start(&row.case),
                 formula,
                 exact: found(row.exact),
                 ours: found(row.ours.found),
@@ -107,7 +107,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     count("beyond 2⁵³", CLOSED, false);
     count("tie of a start", CLOSED, false);
     if let Some(row) = of("q → 1, given k")
-        && let Given::K(k) = row.case.given
+        && let Inertia::K(k) = row.case.given
     {
         let peak = Bar::from_gyration_ratio(k, row.case.e)?.summary(&Start::default()).peak;
         let square = &Big::from(k) * &Big::from(k);
@@ -125,7 +125,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     if let Some(row) = of("thousands")
         && let Found::Impacts(n) = row.exact
     {
-        let Given::Q(q) = row.case.given else { return Ok(lines) };
+        let Inertia::Q(q) = row.case.given else { return Ok(lines) };
         let time = Bar::new(q, row.case.e)?.summary(&Start::default()).duration;
         lines.push(Line {
             what: "time of the last impact",
@@ -139,11 +139,11 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     if let Some(row) = of("one float spun out")
         && let Found::Impacts(n) = row.exact
     {
-        let Given::Q(q) = row.case.given else { return Ok(lines) };
+        let Inertia::Q(q) = row.case.given else { return Ok(lines) };
         let start = Start::new(row.case.velocity, row.case.gap)?;
         lines.push(Line {
             what: "time of the last impact",
-            at: told(&row.case),
+            at: inputs_with_start(&row.case),
             formula: "h₀ bₙ/|A λ₊ⁿ + B λ₋ⁿ|",
             exact: Value::Number(Exact::new(&row.case).time(n - 1)),
             ours: number(Bar::new(q, row.case.e)?.summary(&start).duration),
@@ -153,7 +153,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     Ok(lines)
 }
 
-/// The lines about a suspended part.
+/// Returns the lines about a suspended part.
 fn parts() -> Result<Vec<Line>, Error> {
     let mut lines = Vec::new();
     let mut free = |what, zeta: f64, name: &str, (at, omega, t): (&str, f64, f64), formula| {

@@ -1,11 +1,11 @@
-//! The flight models beside one another, and the contact engine beside itself at a finer precision.
+//! The flight models compared with one another, and the contact engine with itself at a finer precision.
 
 use crate::{Order, Residue, orders, residues};
 use clatter_flight::{Contact, ContactLaw, Model, Motion, Profile, Scene};
 
 use crate::Error;
 
-/// Drops of (½, 0.3), half-length 70 mm, 4.43 m/s: of the flights at 5°, of the steps in precision at 20°.
+/// Drops of (½, 0.3), half-length 70 mm, 4.43 m/s: the flights at 5°, the steps in precision at 20°.
 const HALF_M: f64 = 0.07;
 const SPEED_M_S: f64 = 4.43;
 const RESTITUTION: f64 = 0.3;
@@ -13,34 +13,34 @@ const TILT_DEG: f64 = 5.0;
 const CONTACT_S: f64 = 5e-5;
 pub(super) const STEEP_DEG: f64 = 20.0;
 pub(super) const LONG_CONTACT_S: f64 = 4e-4;
-/// Precisions that are tried, and the one that they are held against.
+/// The precisions, and the finest one that they are compared with.
 const PRECISIONS: [(&str, f64); 4] = [("10⁻²", 1e-2), ("10⁻³", 1e-3), ("10⁻⁴", 1e-4), ("10⁻⁵", 1e-5)];
 const FINEST: f64 = 1e-6;
-/// Strikes that are compared.
+/// Number of compared strikes.
 pub(super) const COMPARED: usize = 4;
 
-/// Both laws, and what they are called.
+/// Both laws, with their names.
 const LAWS: [(&str, &str, ContactLaw); 2] = [
     ("hysteretic", "compliant, hysteretic", ContactLaw::Hysteretic),
     ("dashpot", "compliant, dashpot", ContactLaw::Dashpot),
 ];
 
-/// What contacts at one precision are off by: the largest over the strikes compared.
+/// The errors of contacts at one precision: the largest over the compared strikes.
 #[derive(Debug, Clone)]
 pub(super) struct Step {
     pub(super) law: &'static str,
     pub(super) precision: &'static str,
-    /// Of the time of a strike, relative.
+    /// Error of the time of a strike, relative.
     pub(super) time: f64,
-    /// Of its approach speed, over the drop speed.
+    /// Error of its approach speed, over the drop speed.
     pub(super) approach: f64,
-    /// Of its velocity shocks, likewise.
+    /// Error of its velocity shocks, over the drop speed.
     pub(super) shock: f64,
     /// Pieces in which all forces are linear in the motion.
     pub(super) phases: usize,
 }
 
-/// Everything about flights.
+/// All data about flights.
 #[derive(Debug)]
 pub(super) struct Flights {
     pub(super) orders: Vec<Order>,
@@ -78,7 +78,7 @@ impl Flights {
     }
 }
 
-/// Errors of both laws at each precision.
+/// Returns the errors of both laws at each precision.
 fn steps() -> Result<Vec<Step>, Error> {
     let drop = scene(STEEP_DEG)?;
     let mut steps = Vec::new();
@@ -94,7 +94,8 @@ fn steps() -> Result<Vec<Step>, Error> {
     Ok(steps)
 }
 
-/// Largest differences of times, approach speeds and velocity shocks; infinite where another point strikes, or none.
+/// Returns the largest differences of times, approach speeds and velocity shocks; infinite where another point strikes,
+/// or none.
 fn off(flight: &Motion, finest: &Motion) -> [f64; 3] {
     let mut most = [0.0_f64; 3];
     for (k, want) in finest.strikes.iter().take(COMPARED).enumerate() {
@@ -112,7 +113,7 @@ fn off(flight: &Motion, finest: &Motion) -> [f64; 3] {
 mod tests {
     use super::*;
 
-    /// What a strike is off by is about the precision at most, and falls with it.
+    /// The error of a strike is about the precision at most, and falls with it.
     #[test]
     fn strikes_are_as_exact_as_asked() {
         let steps = steps().unwrap();

@@ -5,15 +5,15 @@ use clatter_shock::accuracy::{FREE, PULSE, RECORD, TRAIN};
 use serde_json::{Value, json};
 
 use super::digits::inputs;
-use super::told::{count, counted, judged, pair, power, start, upper, written};
+use super::display::{count, counted, error_cell, pair, power, start, upper, written};
 use super::{Data, STRIKES, flight, part};
 use crate::files::decimals;
 use part::Cell;
 
 impl Data {
-    /// Each allowance, and the extreme that comes nearest to it.
+    /// Returns each allowance, and the extreme that comes nearest to it.
     fn allowances(&self) -> Vec<Value> {
-        let told = |a: Allowance, worst: Option<(f64, String)>| {
+        let shown = |a: Allowance, worst: Option<(f64, String)>| {
             let (error, at) = worst.unwrap_or((f64::NAN, String::new()));
             json!({
                 "quantity": a.quantity, "scale": a.scale, "range": a.range,
@@ -22,35 +22,35 @@ impl Data {
         };
         let larger = |a: (f64, String), b: (f64, String)| if b.0 > a.0 { b } else { a };
         let of_train = |a: Allowance| {
-            let judged = self.trains.iter().flat_map(|row| row.ours.judged.iter().map(move |j| (row, j)));
-            let errors = judged.filter(|(_, j)| j.allowed == Some(a));
+            let compared = self.trains.iter().flat_map(|row| row.ours.compared.iter().map(move |j| (row, j)));
+            let errors = compared.filter(|(_, j)| j.allowed == Some(a));
             errors.filter_map(|(row, j)| Some((j.error?, row.case.name.to_owned()))).reduce(larger)
         };
-        // What is allowed more at one extreme than at others is taken off.
+        // An allowance that is larger at one extreme is divided out.
         let of_part = |a: Allowance, axis: &str, at: &[&str], lines: &[part::Line]| {
             let cells = lines.iter().flat_map(|line| {
                 line.cells.iter().zip(at).filter_map(move |(cell, at)| Some((line.zeta, cell.as_ref()?, at)))
             });
-            let told = |(zeta, cell, at): (&str, &Cell, &&str)| {
+            let shown = |(zeta, cell, at): (&str, &Cell, &&str)| {
                 (cell.ours * a.error / cell.allowed, format!("ζ = {zeta}, {axis} = {at}"))
             };
-            cells.map(told).reduce(larger)
+            cells.map(shown).reduce(larger)
         };
         let part = &self.part;
         let clatters = (part.clatters.ours, format!("{} parts", part.parts));
         TABLE
             .into_iter()
-            .map(|a| told(a, of_train(a)))
+            .map(|a| shown(a, of_train(a)))
             .chain([
-                told(FREE, of_part(FREE, "ωt", &part::FREE_AT.map(|at| at.0), &part.free)),
-                told(PULSE, of_part(PULSE, "ωD", &part::PULSE_AT.map(|at| at.0), &part.pulse)),
-                told(TRAIN, Some(clatters)),
-                told(RECORD, of_part(RECORD, "f/fₛ", &part::RECORD_AT.map(|at| at.0), &part.record)),
+                shown(FREE, of_part(FREE, "ωt", &part::FREE_AT.map(|at| at.0), &part.free)),
+                shown(PULSE, of_part(PULSE, "ωD", &part::PULSE_AT.map(|at| at.0), &part.pulse)),
+                shown(TRAIN, Some(clatters)),
+                shown(RECORD, of_part(RECORD, "f/fₛ", &part::RECORD_AT.map(|at| at.0), &part.record)),
             ])
             .collect()
     }
 
-    /// Every number that the page says.
+    /// Returns every number on the page.
     pub(super) fn numbers(&self) -> Value {
         let allowances = self.allowances();
         let orders = self.flights.orders.iter().map(|o| {
@@ -78,7 +78,7 @@ impl Data {
         let trains = self.trains.iter().map(|row| {
             let ways = [("ours", &row.ours), ("recurrence", &row.recurrence), ("closed form", &row.closed)];
             let ways = ways.map(|(name, way)| {
-                let cells = way.judged.iter().map(judged);
+                let cells = way.compared.iter().map(error_cell);
                 let cells: Vec<_> = std::iter::once(counted(row.exact, way)).chain(cells).collect();
                 json!({ "way": name, "cells": cells })
             });

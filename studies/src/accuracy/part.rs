@@ -1,4 +1,4 @@
-//! The suspended part at its extremes, beside the exponential of its own equation of motion in 512 bits.
+//! The suspended part at its extremes, compared with the exponential of its own equation of motion in 512 bits.
 //!
 //! ```text
 //! x = ωz, y = z′, τ = ωt:   x′ = y,  y′ = −x − 2ζ y − a/ω
@@ -17,7 +17,7 @@ use std::f64::consts::{PI, TAU};
 use super::big::{Big, exponential, image, off};
 use crate::Error;
 
-/// One number at an extreme: what is allowed, what ours is off by, and what a plain formula is.
+/// One number at an extreme: the allowed error, that of this library, and that of a plain formula.
 #[derive(Debug, Clone)]
 pub(super) struct Cell {
     pub(super) allowed: f64,
@@ -41,7 +41,7 @@ pub(super) const ZETAS: [(&str, f64); 6] = [
     ("1 + 2⁻⁵²", 1.0 + f64::EPSILON),
     ("50", 50.0),
 ];
-/// ω and t of free motion, and what their product is about; the late ones have no product that is a float.
+/// ω and t of free motion, and the approximate product; the product of the late ones is no float.
 pub(super) const FREE_AT: [(&str, f64, f64); 6] = [
     ("10⁻¹²", 1.1e-6, 0.9e-6),
     ("10⁻⁴", 1.1e-2, 0.9e-2),
@@ -72,7 +72,7 @@ pub(super) fn mount(omega: f64, zeta: f64) -> Result<Suspension, Error> {
     Ok(Suspension::new(omega, DampingRatio::new(zeta)?)?)
 }
 
-/// (x, y) after free motion, exactly, and the decay of the slower mode.
+/// Returns (x, y) after free motion, exactly, and the decay of the slower mode.
 pub(super) fn free_exact(zeta: f64, omega: f64, t: f64) -> ([Big; 2], Big) {
     let (z, tau) = (Big::from(zeta), &Big::from(omega) * &Big::from(t));
     let motion = exponential(&[[Big::zero(), tau.clone()], [-&tau, -&(&z.scale(1) * &tau)]]);
@@ -83,7 +83,8 @@ pub(super) fn free_exact(zeta: f64, omega: f64, t: f64) -> ([Big; 2], Big) {
     (image(&motion, &start), decay)
 }
 
-/// Free motion from (x, y) over τ by the textbook's three formulas: sine and cosine, the double root, two exponentials.
+/// Returns the free motion from (x, y) over τ by the textbook's three formulas: sine and cosine, the double root, two
+/// exponentials.
 fn textbook(zeta: f64, [x, y]: [f64; 2], tau: f64) -> [f64; 2] {
     if zeta > 1.0 {
         let root = sqrt(zeta * zeta - 1.0);
@@ -100,7 +101,7 @@ fn textbook(zeta: f64, [x, y]: [f64; 2], tau: f64) -> [f64; 2] {
     [decay * (x + (y + x) * tau), decay * (y - (y + x) * tau)]
 }
 
-/// ωz and z′ after free motion by the textbook.
+/// Returns ωz and z′ after free motion by the textbook.
 pub(super) fn free_plain(zeta: f64, omega: f64, t: f64) -> [f64; 2] {
     textbook(zeta, [omega * START.displacement, START.velocity], omega * t)
 }
@@ -124,7 +125,7 @@ fn free(zeta: f64, omega: f64, t: f64) -> Result<Option<Cell>, Error> {
     }))
 }
 
-/// (ωz, z′) at the end of a half-sine of amplitude and length 1: the sine and its cosine join the state.
+/// Returns (ωz, z′) at the end of a half-sine of amplitude and length 1: the sine and its cosine join the state.
 pub(super) fn pulse_exact(zeta: f64, omega: f64) -> [Big; 2] {
     let (z, w, pi) = (Big::from(zeta), Big::from(omega), Big::pi());
     let zero = Big::zero;
@@ -140,7 +141,7 @@ pub(super) fn pulse_exact(zeta: f64, omega: f64) -> [Big; 2] {
     [x, y]
 }
 
-/// Steady and free motion, as a textbook adds them up.
+/// Returns the sum of steady and free motion, as in a textbook.
 pub(super) fn pulse_plain(zeta: f64, omega: f64) -> [f64; 2] {
     // z = Im(Z e^{iπt}), Z = −1/(ω² − π² + 2iζωπ)
     let (re, im) = (omega * omega - PI * PI, 2.0 * zeta * omega * PI);
@@ -156,7 +157,7 @@ pub(super) fn pulse_plain(zeta: f64, omega: f64) -> [f64; 2] {
     [omega * z1 + x, v1 + y]
 }
 
-/// (ωz, z′) at its end by the library.
+/// Returns (ωz, z′) at its end by the library.
 pub(super) fn pulse_ours(zeta: f64, omega: f64) -> Result<[f64; 2], Error> {
     let half_sine = Pulse { shape: Shape::HalfSine, amplitude: 1.0, duration: 1.0, start: 0.0 };
     let state = Pulses::new(&[half_sine])?.state_at_end(&mount(omega, zeta)?);
@@ -171,16 +172,18 @@ fn pulse(zeta: f64, omega: f64) -> Result<Cell, Error> {
     Ok(Cell { allowed: PULSE.error, ours: of(pulse_ours(zeta, omega)?), plain: Some(of(pulse_plain(zeta, omega))) })
 }
 
-/// A record that rises from 0 to 100 along a cosine: the absolute acceleration of a soft part then rises to its end.
+/// Returns a record that rises from 0 to 100 along a cosine: the absolute acceleration of a soft part then rises to its
+/// end.
 pub(super) fn record() -> Vec<f64> {
     (0..100_u8).map(|k| 50.0 * (1.0 - cos(PI * f64::from(k) / 99.0))).collect()
 }
 
-/// The absolute acceleration over ω at each sample but the first, exactly; the sample and its slope join the state.
+/// Returns the absolute acceleration over ω at each sample but the first, exactly; the sample and its slope join the
+/// state.
 fn record_path(zeta: f64, share: f64, samples: &[f64]) -> Vec<Big> {
     let (z, theta) = (Big::from(zeta), (&Big::pi() * &Big::from(share)).scale(1));
     let zero = Big::zero;
-    // Over one step of length 1: x, y, the acceleration over ω, its rise.
+    // Over one step of length 1 the state is x, y, the acceleration over ω, and its rise.
     let step = exponential(&[
         [zero(), theta.clone(), zero(), zero()],
         [-&theta, -&(&z.scale(1) * &theta), -&theta, zero()],
@@ -198,12 +201,12 @@ fn record_path(zeta: f64, share: f64, samples: &[f64]) -> Vec<Big> {
     samples.windows(2).map(after).collect()
 }
 
-/// Its largest value, the last.
+/// Returns its largest value, the last.
 pub(super) fn record_exact(zeta: f64, share: f64, samples: &[f64]) -> Big {
     record_path(zeta, share, samples).pop().unwrap_or_else(Big::zero)
 }
 
-/// The filter of ISO 18431-4 by its coefficients as printed.
+/// Returns the peak by the filter of ISO 18431-4, with its coefficients as printed.
 pub(super) fn record_plain(zeta: f64, share: f64, samples: &[f64]) -> f64 {
     let omega = TAU * share;
     let e = exp(-zeta * omega);
@@ -219,7 +222,7 @@ pub(super) fn record_plain(zeta: f64, share: f64, samples: &[f64]) -> f64 {
     peak / omega
 }
 
-/// The primary acceleration over ω by the library.
+/// Returns the primary acceleration over ω by the library.
 pub(super) fn record_ours(zeta: f64, share: f64, samples: &[f64]) -> Result<f64, Error> {
     let frequencies = Frequencies::list(vec![share])?;
     let mut filter = SpectrumFilter::new(frequencies, DampingRatio::new(zeta)?, Quantity::AbsoluteAcceleration, 1.0)?;
@@ -236,7 +239,7 @@ fn sampled(zeta: f64, share: f64, samples: &[f64]) -> Result<Cell, Error> {
     })
 }
 
-/// The largest error of the peaks of 75 parts in a clatter, against 50 digits.
+/// Returns the largest error of the peaks of 75 parts in a clatter, against 50 digits.
 fn clatters() -> Result<(f64, usize), Error> {
     let bad = || Error::Data("the reference of the clatters".into());
     let data: serde_json::Value =
@@ -258,7 +261,7 @@ fn clatters() -> Result<(f64, usize), Error> {
     Ok((worst, cases.len()))
 }
 
-/// Everything about the part.
+/// All data about the part.
 #[derive(Debug)]
 pub(super) struct Part {
     pub(super) free: Vec<Line>,
@@ -295,7 +298,7 @@ mod tests {
     use super::*;
     use serde_json::Value;
 
-    /// The judge is judged: the exponential against the closed forms in 100 digits of mpmath.
+    /// The reference itself is checked: the exponential against the closed forms in 100 digits of mpmath.
     #[test]
     fn exact_motions_are_those_of_a_hundred_digits() {
         let data: Value =

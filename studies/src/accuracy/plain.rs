@@ -1,17 +1,17 @@
 //! The train in plain f64: the recurrence as a loop, and the closed form as it is printed.
 
-use super::train::{Answer, Case, Found, Given, LONG};
+use super::train::{Answer, Case, Found, Inertia, LONG};
 
-/// T as f64 has it: from k through a rounded q.
+/// Returns T in f64: from k through a rounded q.
 fn plain_t(case: &Case) -> f64 {
     let q = match case.given {
-        Given::Q(q) => q,
-        Given::K(k) => (1.0 - k * k) / (1.0 + k * k),
+        Inertia::Q(q) => q,
+        Inertia::K(k) => (1.0 - k * k) / (1.0 + k * k),
     };
     q * (1.0 + case.e)
 }
 
-/// The recurrence as it stands, for a million steps.
+/// Runs the recurrence as it is printed, for a million steps.
 pub(super) fn recurrence(case: &Case, list: &[u64]) -> Answer {
     let (t, e) = (plain_t(case), case.e);
     let [mut a, vb] = case.velocity;
@@ -38,7 +38,7 @@ pub(super) fn recurrence(case: &Case, list: &[u64]) -> Answer {
     answer
 }
 
-/// The closed form as it is printed: acos of T/(2√e), π − φ, plain powers.
+/// Returns the closed form as it is printed: acos of T/(2√e), π − φ, plain powers.
 pub(super) fn closed(case: &Case, list: &[u64]) -> Answer {
     use libm::{acos, atan2, ceil, exp, floor, log, pow, sin, sqrt};
     let (t, e, [va, vb]) = (plain_t(case), case.e, case.velocity);

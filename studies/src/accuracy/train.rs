@@ -1,4 +1,4 @@
-//! The train at its extremes: ours and the plain ways beside 512 digits of the same recurrence.
+//! The train at its extremes: this library and the plain ways compared with 512 digits of the same recurrence.
 
 use clatter::accuracy::{APPROACH, Allowance, DURATION, DURATION_LONG, FINAL, JUMP, NEAR_ENDLESS, PEAK, SHORT, TIME};
 use clatter::{Bar, Count, Start};
@@ -7,9 +7,9 @@ use super::big::{Big, off};
 use super::plain::{closed, recurrence};
 use crate::Error;
 
-/// A bar is given by one of them.
+/// The inertia of a bar, by one of two ratios.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Given {
+pub(super) enum Inertia {
     /// Inertia ratio q.
     Q(f64),
     /// Gyration ratio k = ρ/L.
@@ -20,7 +20,7 @@ pub(super) enum Given {
 #[derive(Debug, Clone)]
 pub(super) struct Case {
     pub(super) name: &'static str,
-    pub(super) given: Given,
+    pub(super) given: Inertia,
     pub(super) e: f64,
     pub(super) velocity: [f64; 2],
     pub(super) gap: f64,
@@ -28,21 +28,21 @@ pub(super) struct Case {
     edge: bool,
 }
 
-/// How many impacts somebody finds.
+/// A number of impacts as found by some method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Found {
     Impacts(u64),
     Endless,
-    /// Not known after [`LONG`] steps.
+    /// Unknown after [`LONG`] steps.
     Open,
-    /// No number came out.
+    /// No number as result.
     Nothing,
 }
 
 /// One strike: approach velocity, jump of the struck end, time.
 pub(super) type Strike = [f64; 3];
 
-/// What somebody says of a train.
+/// The results of a method for a train.
 #[derive(Debug, Clone)]
 pub(super) struct Answer {
     pub(super) found: Found,
@@ -52,24 +52,24 @@ pub(super) struct Answer {
     pub(super) duration: f64,
 }
 
-/// The number of what is held against the exact values, and its errors.
+/// The number of compared quantities, and of their errors.
 pub(super) const QUANTITIES: usize = 6;
 
-/// An allowance if there is one, and the largest error, if it was asked for.
+/// An allowance if there is one, and the largest error, if it was measured.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Judged {
+pub(super) struct Comparison {
     pub(super) allowed: Option<Allowance>,
     pub(super) error: Option<f64>,
 }
 
-/// One way to the answer, held against the exact values: peak, approach velocity, jump, time, final velocity, duration.
+/// One method, compared with the exact values: peak, approach velocity, jump, time, final velocity, duration.
 #[derive(Debug, Clone)]
 pub(super) struct Way {
     pub(super) found: Found,
-    pub(super) judged: [Judged; QUANTITIES],
+    pub(super) compared: [Comparison; QUANTITIES],
 }
 
-/// One case: the exact count, and the three ways to it.
+/// One case: the exact count, and the three methods.
 #[derive(Debug, Clone)]
 pub(super) struct Row {
     pub(super) case: Case,
@@ -79,15 +79,15 @@ pub(super) struct Row {
     pub(super) closed: Way,
 }
 
-/// Steps that a plain loop is given.
+/// Steps of a plain loop.
 pub(super) const LONG: u64 = 1_000_000;
-/// An endless train is looked at up to this strike.
+/// The last strike that is compared of an endless train.
 const FAR: u64 = 1000;
 
 pub(super) fn cases() -> Vec<Case> {
     let at = |name, given, e| Case { name, given, e, velocity: [-1.0, -1.0], gap: 1.0, edge: false };
-    let q = |name, q, e| at(name, Given::Q(q), e);
-    let k = |name, k, e| at(name, Given::K(k), e);
+    let q = |name, q, e| at(name, Inertia::Q(q), e);
+    let k = |name, k, e| at(name, Inertia::K(k), e);
     vec![
         q("ordinary", 0.5, 0.3),
         q("q → 1, endless", 1.0 - f64::EPSILON / 2.0, 0.5),
@@ -123,8 +123,8 @@ impl Exact {
     pub(super) fn new(case: &Case) -> Self {
         let one = Big::from(1.0);
         let q = match case.given {
-            Given::Q(q) => Big::from(q),
-            Given::K(k) => {
+            Inertia::Q(q) => Big::from(q),
+            Inertia::K(k) => {
                 let square = &Big::from(k) * &Big::from(k);
                 &(&one - &square) / &(&one + &square)
             }
@@ -133,7 +133,7 @@ impl Exact {
         let t = &q * &(&one + &e);
         Self { q, e, t, v: case.velocity.map(Big::from), gap: Big::from(case.gap) }
     }
-    /// b_n and b_{n+1} by doubling: b_{2m} = b_m (2 b_{m+1} − T b_m), b_{2m+1} = b_{m+1}² − e b_m².
+    /// Returns b_n and b_{n+1} by doubling: b_{2m} = b_m (2 b_{m+1} − T b_m), b_{2m+1} = b_{m+1}² − e b_m².
     fn companion(&self, n: u64) -> [Big; 2] {
         let (mut low, mut high) = (Big::zero(), Big::from(1.0));
         for bit in (0..u64::BITS - n.leading_zeros()).rev() {
@@ -148,7 +148,7 @@ impl Exact {
         }
         [low, high]
     }
-    /// a_n = v_a b_{n+1} + v_b b_n and b_n.
+    /// Returns a_n = v_a b_{n+1} + v_b b_n and b_n.
     fn term(&self, n: u64) -> [Big; 2] {
         let [b, next] = self.companion(n);
         [&(&self.v[0] * &next) + &(&self.v[1] * &b), b]
@@ -156,17 +156,17 @@ impl Exact {
     fn strikes(&self, n: u64) -> bool {
         self.term(n)[0].is_negative()
     }
-    /// 4e − T².
+    /// Returns 4e − T².
     pub(super) fn discriminant(&self) -> Big {
         &self.e.scale(2) - &(&self.t * &self.t)
     }
-    /// v_b − λ₊|v_a| for a real λ₊.
+    /// Returns v_b − λ₊|v_a| for a real λ₊.
     fn beyond_edge(&self) -> Big {
         let root = &(&self.t + &(-&self.discriminant()).sqrt()).scale(-1);
         &self.v[1] + &(root * &self.v[0])
     }
-    /// The first n ≥ 1 with a_n ≥ 0. The first wave of negative velocities is no shorter than the positive one after
-    /// it, so that doubling cannot step over that.
+    /// Returns the first n ≥ 1 with a_n ≥ 0. The first wave of negative velocities is no shorter than the positive one
+    /// after it, so that doubling cannot step over that.
     fn count(&self) -> Found {
         if let Some(n) = (1..=2).find(|&n| !self.strikes(n)) {
             return Found::Impacts(n);
@@ -181,7 +181,7 @@ impl Exact {
         }
         Found::Impacts(first(low, high, |n| !self.strikes(n)))
     }
-    /// (1 + e) max |a_n|: the velocities rise to their largest and fall.
+    /// Returns (1 + e) max |a_n|: the velocities rise to their largest and fall.
     pub(super) fn peak(&self, count: Found) -> Big {
         let one = Big::from(1.0);
         let end = if let Found::Impacts(n) = count { n - 1 } else { FAR };
@@ -212,7 +212,8 @@ impl Exact {
     }
 }
 
-/// The first n in (low, high] that `is` so, where `high` is and whatever follows one that is.
+/// Returns the first n in (low, high] for which `is` holds; it holds at `high`, and at every number after one for which
+/// it holds.
 fn first(mut low: u64, mut high: u64, is: impl Fn(u64) -> bool) -> u64 {
     while high - low > 1 {
         let middle = low + (high - low) / 2;
@@ -221,13 +222,13 @@ fn first(mut low: u64, mut high: u64, is: impl Fn(u64) -> bool) -> u64 {
     high
 }
 
-/// The same in [low, high].
+/// Returns the same in [low, high].
 fn first_from(low: u64, high: u64, is: impl Fn(u64) -> bool) -> u64 {
     if is(low) { low } else { first(low, high, is) }
 }
 
-/// Strikes that are looked at: the first ten, the last ten, some between.
-fn looked_at(count: Found) -> Vec<u64> {
+/// Returns the strikes that are compared: the first ten, the last ten, some between.
+fn compared_strikes(count: Found) -> Vec<u64> {
     let end = if let Found::Impacts(n) = count { n } else { FAR };
     let mut list: Vec<u64> = (0..end.min(10)).chain(end.saturating_sub(10)..end).collect();
     let mut n = 10;
@@ -242,8 +243,8 @@ fn looked_at(count: Found) -> Vec<u64> {
 
 fn ours(case: &Case, list: &[u64]) -> Result<Answer, Error> {
     let bar = match case.given {
-        Given::Q(q) => Bar::new(q, case.e)?,
-        Given::K(k) => Bar::from_gyration_ratio(k, case.e)?,
+        Inertia::Q(q) => Bar::new(q, case.e)?,
+        Inertia::K(k) => Bar::from_gyration_ratio(k, case.e)?,
     };
     let start = Start::new(case.velocity, case.gap)?;
     let s = bar.summary(&start);
@@ -264,12 +265,12 @@ fn ours(case: &Case, list: &[u64]) -> Result<Answer, Error> {
     })
 }
 
-/// The largest of some errors; infinite if one is no number.
+/// Returns the largest of some errors; infinite if one is no number.
 fn largest(errors: impl Iterator<Item = f64>) -> Option<f64> {
     errors.map(|x| if x.is_nan() { f64::INFINITY } else { x }).reduce(f64::max)
 }
 
-fn judge(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer) -> Way {
+fn compare(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer) -> Way {
     let first = &exact.v[0].abs();
     let unit = &exact.gap / first;
     let long = matches!(count, Found::Impacts(n) if n > SHORT);
@@ -280,7 +281,7 @@ fn judge(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer
     let size = ends[0].abs().max(&ends[1].abs());
     let mut errors = [const { Vec::new() }; 3];
     for (&n, strike) in list.iter().zip(&answer.strikes) {
-        // A loop that was stopped has not seen the rest.
+        // A loop that was stopped has not reached the others.
         let Some([approach, jump, time]) = *strike else {
             if answer.found != Found::Open {
                 for list in &mut errors {
@@ -297,17 +298,17 @@ fn judge(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer
         errors[2].push(off(time, &t, &t.max(&unit)));
     }
     let settles = count != Found::Endless || !(&exact.q - &Big::from(1.0)).is_zero();
-    // Of a long train they are below the floats.
+    // For a long train they are below the range of floats.
     let last = answer.last.filter(|_| settles && (size.is_zero() || size.to_f64() > f64::MIN_POSITIVE));
     let of_ends = last.map(|last| off(last[0], &ends[0], &size).max(off(last[1], &ends[1], &size)));
-    // A loop that was stopped may not have come to the peak.
+    // A loop that was stopped may not have reached the peak.
     let of_peak = (answer.found != Found::Open || count == Found::Endless).then(|| off(answer.peak, &peak, &peak));
     let of_duration = (answer.found != Found::Open).then(|| off(answer.duration, &duration, &duration.max(&unit)));
     let [approach, jump, time] = errors.map(|list| largest(list.into_iter()));
-    let row = |allowed, error| Judged { allowed, error };
+    let row = |allowed, error| Comparison { allowed, error };
     Way {
         found: answer.found,
-        judged: [
+        compared: [
             row(Some(PEAK), of_peak),
             row(Some(APPROACH), approach),
             row(Some(JUMP), jump),
@@ -322,8 +323,8 @@ impl Row {
     pub(super) fn new(case: &Case) -> Result<Self, Error> {
         let exact = Exact::new(case);
         let count = exact.count();
-        let list = looked_at(count);
-        let way = |answer: &Answer| judge(case, &exact, count, &list, answer);
+        let list = compared_strikes(count);
+        let way = |answer: &Answer| compare(case, &exact, count, &list, answer);
         Ok(Self {
             case: case.clone(),
             exact: count,
@@ -339,7 +340,7 @@ mod tests {
     use super::*;
     use serde_json::Value;
 
-    /// The judge is judged: 512 digits against exact rational arithmetic, 24 digits of it.
+    /// The reference itself is checked: 512 digits against exact rational arithmetic, 24 digits of it.
     #[test]
     fn exact_values_are_those_of_rational_arithmetic() {
         let oracle: Value =
@@ -349,7 +350,7 @@ mod tests {
         for c in cases {
             let name = c["case"].as_str().unwrap();
             let number = |key: &str| c[key].as_f64().unwrap();
-            let given = c["q"].as_f64().map_or_else(|| Given::K(number("k")), Given::Q);
+            let given = c["q"].as_f64().map_or_else(|| Inertia::K(number("k")), Inertia::Q);
             let (e, velocity) = (number("e"), [number("va"), number("vb")]);
             if name == "all-mass-at-center-5" {
                 continue; // (1, 1): an infinite peak

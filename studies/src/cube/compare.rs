@@ -1,4 +1,4 @@
-//! What a model foretells beside what was measured.
+//! Predictions of a model compared with measurements.
 
 use nalgebra::Vector3;
 
@@ -6,9 +6,10 @@ use super::body::Cube;
 use super::path::{Case, Pose};
 use super::{median, quantile};
 
-/// The first samples, by whose mean error settings are fitted: 74 ms of the cube from the first one to the last.
+/// The number of first samples by whose mean error settings are fitted: 74 ms of the cube from the first one to the
+/// last.
 pub(super) const FITTED: usize = 12;
-/// A corner comes down where it falls below the first height, having been above the second.
+/// A corner comes down when it falls below the first height, after having been above the second.
 const DOWN_M: f64 = 4e-3;
 const UP_M: f64 = 8e-3;
 
@@ -22,34 +23,37 @@ pub(super) fn quartiles(values: &[f64]) -> Quartiles {
 /// A model on tosses: all errors are sizes.
 #[derive(Debug, Clone)]
 pub(super) struct Errors {
-    /// Of corners, the mean over the first samples, in m.
+    /// Error of corners, the mean over the first samples, in m.
     pub(super) corners_m: Quartiles,
-    /// The same of each sample.
+    /// Error of corners at each sample.
     pub(super) samples_m: Vec<Quartiles>,
-    /// In the middle of the second flight: vertical velocity of the center, how fast the vertical turns, how high the center rises.
+    /// Errors in the middle of the second flight: vertical velocity of the center, rate of the vertical, rise of the
+    /// center.
     pub(super) speed_m_s: Quartiles,
     pub(super) turn_rad_s: Quartiles,
     pub(super) rise_m: Quartiles,
     /// Predicted less measured rise, the median.
     pub(super) rise_bias_m: f64,
-    /// In how many tosses the next corner to come down is that measured, and in how many one was measured; the same of the next two.
+    /// Number of tosses in which the next corner to come down is the measured one, and number of tosses with a measured
+    /// one; the same of the next two.
     pub(super) next: [usize; 2],
     pub(super) next_two: [usize; 2],
 }
 
-/// The mean error of the first samples.
+/// Returns the mean error of the first samples.
 pub(super) fn corners_m(case: &Case, path: &[Pose], cube: &Cube) -> f64 {
     let off = case.off_m(path, cube);
     let first = &off[..off.len().min(FITTED)];
     first.iter().sum::<f64>() / f64::from(u32::try_from(first.len()).unwrap_or(u32::MAX))
 }
 
-/// The score by which settings are fitted: the median over tosses of [`corners_m`].
+/// Returns the score by which settings are fitted: the median over tosses of [`corners_m`].
 pub(super) fn score_m<'a>(pairs: impl Iterator<Item = (&'a Case, Vec<Pose>)>, cube: &Cube) -> f64 {
     median(pairs.map(|(case, path)| corners_m(case, &path, cube)))
 }
 
-/// In the middle of a flight: velocity of the center upward, how the vertical turns in axes of the cube, and how high the center rises.
+/// The motion in the middle of a flight: velocity of the center upward, rate of the vertical in axes of the cube, and
+/// rise of the center.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Middle {
     pub(super) speed_m_s: f64,
@@ -69,17 +73,17 @@ impl Middle {
     }
 }
 
-/// Corners that come down after the first touch, and when, in order.
-pub(super) fn downs(case: &Case, path: &[Pose], cube: &Cube) -> Vec<(usize, f64)> {
+/// Returns the corners that come down after the first touch, with their times, in order.
+pub(super) fn touchdowns(case: &Case, path: &[Pose], cube: &Cube) -> Vec<(usize, f64)> {
     let (mut last, mut time) = (case.touch_pose(cube).heights_m(cube), 0.0);
     let mut armed = last.map(|height| height > DOWN_M);
-    let mut downs = Vec::new();
+    let mut touchdowns = Vec::new();
     for (pose, next) in path.iter().zip(&case.times_s) {
         let heights = pose.heights_m(cube);
         for i in (0..8).filter(|i| !cube.is_planar || i & 2 == 0) {
             if armed[i] && heights[i] < DOWN_M {
                 let share = ((last[i] - DOWN_M) / (last[i] - heights[i])).clamp(0.0, 1.0);
-                downs.push((i, time + share * (next - time)));
+                touchdowns.push((i, time + share * (next - time)));
                 armed[i] = false;
             } else if heights[i] > UP_M {
                 armed[i] = true;
@@ -87,8 +91,8 @@ pub(super) fn downs(case: &Case, path: &[Pose], cube: &Cube) -> Vec<(usize, f64)
         }
         (last, time) = (heights, *next);
     }
-    downs.sort_by(|a, b| a.1.total_cmp(&b.1));
-    downs
+    touchdowns.sort_by(|a, b| a.1.total_cmp(&b.1));
+    touchdowns
 }
 
 impl Errors {
@@ -105,8 +109,8 @@ impl Errors {
             |error: &dyn Fn(&Middle, &Middle) -> f64| middles.iter().map(|(a, b)| error(a, b)).collect::<Vec<_>>();
         let (mut next, mut next_two) = ([0; 2], [0; 2]);
         for (case, path) in pairs {
-            let [measured, foretold] = [&case.measured, path].map(|path| downs(case, path, cube));
-            let same = |i: usize| measured.get(i).zip(foretold.get(i)).filter(|(a, b)| a.0 == b.0);
+            let [measured, predicted] = [&case.measured, path].map(|path| touchdowns(case, path, cube));
+            let same = |i: usize| measured.get(i).zip(predicted.get(i)).filter(|(a, b)| a.0 == b.0);
             next[0] += usize::from(same(0).is_some());
             next[1] += usize::from(!measured.is_empty());
             next_two[0] += usize::from(same(0).and(same(1)).is_some());

@@ -1,4 +1,4 @@
-//! Free flights: what poses tell of place, velocity, orientation and spin, and where a flight ends.
+//! Free flights: place, velocity, orientation and spin from poses, and the end of a flight.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -15,7 +15,8 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Free flight for a while: a parabola, and a constant spin, as the moments of inertia of a cube are all the same.
+    /// Returns the state after a free flight of some time: a parabola, and a constant spin, as the moments of inertia
+    /// of a cube are all the same.
     pub(super) fn after(&self, time_s: f64, gravity_m_s2: f64) -> Self {
         let fall = Vector3::z() * gravity_m_s2 * time_s;
         Self {
@@ -25,7 +26,7 @@ impl State {
             spin: self.spin,
         }
     }
-    /// Velocity of a place on the cube, from the center in axes of the world.
+    /// Returns the velocity of a place on the cube, from the center in axes of the world.
     pub(super) fn velocity_at(&self, arm: Vector3<f64>) -> Vector3<f64> {
         self.velocity + self.spin.cross(&arm)
     }
@@ -34,17 +35,17 @@ impl State {
 /// A free flight through poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Flight {
-    /// When its `state` is that, from the first pose of the toss.
+    /// Time of its `state`, from the first pose of the toss.
     pub(super) time_s: f64,
     pub(super) state: State,
-    /// The samples that it goes through, the last one excluded.
+    /// Its samples, the last one excluded.
     pub(super) from: usize,
     pub(super) until: usize,
-    /// Root mean square of what poses are off it, of turns by how far a corner is moved.
+    /// Root mean square of the distances of poses, with turns as displacements of a corner.
     pub(super) misfit_m: f64,
 }
 
-/// Values at even times as a straight line by least squares: what it is in the middle, and its slope.
+/// Returns values at even times as a straight line by least squares: the value in the middle, and the slope.
 fn line(times: &[f64], values: &[Vector3<f64>]) -> [Vector3<f64>; 2] {
     let count = f64::from(u32::try_from(times.len()).unwrap_or(u32::MAX));
     let mean = values.iter().sum::<Vector3<f64>>() / count;
@@ -53,7 +54,7 @@ fn line(times: &[f64], values: &[Vector3<f64>]) -> [Vector3<f64>; 2] {
 }
 
 impl Flight {
-    /// The free flight nearest to two poses or more: samples `from..until`.
+    /// Returns the free flight nearest to two poses or more: samples `from..until`.
     pub(super) fn fit(poses: &[Pose], from: usize, until: usize, cube: &Cube) -> Self {
         let poses = &poses[from..until];
         let middle = 0.5 * (cube.time_s(from) + cube.time_s(until - 1));
@@ -61,7 +62,8 @@ impl Flight {
         let lifted = |(t, pose): (&f64, &Pose)| pose.place + Vector3::z() * (0.5 * cube.gravity_m_s2 * t * t);
         let places: Vec<_> = times.iter().zip(poses).map(lifted).collect();
         let [place, velocity] = line(&times, &places);
-        // Turns from a first guess of the orientation in the middle; a second round makes them as good as exact.
+        // The turns begin from a first guess of the orientation in the middle; a second round makes them as good as
+        // exact.
         let (mut turned, mut spin) = (poses[poses.len() / 2].turned, Vector3::zeros());
         for _ in 0..3 {
             let unspun = |(t, pose): (&f64, &Pose)| {
@@ -84,14 +86,15 @@ impl Flight {
         self.state.after(time_s - self.time_s, cube.gravity_m_s2)
     }
 
-    /// How far a pose is off this flight.
+    /// Returns the distance of a pose from this flight.
     fn off(&self, pose: &Pose, sample: usize, cube: &Cube) -> f64 {
         let state = self.at(cube.time_s(sample), cube);
         let turn = (pose.turned * state.turned.inverse()).angle() * cube.half_m;
         ((pose.place - state.place).norm_squared() + 2.0 * turn * turn).sqrt()
     }
 
-    /// The longest free flight from a sample on: through `least` poses that fit, and on as long as the next pose fits.
+    /// Returns the longest free flight from a sample on: through `least` poses that fit, and on as long as the next
+    /// pose fits.
     pub(super) fn longest(poses: &[Pose], from: usize, least: usize, cube: &Cube) -> Option<Self> {
         if from + least > poses.len() {
             return None;
@@ -100,7 +103,7 @@ impl Flight {
         (flight.misfit_m < FITS_M).then(|| flight.extended(poses, BREAKS_M, cube))
     }
 
-    /// This flight, on as long as the next pose is off by less than `breaks_m`.
+    /// Returns this flight, extended as long as the next pose is off by less than `breaks_m`.
     pub(super) fn extended(mut self, poses: &[Pose], breaks_m: f64, cube: &Cube) -> Self {
         while let Some(next) = poses.get(self.until)
             && self.off(next, self.until, cube) < breaks_m
@@ -110,7 +113,7 @@ impl Flight {
         self
     }
 
-    /// When the lowest corner comes down to the ground, between two times.
+    /// Returns the time at which the lowest corner comes down to the ground, between two times.
     pub(super) fn touch_s(&self, from_s: f64, until_s: f64, cube: &Cube) -> Option<f64> {
         let height = |time: f64| cube.lowest(&self.at(time, cube)).1;
         let (mut up, mut down) = (from_s, until_s);
@@ -124,7 +127,8 @@ impl Flight {
         Some(0.5 * (up + down))
     }
 
-    /// When the heights of two flights agree: the moment of a strike between them, as if it took no time.
+    /// Returns the time at which the heights of two flights agree: the moment of a strike between them, as if it took
+    /// no time.
     pub(super) fn meets_s(&self, other: &Self, cube: &Cube) -> f64 {
         let apart = |time: f64| self.at(time, cube).place.z - other.at(time, cube).place.z;
         let (now, then) = (apart(0.0), apart(1.0));
@@ -132,7 +136,7 @@ impl Flight {
     }
 }
 
-/// Poses are on a flight where they fit so well: four times what they are off in the first flights.
+/// Largest misfit of poses that form a flight: four times the misfit of the first flights.
 const FITS_M: f64 = 4e-4;
-/// The flight has ended where the next pose is off by so much.
+/// Distance of the next pose at which the flight has ended.
 const BREAKS_M: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! What the page says of the tosses, as numbers and a figure.
+//! The numbers and the figure of the page on the tosses.
 
 use clatter_report::File;
 use serde_json::{Value, json};
@@ -13,10 +13,10 @@ use crate::Error;
 use crate::figures::{OverTime, tosses as figure};
 use crate::files::{decimals, pretty};
 
-/// Samples before the first touch at which the flight that foretells it ends: 34 ms of the cube.
+/// Number of samples before the first touch at which the flight that predicts it ends: 34 ms of the cube.
 const EARLIER: usize = 5;
 
-/// `cube.json` and `cube.svg`.
+/// Returns `cube.json` and `cube.svg`.
 pub(crate) fn files() -> Result<Vec<File>, Error> {
     let cube = Page::new(TOSSES, &CUBE, true)?;
     let square = Page::new(SQUARES, &SQUARE, false)?;
@@ -24,16 +24,16 @@ pub(crate) fn files() -> Result<Vec<File>, Error> {
     Ok(vec![("cube.json", pretty(&numbers)?), ("cube.svg", cube.figure()?)])
 }
 
-/// Every number that the section on tosses says, as it is printed: the file `cube.json`.
+/// Returns every number of the section on tosses, as it is printed: the file `cube.json`.
 ///
 /// # Errors
-/// [`Error::Data`] if the tosses or what other tools made of them are torn; others if a model or the figure fails.
+/// [`Error::Data`] if the tosses or the results of other tools are torn; others if a model or the figure fails.
 pub fn numbers() -> Result<String, Error> {
     let numbers = files()?.into_iter().find(|(name, _)| *name == "cube.json");
     Ok(numbers.map(|(_, text)| text).unwrap_or_default())
 }
 
-/// Tosses, and the models beside them: the box, rigid impacts without and with friction, other tools.
+/// Tosses, and the models for them: the box, rigid impacts without and with friction, other tools.
 struct Page {
     study: Study,
     models: Vec<Model>,
@@ -42,7 +42,7 @@ struct Page {
 impl Page {
     fn new(text: &str, published: &Cube, peers: bool) -> Result<Self, Error> {
         let study = Study::new(tosses::read(text)?, published);
-        let mut models = vec![study.of_box()?, study.rigid(true)?, study.rigid(false)?];
+        let mut models = vec![study.box_model()?, study.rigid(true)?, study.rigid(false)?];
         if peers {
             models.extend(study.peers()?);
         }
@@ -54,8 +54,8 @@ impl Page {
         let cube = &study.cube;
         let others = study.half(false);
         let misfits = study.tosses.iter().map(|toss| 1e3 * toss.first_flight(cube).misfit_m);
-        let foretold = study.foretold(EARLIER);
-        let late: Vec<f64> = foretold.iter().map(|(_, late)| 1e3 * late.abs()).collect();
+        let predicted = study.predicted(EARLIER);
+        let late: Vec<f64> = predicted.iter().map(|(_, late)| 1e3 * late.abs()).collect();
         json!({
             "tosses": study.tosses.len(), "followed": study.cases.len(), "others": others.len(),
             "flown": others.iter().filter(|case| case.middle.is_some()).count(),
@@ -64,7 +64,7 @@ impl Page {
             "gravity_m_s2": decimals(cube.gravity_m_s2, 2), "rate_hz": decimals(cube.rate_hz, 0),
             "misfit_mm": spread(quartiles(&misfits.collect::<Vec<_>>()), 2),
             "first_touch": {
-                "of": foretold.len(), "right": foretold.iter().filter(|(right, _)| *right).count(),
+                "of": predicted.len(), "right": predicted.iter().filter(|(right, _)| *right).count(),
                 "late_ms": spread(quartiles(&late), 2),
                 "earlier_ms": decimals(1e3 * cube.time_s(EARLIER), 0),
             },
@@ -74,7 +74,8 @@ impl Page {
         })
     }
 
-    /// Strikes that stand alone: what was measured in both halves, and an impact at one point beside those of the other half.
+    /// Returns the isolated strikes: measurements of both halves, and an impact at one point compared with those of the
+    /// other half.
     fn strikes(&self) -> Value {
         let strikes: Vec<Strike> = self.study.strikes.iter().map(|(_, strike)| *strike).collect();
         let sliding: Vec<Strike> =
@@ -101,14 +102,14 @@ impl Page {
         })
     }
 
-    /// Tosses whose next corner to come down is the same with friction and without, by rigid impacts: how many, and in how many of these, and of
-    /// the rest, the box has the one that was measured.
+    /// Returns the number of tosses whose next corner to come down is the same with friction and without, by rigid
+    /// impacts, and for how many of these, and of the rest, the box has the measured one.
     fn decided(&self) -> Value {
-        let next = |downs: &[(usize, f64)]| downs.first().map(|down| down.0);
-        let [own, with, without] = [0, 1, 2].map(|i| &self.models[i].downs);
+        let next = |touchdowns: &[(usize, f64)]| touchdowns.first().map(|down| down.0);
+        let [own, with, without] = [0, 1, 2].map(|i| &self.models[i].touchdowns);
         let (mut counts, mut right) = ([0; 2], [0; 2]);
         for (i, case) in self.study.half(false).into_iter().enumerate() {
-            let measured = next(&super::compare::downs(case, &case.measured, &self.study.cube));
+            let measured = next(&super::compare::touchdowns(case, &case.measured, &self.study.cube));
             let other = usize::from(next(&with[i]) != next(&without[i]));
             counts[other] += usize::from(measured.is_some());
             right[other] += usize::from(measured.is_some() && next(&own[i]) == measured);
@@ -121,9 +122,9 @@ impl Page {
         let velocities = |model: &Model| -> Vec<(f64, f64)> {
             let cases = self.study.half(false);
             let pairs = cases.into_iter().zip(&model.paths).filter_map(|(case, path)| {
-                let [measured, foretold] =
+                let [measured, predicted] =
                     [&case.measured, path].map(|path| Some(Middle::of(path, case.middle?, &self.study.cube).speed_m_s));
-                measured.zip(foretold)
+                measured.zip(predicted)
             });
             pairs.collect()
         };
@@ -138,7 +139,7 @@ fn over_time(model: &Model) -> OverTime<'_> {
     OverTime { name: &model.name, friction: model.friction, corners_mm }
 }
 
-/// A model as the table has it.
+/// Returns a model as a row of the table.
 fn row(model: &Model) -> Value {
     let errors = &model.errors;
     let mm = |quartiles: Quartiles, digits| spread(quartiles.map(|length| 1e3 * length), digits);
@@ -150,7 +151,7 @@ fn row(model: &Model) -> Value {
     })
 }
 
-/// A median with its quartiles.
+/// Returns a median with its quartiles.
 fn spread([low, median, high]: Quartiles, digits: usize) -> String {
     let [low, median, high] = [low, median, high].map(|value| decimals(value, digits));
     format!("{median} ({low}–{high})")

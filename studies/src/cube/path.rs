@@ -1,4 +1,4 @@
-//! Where the corners are at the samples after the first touch: measured, or as a model foretells it.
+//! The corners at the samples after the first touch: measured, or as a model predicts them.
 
 use clatter_flight::{Block, BlockDrop, Contact, ContactLaw};
 use nalgebra::Vector3;
@@ -12,17 +12,17 @@ use crate::Error;
 /// Samples of a path: 162 ms of the cube from the first one to the last, 96 ms of the square.
 pub(super) const SAMPLES: usize = 25;
 
-/// What heights of corners come from. Ground without friction knows no more of a body.
+/// The part of a pose that gives the heights of corners. Ground without friction depends on nothing else.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pose {
-    /// Of the center over the ground.
+    /// Height of the center over the ground.
     pub(super) height_m: f64,
-    /// The vertical in axes of the cube.
+    /// Vertical in axes of the cube.
     pub(super) upward: Vector3<f64>,
 }
 
 impl Pose {
-    /// Root mean square over the eight corners of how much higher or lower they are.
+    /// Returns the root mean square over the eight corners of their differences in height.
     pub(super) fn off_m(&self, other: &Self, cube: &Cube) -> f64 {
         let turned = cube.half_m * (self.upward - other.upward).norm();
         libm::hypot(self.height_m - other.height_m, turned)
@@ -33,14 +33,14 @@ impl Pose {
     }
 }
 
-/// A toss from its first touch on: how the cube comes, and where it is at each sample.
+/// A toss from its first touch on: its state then, and the pose at each sample.
 #[derive(Debug, Clone)]
 pub(super) struct Case {
     pub(super) number: u32,
     pub(super) training: bool,
-    /// At the first touch, by the flight before it.
+    /// State at the first touch, by the flight before it.
     pub(super) touch: State,
-    /// When the samples were taken, from the first touch; 0 of one that was taken as good as at it.
+    /// Times of the samples, from the first touch; 0 for one that was taken almost at it.
     pub(super) times_s: Vec<f64>,
     pub(super) measured: Vec<Pose>,
     /// The sample in the middle of the second flight.
@@ -48,7 +48,7 @@ pub(super) struct Case {
 }
 
 impl Case {
-    /// None where the flight does not come down to the ground about when its poses end.
+    /// Creates the case; `None` where the flight does not come down to the ground near the end of its poses.
     pub(super) fn new(toss: &Toss, training: bool, cube: &Cube) -> Option<Self> {
         let first = toss.first_flight(cube);
         let end = cube.time_s(first.until);
@@ -67,7 +67,7 @@ impl Case {
         })
     }
 
-    /// The same up to so many samples.
+    /// Returns the same case up to so many samples.
     pub(super) fn first(&self, samples: usize) -> Self {
         let mut case = self.clone();
         case.times_s.truncate(samples);
@@ -75,18 +75,18 @@ impl Case {
         case
     }
 
-    /// As it touches.
+    /// Returns the pose at the first touch.
     pub(super) fn touch_pose(&self, cube: &Cube) -> Pose {
         Pose { height_m: self.touch.place.z - cube.ground_m, upward: upward(&self.touch.turned) }
     }
 
-    /// How far a path is off at each sample.
+    /// Returns the error of a path at each sample.
     pub(super) fn off_m(&self, path: &[Pose], cube: &Cube) -> Vec<f64> {
         self.measured.iter().zip(path).map(|(measured, pose)| measured.off_m(pose, cube)).collect()
     }
 
-    /// The box of the product: contacts that take time, no friction.
-    pub(super) fn of_box(&self, e: f64, contact_s: f64, cube: &Cube) -> Result<Vec<Pose>, Error> {
+    /// Returns the path by the box of the product: contacts that take time, no friction.
+    pub(super) fn box_path(&self, e: f64, contact_s: f64, cube: &Cube) -> Result<Vec<Pose>, Error> {
         let block = Block::new([2.0 * cube.half_m; 3], [0.0; 3], [cube.gyration_m; 3])?;
         let [w, i, j, k] = [self.touch.turned.w, self.touch.turned.i, self.touch.turned.j, self.touch.turned.k];
         let spin = self.touch.turned.inverse() * self.touch.spin;
@@ -122,14 +122,15 @@ mod tests {
     use crate::cube::study::Study;
     use crate::cube::tosses::read;
 
-    /// Two ways that share nothing: the box of the product with short contacts, and impacts at points, as long as the lowest corner rises.
+    /// The two ways share nothing: the box of the product with short contacts, and impacts at points, as long as the
+    /// lowest corner rises.
     #[test]
     fn short_contacts_without_friction_are_rigid_impacts() {
         let study = Study::new(read(TOSSES).unwrap(), &CUBE);
         let lowest = |pose: &super::Pose| pose.heights_m(&study.cube).into_iter().fold(f64::INFINITY, f64::min);
         let mut compared = 0;
         for case in &study.cases {
-            let own = case.of_box(0.3, 5e-5, &study.cube).unwrap();
+            let own = case.box_path(0.3, 5e-5, &study.cube).unwrap();
             let rigid = Rigid { e: 0.3, friction: 0.0 }.path(case, &study.cube);
             let mut last = 0.0;
             for (a, b) in own.iter().zip(&rigid) {
@@ -138,7 +139,7 @@ mod tests {
                 }
                 last = lowest(a);
                 compared += 1;
-                // A step of the impacts, at 4 m/s of the fastest corner.
+                // The bound is a step of the impacts, at 4 m/s of the fastest corner.
                 assert!(a.off_m(b, &study.cube) < 4e-4, "toss {}: {:e}", case.number, a.off_m(b, &study.cube));
             }
         }

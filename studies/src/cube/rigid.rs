@@ -1,4 +1,4 @@
-//! A rigid cube on rigid ground with Coulomb's friction: the study's own estimate of what friction changes.
+//! A rigid cube on rigid ground with Coulomb's friction: the study's own estimate of the effect of friction.
 //!
 //! Impacts take no time and happen at one corner after the other. By Newton's restitution a corner leaves with −e times the vertical velocity it
 //! came with. It sticks where the impulse for that lies within the cone of friction; else it slides on, and the horizontal part of the impulse
@@ -18,12 +18,13 @@ pub(super) struct Rigid {
     pub(super) friction: f64,
 }
 
-/// Steps between samples, and rounds over the corners of a step: halving the one or doubling the other moves paths by less than 0.1 mm.
+/// Steps between samples, and rounds over the corners of a step: halving the one or doubling the other moves paths by
+/// less than 0.1 mm.
 const STEP_S: f64 = 1e-4;
 const ROUNDS: usize = 4;
 
 impl Rigid {
-    /// The impulse over the mass at a corner that comes down.
+    /// Returns the impulse over the mass at a corner that comes down.
     pub(super) fn impulse(self, arm: Vector3<f64>, velocity: Vector3<f64>, gyration_m: f64) -> Vector3<f64> {
         let k = gyration_m.powi(2);
         let coupling = Matrix3::identity() * (1.0 + arm.norm_squared() / k) - arm * arm.transpose() / k;
@@ -39,7 +40,7 @@ impl Rigid {
         direction * (wanted.z / (coupling * direction).z)
     }
 
-    /// The state after an impact at an arm.
+    /// Returns the state after an impact at an arm.
     pub(super) fn strike(self, state: &State, arm: Vector3<f64>, cube: &Cube) -> State {
         let impulse = self.impulse(arm, state.velocity_at(arm), cube.gyration_m);
         State {
@@ -59,7 +60,7 @@ impl Rigid {
         case.times_s.iter().map(at).collect()
     }
 
-    /// The state after a while.
+    /// Returns the state after some time.
     pub(super) fn after(self, state: &State, time_s: f64, cube: &Cube) -> State {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some hundred steps")]
         let steps = (time_s / STEP_S).ceil().max(1.0) as u32;
@@ -107,7 +108,7 @@ mod tests {
             let rigid = Rigid { e: 0.3, friction: 0.3 };
             let after = rigid.strike(&state, arm, &CUBE);
             let (velocity, impulse) = (after.velocity_at(arm), after.velocity - state.velocity);
-            // Some roundings of velocities of a few m/s.
+            // The bound is some roundings of velocities of a few m/s.
             assert!((velocity.z + 0.3 * before.z).abs() < 1e-12, "restitution {}", -velocity.z / before.z);
             if velocity.xy().norm() < 1e-12 {
                 stuck += 1;

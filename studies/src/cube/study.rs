@@ -1,4 +1,4 @@
-//! The tosses, the cube and settings as the training half has them, and what each model makes of the other half.
+//! The tosses, the cube and settings by the training half, and the predictions of each model for the other half.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::body::Cube;
-use super::compare::{Errors, FITTED, Quartiles, downs, quartiles, score_m};
+use super::compare::{Errors, FITTED, Quartiles, quartiles, score_m, touchdowns};
 use super::flight::Flight;
 use super::median;
 use super::path::{Case, Pose};
@@ -17,16 +17,16 @@ use super::strike::{Strike, gyration_m};
 use super::tosses::Toss;
 use crate::Error;
 
-/// Every second toss trains.
+/// Returns whether a toss trains: every second one does.
 fn trains(index: usize) -> bool {
     index.is_multiple_of(2)
 }
 
 pub(super) struct Study {
     pub(super) tosses: Vec<Toss>,
-    /// Its size, its inertia and gravity by the training half.
+    /// The cube: its size, its inertia and gravity by the training half.
     pub(super) cube: Cube,
-    /// First strikes that stand alone, and whether they train.
+    /// Isolated first strikes, and whether they train.
     pub(super) strikes: Vec<(bool, Strike)>,
     pub(super) cases: Vec<Case>,
 }
@@ -47,7 +47,7 @@ impl Study {
         self.cases.iter().filter(|case| case.training == training).collect()
     }
 
-    /// The settings with the least error on the training half.
+    /// Returns the settings with the least error on the training half.
     fn fitted<S: Copy + Send + Sync>(
         &self,
         settings: &[S],
@@ -63,16 +63,16 @@ impl Study {
         best.map(|(setting, _)| setting).ok_or_else(|| Error::Data("no settings".into()))
     }
 
-    /// The box of the product, by restitution and contact time.
-    pub(super) fn of_box(&self) -> Result<Model, Error> {
+    /// Returns the model of the box of the product, by restitution and contact time.
+    pub(super) fn box_model(&self) -> Result<Model, Error> {
         let settings: Vec<_> = RESTITUTIONS.iter().flat_map(|e| self.cube.contacts_s.map(|time| (*e, time))).collect();
-        let path = |case: &Case, (e, contact_s): (f64, f64)| case.of_box(e, contact_s, &self.cube);
+        let path = |case: &Case, (e, contact_s): (f64, f64)| case.box_path(e, contact_s, &self.cube);
         let best @ (e, time) = self.fitted(&settings, path)?;
         let setting = format!("e = {e}, contacts of {} ms", 1e3 * time);
         self.model("clatter, box", false, setting, |case| path(case, best))
     }
 
-    /// The rigid cube of this study, with friction or without.
+    /// Returns the model of the rigid cube of this study, with friction or without.
     pub(super) fn rigid(&self, friction: bool) -> Result<Model, Error> {
         let frictions: &[f64] = if friction { &FRICTIONS } else { &[0.0] };
         let settings: Vec<_> =
@@ -84,7 +84,7 @@ impl Study {
         self.model("rigid impacts", friction, setting, |case| path(case, best))
     }
 
-    /// MuJoCo and Drake, as `peers/cube.py` last ran them.
+    /// Returns MuJoCo and Drake, as `peers/cube.py` last ran them.
     pub(super) fn peers(&self) -> Result<Vec<Model>, Error> {
         Run::read()?.rows.iter().map(|row| self.peer(row)).collect()
     }
@@ -119,13 +119,14 @@ impl Study {
         let paths = cases.iter().map(|case| path(case)).collect::<Result<Vec<_>, _>>()?;
         let pairs: Vec<_> = cases.into_iter().zip(paths).collect();
         let errors = Errors::of(&pairs, &self.cube);
-        let downs = pairs.iter().map(|(case, path)| downs(case, path, &self.cube)).collect();
+        let touchdowns = pairs.iter().map(|(case, path)| touchdowns(case, path, &self.cube)).collect();
         let paths = pairs.into_iter().map(|(_, path)| path).collect();
-        Ok(Model { name: name.to_owned(), friction, setting, errors, paths, downs })
+        Ok(Model { name: name.to_owned(), friction, setting, errors, paths, touchdowns })
     }
 
-    /// The first touch foretold from a flight that ends some samples before it: whether the corner is right, and by how much later it comes.
-    pub(super) fn foretold(&self, earlier: usize) -> Vec<(bool, f64)> {
+    /// Returns the predictions of the first touch from flights that end some samples before it: whether the corner is
+    /// right, and its delay.
+    pub(super) fn predicted(&self, earlier: usize) -> Vec<(bool, f64)> {
         let cube = &self.cube;
         let one = |toss: &Toss| {
             let first = toss.first_flight(cube);
@@ -139,21 +140,21 @@ impl Study {
         self.tosses.iter().filter_map(one).collect()
     }
 
-    /// First strikes of the other half by an impact at one point: how far off the vertical velocity of the center and the spin are after it,
-    /// and the change of that velocity over the measured one.
+    /// Returns the first strikes of the other half by an impact at one point: the errors of the vertical velocity of
+    /// the center and of the spin after it, and the change of that velocity over the measured one.
     pub(super) fn one_point(&self, rigid: Rigid) -> [Quartiles; 3] {
         let others = self.strikes.iter().filter(|(trained, _)| !trained);
         let off = others.map(|(_, strike)| {
-            let foretold = rigid.strike(&strike.before, strike.arm, &self.cube);
+            let predicted = rigid.strike(&strike.before, strike.arm, &self.cube);
             let [change, measured] =
-                [&foretold, &strike.after].map(|after| after.velocity.z - strike.before.velocity.z);
-            [(change - measured).abs(), (foretold.spin - strike.after.spin).norm(), change / measured]
+                [&predicted, &strike.after].map(|after| after.velocity.z - strike.before.velocity.z);
+            [(change - measured).abs(), (predicted.spin - strike.after.spin).norm(), change / measured]
         });
         let off: Vec<[f64; 3]> = off.collect();
         [0, 1, 2].map(|which| quartiles(&off.iter().map(|errors| errors[which]).collect::<Vec<_>>()))
     }
 
-    /// Median restitution and friction of the strikes that train; friction of those that slide on.
+    /// Returns the median restitution and friction of the strikes that train; friction of those that slide on.
     pub(super) fn trained(&self) -> Rigid {
         let trained = || self.strikes.iter().filter(|(trained, _)| *trained).map(|(_, strike)| strike);
         Rigid {
@@ -163,15 +164,15 @@ impl Study {
     }
 }
 
-/// A corner slides on that is at least so fast after the strike.
+/// The least speed after the strike of a corner that slides on.
 pub(super) const SLIDES_M_S: f64 = 0.2;
-/// Samples of a flight that foretells a touch.
+/// Number of samples of a flight that predicts a touch.
 const LEAST: usize = 4;
-/// What the fits try.
+/// Settings that the fits try.
 const RESTITUTIONS: [f64; 12] = [0.1, 0.15, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6];
 const FRICTIONS: [f64; 7] = [0.05, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2];
 
-/// A model with its settings and what it makes of the other half.
+/// A model with its settings and its predictions for the other half.
 #[derive(Debug)]
 pub(super) struct Model {
     pub(super) name: String,
@@ -180,7 +181,7 @@ pub(super) struct Model {
     pub(super) errors: Errors,
     pub(super) paths: Vec<Vec<Pose>>,
     /// Corners that come down, toss by toss.
-    pub(super) downs: Vec<Vec<(usize, f64)>>,
+    pub(super) touchdowns: Vec<Vec<(usize, f64)>>,
 }
 
 /// The last run of `peers/cube.py`.
@@ -188,7 +189,7 @@ const PEERS: &str = include_str!("../../../peers/cube.json");
 
 #[derive(Debug, Deserialize)]
 struct Run {
-    /// What the tools were given.
+    /// The input of the tools.
     #[cfg_attr(not(test), expect(dead_code, reason = "a test holds it against the cube of today"))]
     cube: BTreeMap<String, f64>,
     rows: Vec<Row>,
@@ -232,7 +233,7 @@ mod tests {
     use crate::cube::synthetic::numbers;
     use crate::cube::tosses::read;
 
-    /// Tosses that come as the measured ones and go on as boxes of known settings, with the noise of the measured ones.
+    /// The tosses begin as the measured ones and go on as boxes of known settings, with the noise of the measured ones.
     #[test]
     fn the_settings_of_known_boxes_are_found_again() {
         let mut study = Study::new(read(TOSSES).unwrap(), &CUBE);
@@ -240,17 +241,17 @@ mod tests {
         let mut next = numbers(7);
         let mut noise = |size: f64| size * next();
         for case in &mut study.cases {
-            case.measured = case.of_box(e, contact_s, &study.cube).unwrap();
+            case.measured = case.box_path(e, contact_s, &study.cube).unwrap();
             for pose in &mut case.measured {
                 pose.height_m += noise(5e-5);
                 pose.upward += Vector3::from_fn(|_, _| noise(5e-4));
             }
         }
-        let model = study.of_box().unwrap();
+        let model = study.box_model().unwrap();
         assert_eq!(model.setting, "e = 0.35, contacts of 3 ms");
-        // The noise itself.
+        // The bound is the noise itself.
         assert!(model.errors.corners_m[2] < 1e-4, "{:?}", model.errors.corners_m);
-        // A corner that turns just where it counts as down may count with this noise and not with that.
+        // A corner that turns just at the limit may count with this noise and not with that.
         let [right, of] = model.errors.next;
         assert!(right + 1 >= of && of > 40, "{right} of {of}");
         assert!(model.errors.rise_bias_m.abs() < 1e-4, "{}", model.errors.rise_bias_m);
@@ -271,7 +272,7 @@ mod tests {
         let names: Vec<_> = models.iter().map(|model| (&model.name[..5], model.friction)).collect();
         assert_eq!(names, [("MuJoC", true), ("MuJoC", false), ("Drake", true), ("Drake", false)]);
         for model in models {
-            // They were given the same first touch: until the first sample after it a corner moves by some mm.
+            // They had the same first touch: until the first sample after it a corner moves by some mm.
             assert!(model.errors.samples_m[0][2] < 3e-3, "{}: {:?}", model.name, model.errors.samples_m[0]);
         }
     }

@@ -1,4 +1,4 @@
-//! Tosses that are known, for tests.
+//! Known tosses, for tests.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -7,7 +7,8 @@ use super::flight::State;
 use super::rigid::Rigid;
 use super::tosses::{Pose, Toss};
 
-/// Numbers in [−1, 1], the same for the same seed: a linear congruential generator, of which the upper bits count.
+/// Returns numbers in [−1, 1], the same for the same seed: a linear congruential generator, of which the upper bits
+/// count.
 pub(super) fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def1;
     move || {
@@ -16,7 +17,7 @@ pub(super) fn numbers(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// A toss of the published cube that flies and strikes by a known law, with the noise of the measured ones.
+/// Returns a toss of the published cube that flies and strikes by a known law, with the noise of the measured ones.
 pub(super) fn toss(seed: u64, rigid: Rigid) -> Toss {
     let mut next = numbers(seed);
     let mut vector = |size: f64| Vector3::from_fn(|_, _| size * next());

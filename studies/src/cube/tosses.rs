@@ -4,17 +4,17 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::Error;
 
-/// What the file counts in: of lengths in m.
+/// Unit of the file; that of lengths in m.
 const UNIT: f64 = 1e-5;
-/// A column of the file each.
+/// Number of columns of the file.
 const COLUMNS: usize = 9;
 
-/// Where the cube is.
+/// A pose of the cube.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pose {
-    /// Turns axes of the cube into those of the world, z upward.
+    /// Rotation from axes of the cube into those of the world, z upward.
     pub(super) turned: UnitQuaternion<f64>,
-    /// Of its center, in m.
+    /// Place of its center, in m.
     pub(super) place: Vector3<f64>,
 }
 
@@ -22,9 +22,9 @@ pub(super) struct Pose {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Toss {
     pub(super) number: u32,
-    /// One after the other, from the first on.
+    /// Poses one after the other, from the first on.
     pub(super) poses: Vec<Pose>,
-    /// As it lies in the end.
+    /// Pose at rest in the end.
     pub(super) rest: Pose,
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Toss {
 /// gap or not, is the cube at rest.
 ///
 /// # Errors
-/// [`Error::Data`] with the line that does not say a pose, or of a toss with fewer than two.
+/// [`Error::Data`] with the line that is no pose, or for a toss with fewer than two.
 pub(super) fn read(text: &str) -> Result<Vec<Toss>, Error> {
     let mut tosses: Vec<(u32, Vec<(u32, Pose)>)> = Vec::new();
     for (line, row) in text.lines().enumerate().skip(1) {

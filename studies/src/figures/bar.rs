@@ -3,7 +3,7 @@
 use clatter_figures::FigureError;
 use clatter_figures::draw::{Anchor, GRAY, INK, Ink, LABEL, Label, Paper, Pt, RUST};
 
-/// The bar at the moment end a touches, with both centers of percussion; `percussion` is p/L.
+/// Draws the bar at the moment end a touches, with both centers of percussion; `percussion` is p/L.
 pub fn scheme(percussion: f64) -> Result<String, FigureError> {
     let mut paper = Paper::new(300.0, 122.0);
     let ground = 108.0;

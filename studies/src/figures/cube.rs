@@ -1,4 +1,4 @@
-//! How far models are off measured tosses: corners over time, and the velocity of the second flight.
+//! Errors of models on measured tosses: corners over time, and the velocity of the second flight.
 
 use clatter_figures::FigureError;
 use clatter_figures::draw::{Axes, Axis, BLUES, GRAY, INK, Ink, Paper, RUST};
@@ -6,15 +6,16 @@ use clatter_figures::draw::{Axes, Axis, BLUES, GRAY, INK, Ink, Paper, RUST};
 /// A model in the first panel.
 #[derive(Debug)]
 pub struct OverTime<'a> {
-    /// Of the model.
+    /// Name of the model.
     pub name: &'a str,
-    /// Whether it knows friction.
+    /// True for a model with friction.
     pub friction: bool,
     /// Error of corners: first quartile, median and third quartile at each sample.
     pub corners_mm: Vec<[f64; 3]>,
 }
 
-/// Errors over time, and velocities foretold over those measured, in m/s: by the first model and by one with friction.
+/// Draws errors over time, and predicted velocities over measured ones, in m/s: by the first model and by one with
+/// friction.
 pub fn tosses(
     models: &[OverTime<'_>],
     step_ms: f64,
@@ -59,8 +60,8 @@ pub fn tosses(
     let chart = axes.on(&mut paper, 24.0);
     chart.curve(&mut paper, [(-0.6, -0.6), (0.6, 0.6)].into_iter(), Ink::line(GRAY, 0.8));
     for (points, fill) in [(with, RUST), (without, BLUES[4])] {
-        for (measured, foretold) in points {
-            chart.mark(&mut paper, *measured, *foretold, fill);
+        for (measured, predicted) in points {
+            chart.mark(&mut paper, *measured, *predicted, fill);
         }
     }
     chart.border(&mut paper);
@@ -69,7 +70,7 @@ pub fn tosses(
     )
 }
 
-/// The first is the box of the product; those with friction are solid.
+/// Returns the line of a model: the first is the box of the product; those with friction are solid.
 fn ink(model: usize, friction: bool) -> Ink<'static> {
     let color = [BLUES[7], INK, RUST, GRAY][if model == 0 { 0 } else { 1 + (model - 1) / 2 % 3 }];
     let width = if model == 0 { 2.2 } else { 1.1 };

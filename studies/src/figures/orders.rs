@@ -1,24 +1,24 @@
-//! How fast the flight models tend to one another: differences over the group that decides.
+//! Convergence of the flight models to one another: differences over the group that decides.
 
 use clatter_figures::FigureError;
 use clatter_figures::draw::{Anchor, Axes, Axis, BLUES, GRAY, GUIDE, Ink, Label, Paper, RUST, SMALL};
 
 use crate::Order;
 
-/// One panel: what goes to zero, the orders that share it, their names.
+/// One panel: the group that goes to zero, the orders that share it, their names.
 #[derive(Debug)]
 pub struct Panel<'a> {
-    /// In figure markup.
+    /// Title, in figure markup.
     pub title: &'a str,
-    /// How theory says the differences go, in figure markup.
+    /// The order by theory, in figure markup.
     pub guide: &'a str,
-    /// Each with its name.
+    /// The curves, each with its name.
     pub curves: Vec<(&'a Order, String)>,
 }
 
-/// A panel for each group, a guide of the order that theory gives below its curves.
+/// Draws a panel for each group, a guide of the order that theory gives below its curves.
 pub fn orders(panels: &[Panel<'_>; 3]) -> Result<String, FigureError> {
-    // The first wide and light, the second thin upon it: they all but coincide.
+    // The first is wide and light, the second thin upon it: they all but coincide.
     let inks = [Ink::line(BLUES[4], 3.0), Ink::line(RUST, 0.9)];
     let steps = |panel: &Panel<'_>| panel.curves.iter().flat_map(|(order, _)| order.steps.clone()).collect::<Vec<_>>();
     let all: Vec<f64> = panels.iter().flat_map(&steps).map(|step| step.1).collect();

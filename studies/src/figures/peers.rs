@@ -1,14 +1,14 @@
-//! Tools side by side on four bars: what a scene costs, how many impacts they count, how far off the largest shock is.
+//! Tools side by side on four bars: the time for a scene, the number of impacts, the error of the largest shock.
 
 use clatter_figures::FigureError;
 use clatter_figures::draw::{Anchor, Axes, Axis, BLUES, GRAY, INK, Ink, LABEL, Label, Paper, RUST, SMALL};
 
-/// How far a count is right.
+/// The correctness of a count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dot {
-    /// From every start.
+    /// Right from every start.
     Right,
-    /// From this start; not from others that differ by less than a step.
+    /// Right from this start; wrong from others that differ by less than a step.
     ByChance,
     /// The count is wrong.
     Wrong,
@@ -27,11 +27,11 @@ impl Dot {
 /// A row of the figure.
 #[derive(Debug)]
 pub struct Tool<'a> {
-    /// Of the tool.
+    /// Name of the tool.
     pub name: &'a str,
-    /// Impacts, whether they are right, and ms a scene.
+    /// Impacts, their correctness, and ms a scene.
     pub bars: [(u64, Dot, f64); 4],
-    /// Of the largest shock, in words.
+    /// Error of the largest shock, in words.
     pub error: String,
 }
 
@@ -40,7 +40,7 @@ const ROW: f64 = 11.5;
 const START: Label = Label { anchor: Anchor::Start, ..SMALL };
 const END: Label = Label { anchor: Anchor::End, ..SMALL };
 
-/// A row a tool, with a dot for the time of each bar.
+/// Draws a row a tool, with a dot for the time of each bar.
 pub fn tools(rows: &[Tool<'_>], designs: [[f64; 2]; 4]) -> Result<String, FigureError> {
     let height = rows.iter().fold(0.0, |h, _| h + ROW);
     let times = || rows.iter().flat_map(|row| row.bars.iter().map(|bar| bar.2));

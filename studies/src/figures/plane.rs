@@ -1,4 +1,4 @@
-//! Figures over the design plane: e to the right, q upward, as the paper's words have it.
+//! Figures over the design plane: e to the right, q upward, as the paper describes it.
 
 use clatter::contour::Point;
 use clatter_figures::FigureError;
@@ -28,14 +28,14 @@ fn line(chart: &Chart<'_>, curve: &[Point]) -> Vec<Pt> {
     curve.iter().map(|p| chart.at(p.e, p.q)).collect()
 }
 
-/// The part of the plane to the left of a curve, or all of it.
+/// Fills the part of the plane to the left of a curve, or all of it.
 fn fill(chart: &Chart<'_>, paper: &mut Paper, curve: &[Point], ends: &[(f64, f64)], color: &str) {
     chart.area(paper, curve.iter().map(|p| (p.e, p.q)).chain(ends.iter().copied()).collect(), color);
 }
 
 const SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
 
-/// e(q) of a level over the whole of 0 ≤ q ≤ 1, held at the border where the curve is outside.
+/// Returns e(q) of a level over the whole of 0 ≤ q ≤ 1, clamped to the border where the curve is outside.
 fn outline(pieces: &[Vec<Point>]) -> Vec<Point> {
     let mut line: Vec<Point> = pieces.concat();
     if let (Some(first), Some(last)) = (line.first().copied(), line.last().copied()) {
@@ -49,7 +49,7 @@ fn outline(pieces: &[Vec<Point>]) -> Vec<Point> {
     line
 }
 
-/// q of a curve at e, between its points; the curve's e ascends or descends.
+/// Returns q of a curve at e, between its points; the curve's e ascends or descends.
 fn crossing(curve: &[Point], e: f64) -> Option<f64> {
     curve.windows(2).find_map(|w| {
         let (a, b) = (w[0], w[1]);
@@ -58,7 +58,7 @@ fn crossing(curve: &[Point], e: f64) -> Option<f64> {
     })
 }
 
-/// Fig. 2: the number of impacts.
+/// Draws Fig. 2: the number of impacts.
 pub fn impacts(data: &Impacts) -> Result<String, FigureError> {
     let mut paper = Paper::new(300.0, 242.0);
     let chart = plane_axes([88.0, 6.0], 206.0).without_grid(&mut paper, 24.0);
@@ -93,7 +93,7 @@ pub fn impacts(data: &Impacts) -> Result<String, FigureError> {
     paper.text([x, y], "endless", LABEL);
     paper.text([x, y + 10.0], "*q* ≥ 2√*e*/(1 + *e*)", LABEL);
 
-    // how the mass lies at q = 0, 0.5, 1, beside the axis
+    // These are the mass distributions at q = 0, 0.5, 1, beside the axis.
     let (a, b) = (5.0, 47.0);
     let middle = 0.5 * (a + b);
     for (q, shift, dots, name) in [
@@ -111,7 +111,7 @@ pub fn impacts(data: &Impacts) -> Result<String, FigureError> {
     paper.finish("Number of impacts over restitution and inertia ratio")
 }
 
-/// Where a label sits on a curve: its index in the line, point and turn.
+/// Returns the place of a label on a curve: its index in the line, point and turn.
 fn place(line: &[Pt], half: f64, others: &[Vec<Pt>], taken: &[Pt], chart: &Chart<'_>) -> Option<(f64, Pt, f64)> {
     let length: f64 = line.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
     if length < 5.0 * half {
@@ -142,7 +142,7 @@ fn place(line: &[Pt], half: f64, others: &[Vec<Pt>], taken: &[Pt], chart: &Chart
     Some((at, [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], turn))
 }
 
-/// The point at a distance along a line.
+/// Returns the point at a distance along a line.
 fn along(line: &[Pt], distance: f64) -> Pt {
     let mut left = distance.max(0.0);
     for w in line.windows(2) {
@@ -156,7 +156,7 @@ fn along(line: &[Pt], distance: f64) -> Pt {
     line.last().copied().unwrap_or_default()
 }
 
-/// The parts of a line before and after the gap for its label.
+/// Returns the parts of a line before and after the gap for its label.
 fn cut(line: &[Pt], from: f64, to: f64) -> [Vec<Pt>; 2] {
     let (mut before, mut after) = (Vec::new(), vec![along(line, to)]);
     let mut at = 0.0;
@@ -174,7 +174,7 @@ fn cut(line: &[Pt], from: f64, to: f64) -> [Vec<Pt>; 2] {
     [before, after]
 }
 
-/// Figs. 5 to 7: the safe zone of one threshold.
+/// Draws Figs. 5 to 7: the safe zone of one threshold.
 pub fn zones(data: &Zones) -> Result<String, FigureError> {
     let mut paper = Paper::new(214.0, 204.0);
     let chart = plane_axes([38.0, 6.0], 168.0).without_grid(&mut paper, 25.0);

@@ -1,4 +1,4 @@
-//! Figures of the plate report: a plate beside bars, over the directions of its tilt, and near ties.
+//! Figures of the plate report: a plate compared with bars, over the directions of its tilt, and near ties.
 
 use clatter::Atlas;
 use clatter_figures::FigureError;
@@ -22,7 +22,7 @@ fn frame<'a>(x: Axis<'a>, y: Axis<'a>) -> Axes<'a> {
     Axes { corner: [34.0, 8.0], size: [178.0, 116.0], x, y }
 }
 
-/// Below a frame: whole lines with their names, then what broken ones are.
+/// Draws the key below a frame: whole lines with their names, then a note on the broken ones.
 fn key(paper: &mut Paper, lines: &[(Ink<'_>, &str)], at: &[f64], note: &str) {
     for (line, x) in lines.iter().zip(at) {
         paper.key([*x, 166.0], &[*line]);
@@ -32,7 +32,7 @@ fn key(paper: &mut Paper, lines: &[(Ink<'_>, &str)], at: &[f64], note: &str) {
 
 const HEIGHT: f64 = 184.0;
 
-/// Largest shocks over e: the corners and the middle of a uniform plate, the ends and the middle of its bar.
+/// Draws the largest shocks over e: the corners and the middle of a uniform plate, the ends and the middle of its bar.
 pub(crate) fn shocks(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
     let mut paper = Paper::new(226.0, HEIGHT);
     let top = plates.iter().fold(0.0_f64, |most, plate| most.max(plate.corner));
@@ -54,7 +54,7 @@ pub(crate) fn shocks(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
     paper.finish("Largest shocks of a uniform plate and of a uniform bar over restitution")
 }
 
-/// Safe share over e for each threshold: of the plan of a uniform plate, of the length of its bar.
+/// Draws the safe share over e for each threshold: of the plan of a uniform plate, of the length of its bar.
 pub(crate) fn zones(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
     let mut paper = Paper::new(226.0, HEIGHT);
     let x = Axis::linear(0.0, 1.0, "coefficient of restitution *e*");
@@ -69,7 +69,7 @@ pub(crate) fn zones(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
     paper.finish("Share of a uniform plate and of a uniform bar that is safe, over restitution")
 }
 
-/// Share within v0/2 over α = β for some e: of the plan, of the length of the bar.
+/// Draws the share within v0/2 over α = β for some e: of the plan, of the length of the bar.
 pub(crate) fn inertia(curves: &[Vec<BarsAndPlate>; 3]) -> Result<String, FigureError> {
     let mut paper = Paper::new(226.0, HEIGHT);
     let top = curves.iter().flatten().fold(0.0_f64, |most, plate| most.max(plate.length[0]));
@@ -87,14 +87,14 @@ pub(crate) fn inertia(curves: &[Vec<BarsAndPlate>; 3]) -> Result<String, FigureE
     paper.finish("Share within half the drop speed over the inertia of a plate and of its bar")
 }
 
-/// Names of bands, from below the first level to above the last.
+/// Returns the names of bands, from below the first level to above the last.
 fn bands(levels: &[f64]) -> Vec<String> {
     let between = levels.windows(2).map(|w| format!("{} to {}", w[0], w[1]));
     let (first, last) = (levels.first().copied().unwrap_or_default(), levels.last().copied().unwrap_or_default());
     std::iter::once(format!("below {first}")).chain(between).chain([format!("above {last}")]).collect()
 }
 
-/// The largest corner shock over that of the bar's ends, over α and β; the plates row by row, α fastest.
+/// Draws the largest corner shock over that of the bar's ends, over α and β; the plates row by row, α fastest.
 pub(crate) fn plane(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
     const LEVELS: [f64; 6] = [1.05, 1.1, 1.15, 1.2, 1.25, 1.3];
     const COLORS: [&str; 7] = [SAND, BLUES[1], BLUES[2], BLUES[4], BLUES[5], BLUES[6], BLUES[8]];
@@ -106,7 +106,7 @@ pub(crate) fn plane(plates: &[BarsAndPlate]) -> Result<String, FigureError> {
         y: Axis::linear(1.0, 10.0, "*β*"),
     };
     let axes = axes.without_grid(&mut paper, 22.0);
-    // Rows of one β, in them runs of one color; each cell reaches half way to its neighbors.
+    // These are rows of one β, in them runs of one color; each cell reaches half way to its neighbors.
     let band = |plate: &BarsAndPlate| LEVELS.iter().filter(|level| plate.corner / plate.bar[0] >= **level).count();
     let half = plates.first().zip(plates.get(1)).map_or(0.0, |(a, b)| 0.5 * (b.inertia[0] - a.inertia[0]));
     for run in plates.chunk_by(|a, b| a.inertia[1].to_bits() == b.inertia[1].to_bits() && band(a) == band(b)) {
@@ -131,7 +131,7 @@ fn swatches(paper: &mut Paper, [x, mut y]: [f64; 2], list: &[(&'static str, Stri
     }
 }
 
-/// The atlas: the largest corner shock over the direction of tilt, beside two bars, and the words below it.
+/// Draws the atlas: the largest corner shock over the direction of tilt, beside two bars, and the words below it.
 pub(crate) fn atlas(atlas: &Atlas, [bar, diagonal]: [f64; 2]) -> Result<String, FigureError> {
     let mut paper = Paper::new(465.0, 152.0);
     let axes = Axes {
@@ -169,7 +169,7 @@ pub(crate) fn atlas(atlas: &Atlas, [bar, diagonal]: [f64; 2]) -> Result<String, 
         if width(&text, LABEL.size) + 6.0 < to - from {
             paper.text([middle, y + 3.0], &format!("*{text}*"), LABEL);
         } else if to - from > 9.0 {
-            // Upright, as far as the strip is high.
+            // The text stands upright, as far as the strip is high.
             paper.text([middle + 2.7, y], &format!("*{text}*"), Label { turn: -90.0, size: 7.5, ..LABEL });
         }
     }
@@ -177,7 +177,7 @@ pub(crate) fn atlas(atlas: &Atlas, [bar, diagonal]: [f64; 2]) -> Result<String, 
     paper.finish("Largest corner shock and order of corners over the direction of tilt")
 }
 
-/// Numbers of strikes over direction and restitution.
+/// Draws numbers of strikes over direction and restitution.
 pub(crate) fn counts(counts: &Counts) -> Result<String, FigureError> {
     const COLORS: [&str; 8] = [BLUES[0], BLUES[2], BLUES[3], BLUES[4], BLUES[5], BLUES[6], BLUES[8], SAND];
     let class = |interval: &Interval| match interval.strikes {
@@ -195,7 +195,7 @@ pub(crate) fn counts(counts: &Counts) -> Result<String, FigureError> {
     #[expect(clippy::cast_precision_loss, reason = "a small grid")]
     let half = 0.5 / counts.rows.len() as f64;
     for (e, row) in &counts.rows {
-        // A hair of overlap, or the ground shows between the rows.
+        // The overlap keeps the ground from showing between the rows.
         let (low, high) = (e - half, (e + 1.2 * half).min(1.0));
         let mut merged: Vec<(f64, f64, usize)> = Vec::new();
         for interval in row {
@@ -217,7 +217,7 @@ pub(crate) fn counts(counts: &Counts) -> Result<String, FigureError> {
 
 const RIGID: Ink = Ink::line(INK, 0.9);
 
-/// The largest corner shock over direction: rigid, and with contacts of both laws.
+/// Draws the largest corner shock over direction: rigid, and with contacts of both laws.
 pub(crate) fn over_direction(ties: &Ties) -> Result<String, FigureError> {
     let mut paper = Paper::new(226.0, HEIGHT);
     let x = Axis::linear(0.0, 0.5, "direction of tilt *r*");
@@ -237,7 +237,7 @@ fn laws(paper: &mut Paper, note: &str) {
     key(paper, &lines, &[34.0, 106.0, 170.0], note);
 }
 
-/// The worst of all directions over the gap: rigid, and with contacts of both laws.
+/// Draws the worst of all directions over the gap: rigid, and with contacts of both laws.
 pub(crate) fn over_gap(ties: &Ties, [bar, _]: [f64; 2]) -> Result<String, FigureError> {
     let mut paper = Paper::new(226.0, HEIGHT);
     let gaps = ties.over_gap.iter().flatten().map(|point| point.0);

@@ -1,4 +1,4 @@
-//! Figures of the shock report: what a clatter does to parts of any frequency, anywhere.
+//! Figures of the shock report: the effect of a clatter on parts of any frequency, anywhere.
 
 use clatter_figures::FigureError;
 use clatter_figures::draw::{
@@ -17,12 +17,12 @@ fn omega_axis(title: &str) -> Axis<'_> {
     Axis::log(OMEGAS[0], OMEGAS[1], title)
 }
 
-/// Peaks of a rule over that of one shock of v0.
+/// Returns the peaks of a rule over that of one shock of v0.
 fn peaks(rule: &Rule) -> impl Iterator<Item = (f64, f64)> + '_ {
     rule.points.iter().map(|p| (p.omega, 2.0 * p.gain))
 }
 
-/// The limits of a rule over the peak of one shock of v0: soft, and stiff if there is one.
+/// Returns the limits of a rule over the peak of one shock of v0: soft, and stiff if there is one.
 fn limits(rule: &Rule) -> (f64, Option<f64>) {
     let unit = 0.5 * rule.standard.acceleration;
     (rule.soft.acceleration / unit, rule.stiff.map(|stiff| stiff.acceleration / unit))
@@ -31,13 +31,13 @@ fn limits(rule: &Rule) -> (f64, Option<f64>) {
 /// The rule of one bar at its end, quarter points and center.
 #[derive(Debug)]
 pub struct BarRules {
-    /// q, e.
+    /// Design of the bar, q and e.
     pub design: [f64; 2],
-    /// End, quarter point, center.
+    /// Rules at end, quarter point and center.
     pub rules: [Rule; 3],
 }
 
-/// A panel for each bar: the rule at three distances from the center, between its asymptotes.
+/// Draws a panel for each bar: the rule at three distances from the center, between its asymptotes.
 pub fn rules(bars: &[BarRules; 4]) -> Result<String, FigureError> {
     let inks = [Ink::line(BLUES[8], 1.2), Ink::line(RUST, 1.0), Ink::line("#4c7a49", 1.0)];
     let top = bars.iter().flat_map(|b| &b.rules).flat_map(peaks).fold(0.0_f64, |m, p| m.max(p.1));
@@ -74,14 +74,14 @@ pub fn rules(bars: &[BarRules; 4]) -> Result<String, FigureError> {
     paper.finish("The three-way rule: peak acceleration over natural frequency for four bars at three places")
 }
 
-/// A key in one row.
+/// Draws a key in one row.
 fn across(paper: &mut Paper, y: f64, lines: &[(Ink, &str)], at: &[f64]) {
     for (line, x) in lines.iter().zip(at) {
         paper.key([*x, y], &[*line]);
     }
 }
 
-/// The rule of one bar at its end for several damping ratios.
+/// Draws the rule of one bar at its end for several damping ratios.
 pub fn damping(rules: &[(f64, Rule)]) -> Result<String, FigureError> {
     let inks = [
         Ink { width: 0.7, ..Ink::line(BLUES[5], 0.7) },
@@ -114,7 +114,7 @@ pub fn damping(rules: &[(f64, Rule)]) -> Result<String, FigureError> {
     paper.finish("The three-way rule at the end of a bar for four damping ratios")
 }
 
-/// Where a band map changes color, and the colors: one more than levels.
+/// The levels at which a band map changes color, and the colors: one more than levels.
 struct Bands<'a> {
     levels: &'a [f64],
     colors: &'a [&'static str],
@@ -127,7 +127,7 @@ impl Bands<'_> {
     }
 }
 
-/// A frame whose cells are strips of one color from crossing to crossing of a level.
+/// Draws a frame whose cells are strips of one color from crossing to crossing of a level.
 ///
 /// `values` row by row from the lowest, of cells whose middles are `columns` (on the page) apart from one another.
 fn strips(paper: &mut Paper, corner: Pt, size: Pt, columns: usize, values: &[f64], bands: &Bands<'_>, smooth: bool) {
@@ -159,7 +159,7 @@ fn strips(paper: &mut Paper, corner: Pt, size: Pt, columns: usize, values: &[f64
     }
 }
 
-/// Rows between the rows, on straight lines; the first and last reach to the border.
+/// Returns rows between the rows, on straight lines; the first and last reach to the border.
 fn between_rows(values: &[f64], columns: usize, times: u8) -> Vec<f64> {
     let rows: Vec<&[f64]> = values.chunks(columns).collect();
     let mut all = Vec::with_capacity(values.len() * usize::from(times));
@@ -173,7 +173,7 @@ fn between_rows(values: &[f64], columns: usize, times: u8) -> Vec<f64> {
     all
 }
 
-/// The largest gain over one shock of 2 v0, over the plane of bars.
+/// Draws the largest gain over one shock of 2 v0, over the plane of bars.
 pub fn gain(map: &GainMap, designs: &[[f64; 2]; 4]) -> Result<String, FigureError> {
     let bands = Bands {
         levels: &[0.8, 1.0, 1.25, 1.5, 2.0, 3.0],
@@ -191,7 +191,7 @@ pub fn gain(map: &GainMap, designs: &[[f64; 2]; 4]) -> Result<String, FigureErro
     paper.finish("Largest gain over a single shock of 2 v0, over restitution and inertia ratio")
 }
 
-/// Colors and what they mean, one below the other.
+/// Draws colors and their meaning, one below the other.
 fn swatches(paper: &mut Paper, [x, mut y]: Pt, list: &[(&'static str, &str)]) {
     for (color, name) in list {
         paper.rect([x, y - 7.5], [9.0, 9.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(color) });
@@ -200,7 +200,7 @@ fn swatches(paper: &mut Paper, [x, mut y]: Pt, list: &[(&'static str, &str)]) {
     }
 }
 
-/// Which impact the peak follows, over Ω and position.
+/// Draws the impact that the peak follows, over Ω and position.
 pub fn holders(data: &Holders, [q, e]: [f64; 2]) -> Result<String, FigureError> {
     let colors: [&'static str; 6] = [SAND, BLUES[2], BLUES[4], BLUES[6], BLUES[8], "#d8a27f"];
     let bands = Bands { levels: &[1.5, 2.5, 3.5, 4.5, 5.5], colors: &colors };
@@ -244,7 +244,7 @@ pub fn holders(data: &Holders, [q, e]: [f64; 2]) -> Result<String, FigureError> 
     paper.finish("Number of the impact that the peak acceleration follows, over frequency and position")
 }
 
-/// Safe zones of suspended parts over Ω, beside those of the paper.
+/// Draws safe zones of suspended parts over Ω, with those of the paper.
 pub fn zones(data: &[SuspendedZones; 3], [q, e]: [f64; 2]) -> Result<String, FigureError> {
     let inks = [Ink::line(BLUES[8], 1.3), Ink::line(RUST, 1.2), Ink::line("#4c7a49", 1.2)];
     let mut paper = Paper::new(226.0, 222.0);
@@ -271,7 +271,7 @@ pub fn zones(data: &[SuspendedZones; 3], [q, e]: [f64; 2]) -> Result<String, Fig
     paper.finish("Safe zone of a suspended part over its natural frequency, for three thresholds")
 }
 
-/// Amplification of single pulses over natural frequency times duration: a name and a curve each.
+/// Draws the amplification of single pulses over natural frequency times duration: a name and a curve each.
 pub fn amplifications(shapes: &[(&str, Vec<(f64, f64)>)]) -> Result<String, FigureError> {
     let ink = |color, dash| Ink { dash, ..Ink::line(color, 1.1) };
     let inks = [
@@ -300,7 +300,7 @@ pub fn amplifications(shapes: &[(&str, Vec<(f64, f64)>)]) -> Result<String, Figu
     paper.finish("Amplification of single pulses without damping")
 }
 
-/// What simpler models say over what the train of pulses does: a name and a curve each.
+/// Draws the estimates of simpler models over the peak by the train of pulses: a name and a curve each.
 pub fn models(curves: &[(&str, Vec<(f64, f64)>)]) -> Result<String, FigureError> {
     let inks = [
         Ink { dash: "3 2.5", ..Ink::line(GRAY, 1.1) },

@@ -5,19 +5,19 @@ use clatter::{Axis, Bar, Count, End, Error, Map, Mass, Quantity, Start, Summary}
 
 use crate::contour::{self, SafeZone};
 
-/// Whether a statement is true of the model.
+/// The truth of a statement in the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// As stated.
+    /// True as stated.
     Holds,
-    /// With the exception that the remark names.
+    /// True with the exception in the remark.
     InPart,
-    /// Not so.
+    /// Not true.
     Fails,
 }
 
 impl Verdict {
-    /// Holds if `all`, else in part if `some`, else fails.
+    /// Returns `Holds` if `all`, else `InPart` if `some`, else `Fails`.
     pub(crate) fn of(all: bool, some: bool) -> Self {
         match (all, some) {
             (true, _) => Self::Holds,
@@ -27,7 +27,7 @@ impl Verdict {
     }
 }
 
-/// What a measured figure is.
+/// The kind of a measured figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A number, in v₀, v₀/L, h₀/v₀ or none of these, as `what` says.
@@ -41,11 +41,11 @@ pub enum Kind {
 /// One measured figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// What was measured.
+    /// The measured quantity.
     pub what: &'static str,
     /// The figure.
     pub value: f64,
-    /// What it is.
+    /// Kind of the figure.
     pub kind: Kind,
     /// Bound on its error beyond rounding: 0 for closed forms, else that of the quadrature or the grid.
     pub error: f64,
@@ -54,15 +54,15 @@ pub struct Measured {
 /// One statement, measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {
-    /// Where the paper makes it.
+    /// Place of the statement in the paper.
     pub place: &'static str,
-    /// What it says, in our words.
+    /// The statement, in our words.
     pub statement: &'static str,
-    /// What was measured.
+    /// The measured figures.
     pub measured: Vec<Measured>,
     /// The answer.
     pub verdict: Verdict,
-    /// Where it does not hold, or what it rests on.
+    /// The exception, or the basis of the answer.
     pub remark: &'static str,
 }
 
@@ -96,7 +96,7 @@ struct Plane {
     duration: Vec<f64>,
 }
 
-/// How a quantity moves from one grid point to the next along one axis.
+/// The trend of a quantity from one grid point to the next along one axis.
 struct Trend {
     /// Share of the steps that rise, and that fall.
     rises: f64,
@@ -116,28 +116,28 @@ impl Plane {
         })
     }
 
-    /// All (q, e, peak at the ends), e fastest.
+    /// Returns all (q, e, peak at the ends), e fastest.
     fn points(&self) -> impl Iterator<Item = (f64, f64, f64)> {
         self.peak.iter().enumerate().map(|(i, &p)| (self.q.value(i / GRID), self.e.value(i % GRID), p))
     }
 
-    /// The safe zone of `threshold` over the plane, not clipped.
+    /// Returns the safe zone of `threshold` over the plane, not clipped.
     fn zone(&self, threshold: f64) -> Vec<f64> {
         self.points().map(|(q, _, p)| (2.0 * threshold / p + q - 1.0) / (1.0 + q)).collect()
     }
 
-    /// Largest shock at the center over the plane; 0 at q = 1.
+    /// Returns the largest shock at the center over the plane; 0 at q = 1.
     fn center(&self) -> Vec<f64> {
         self.points().map(|(q, _, p)| if q < 1.0 { 0.5 * (1.0 - q) * p } else { 0.0 }).collect()
     }
 
-    /// Share of the steps along e.
+    /// Returns the share of the steps along e.
     fn along_e(values: &[f64]) -> Trend {
         let steps = values.chunks(GRID).flat_map(|line| line.windows(2).map(|w| (w[0], w[1])));
         Trend::of(steps)
     }
 
-    /// Share of the steps along q, where `within` holds at both ends.
+    /// Returns the share of the steps along q, where `within` holds at both ends.
     fn along_q(values: &[f64], within: impl Fn(f64) -> bool) -> Trend {
         let steps = values.iter().zip(values.iter().skip(GRID)).map(|(a, b)| (*a, *b));
         Trend::of(steps.filter(|(a, b)| within(*a) && within(*b)))
@@ -175,7 +175,7 @@ pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Where a condition that is false at `a` and true at `b` turns, to the last bit.
+/// Returns the point where a condition that is false at `a` and true at `b` turns, to the last bit.
 pub(crate) fn turn(mut a: f64, mut b: f64, holds: impl Fn(f64) -> bool) -> f64 {
     while (b - a).abs() > f64::EPSILON * b.abs().max(a.abs()) {
         let middle = 0.5 * (a + b);
@@ -184,7 +184,8 @@ pub(crate) fn turn(mut a: f64, mut b: f64, holds: impl Fn(f64) -> bool) -> f64 {
     b
 }
 
-/// Every statement the paper makes about these results, measured; for q and e in [0, 1] unless the claim says so.
+/// Returns every statement of the paper about these results, measured; for q and e in [0, 1] unless the claim says
+/// otherwise.
 ///
 /// Areas are exact where a closed form exists, else by quadrature along exact curves. Monotonicity is measured
 /// step by step on a 401 × 401 grid; there, "share" counts steps.
@@ -205,7 +206,7 @@ pub fn claims() -> Result<Vec<Claim>, Error> {
     Ok(groups.into_iter().flatten().collect())
 }
 
-/// Fig. 2.
+/// Returns the claims about Fig. 2.
 fn counts(plane: &Plane) -> Result<Vec<Claim>, Error> {
     let at = |n| contour::area_up_to(n).value;
     let shares = [at(2), at(3) - at(2), at(4) - at(3), at(5) - at(4)];
@@ -301,7 +302,7 @@ fn counts(plane: &Plane) -> Result<Vec<Claim>, Error> {
     ])
 }
 
-/// Sections 3 and 5: centers of percussion and the shocks along the bar.
+/// Returns the claims of sections 3 and 5: centers of percussion and the shocks along the bar.
 fn percussion() -> Result<Vec<Claim>, Error> {
     let q = |masses: &[Mass]| Bar::from_masses(1.0, masses, 0.3).map(|bar| bar.q());
     let mass = |position_m| Mass::Point { mass_kg: 1.0, position_m };
@@ -367,7 +368,7 @@ fn percussion() -> Result<Vec<Claim>, Error> {
     ])
 }
 
-/// Section 5, Figs. 3 and 4.
+/// Returns the claims of section 5, Figs. 3 and 4.
 fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
     let center = plane.center();
     let (end_q, end_e) = (Plane::along_q(&plane.peak, |_| true), Plane::along_e(&plane.peak));
@@ -459,19 +460,19 @@ fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
     ])
 }
 
-/// The rest of the design plane.
+/// Returns the rest of the design plane.
 fn complement(integral: clatter::Integral) -> clatter::Integral {
     clatter::Integral { value: 1.0 - integral.value, ..integral }
 }
 
-/// Lowest q and e from which the zone shrinks with q although it exists.
+/// Returns the lowest q and e from which the zone shrinks with q although it exists.
 fn shrinking(plane: &Plane, zone: &[f64]) -> [f64; 2] {
     let steps = zone.iter().zip(zone.iter().skip(GRID)).zip(plane.points());
     let shrinks = steps.filter(|((a, b), _)| **a > 0.0 && **b > 0.0 && **b < **a * (1.0 - LEVEL));
     shrinks.fold([1.0, 1.0], |[q, e], (_, (q1, e1, _))| [q.min(q1), e.min(e1)])
 }
 
-/// Fig. 5.
+/// Returns the claims about Fig. 5.
 fn half(plane: &Plane) -> Vec<Claim> {
     let covered = SafeZone::new(0.5).area(0.0);
     let zone = plane.zone(0.5);
@@ -511,7 +512,7 @@ fn half(plane: &Plane) -> Vec<Claim> {
     ]
 }
 
-/// Fig. 6.
+/// Returns the claims about Fig. 6.
 fn one(plane: &Plane) -> Vec<Claim> {
     let bare = complement(SafeZone::new(1.0).area(0.0));
     let curve = SafeZone::new(1.0).curve(0.0, 1e-4);
@@ -550,7 +551,7 @@ fn one(plane: &Plane) -> Vec<Claim> {
     ]
 }
 
-/// Fig. 7.
+/// Returns the claims about Fig. 7.
 fn two(plane: &Plane) -> Vec<Claim> {
     let zone = plane.zone(2.0);
     let least = smallest(zone.iter().copied());
@@ -578,7 +579,7 @@ fn two(plane: &Plane) -> Vec<Claim> {
     ]
 }
 
-/// Section 6, Table 1 and the summation.
+/// Returns the claims of section 6, Table 1 and the summation.
 fn designs(plane: &Plane) -> Result<Vec<Claim>, Error> {
     let [reference, first, second, third] = DESIGNS;
     let half = [zone(reference, 0.5)?, zone(first, 0.5)?, zone(second, 0.5)?, zone(third, 0.5)?];

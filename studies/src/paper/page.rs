@@ -1,4 +1,4 @@
-//! The paper's figures, table and claims: the data, and what is made of them.
+//! The paper's figures, table and claims: their data and files.
 
 use clatter::design::DESIGNS;
 use clatter::{Axis, Bar, End, Map, Quantity};
@@ -12,7 +12,7 @@ use crate::contour::{self, SafeZone};
 use crate::figures::{Impacts, Zones, impacts, scheme, zones};
 use crate::files::pretty;
 
-/// Everything the report shows.
+/// All data of the report.
 #[derive(Debug)]
 pub(crate) struct Data {
     percussion: f64,
@@ -23,7 +23,7 @@ pub(crate) struct Data {
     claims: Vec<Claim>,
 }
 
-/// Chords stay this close to the exact curves, in parts of the unit square: 0.02 pt in print.
+/// Largest distance of chords from the exact curves, in parts of the unit square: 0.02 pt in print.
 const FLATNESS: f64 = 1e-4;
 /// Points of a side of the surfaces' grids.
 const MESH: usize = 37;
@@ -59,7 +59,7 @@ fn sheet(quantity: Quantity, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2
     Ok(Sheet { map, name, at, fill })
 }
 
-/// The sheet at distance `s` from the center (Eq. 4), from that of the ends.
+/// Returns the sheet at distance `s` from the center (Eq. 4), from that of the ends.
 fn at_distance(end: &Sheet, s: f64, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, Error> {
     let mut map = end.map.clone();
     for (i, line) in map.values.chunks_mut(MESH).enumerate() {
@@ -121,7 +121,7 @@ impl Data {
         })
     }
 
-    /// Figures as SVG, tables as JSON and CSV.
+    /// Returns figures as SVG, tables as JSON and CSV.
     pub(crate) fn files(&self) -> Result<Vec<File>, Error> {
         let figures: Vec<File> = vec![
             ("figure-1.svg", scheme(self.percussion)?),

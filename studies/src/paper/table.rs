@@ -52,7 +52,7 @@ struct Figure {
     shown: String,
 }
 
-/// The agreement in a word.
+/// Returns the agreement as a word.
 fn agreement(agreement: Agreement) -> &'static str {
     match agreement {
         Agreement::Rounded => "rounded",
@@ -62,7 +62,7 @@ fn agreement(agreement: Agreement) -> &'static str {
     }
 }
 
-/// The verdict in words.
+/// Returns the verdict in words.
 fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Holds => "holds",
@@ -71,7 +71,7 @@ fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-/// Table 1, with two decimals more than a per cent value is printed with and one more than the others.
+/// Returns Table 1, with two decimals more than printed for per cent values and one more for the others.
 pub(crate) fn table1(rows: &[Row]) -> Table1 {
     let row = |row: &Row| {
         let (quantity, unit, digits) = match row.kind {
@@ -92,7 +92,7 @@ pub(crate) fn table1(rows: &[Row]) -> Table1 {
     Table1 { designs: DESIGNS, rows: rows.iter().map(row).collect() }
 }
 
-/// A measured figure as it is shown: shares in per cent, rounding errors by their size.
+/// Returns a measured figure as text: shares in per cent, rounding errors by their size.
 fn shown(m: &Measured) -> String {
     match m.kind {
         Kind::Count => decimals(m.value, 0),
@@ -109,7 +109,7 @@ fn shown(m: &Measured) -> String {
     }
 }
 
-/// The claims.
+/// Returns the claims.
 pub(crate) fn claims(claims: &[Claim]) -> Claims {
     let figure = |m: &Measured| Figure {
         what: m.what,
@@ -133,7 +133,7 @@ pub(crate) fn claims(claims: &[Claim]) -> Claims {
 }
 
 impl Table1 {
-    /// One row a cell.
+    /// Returns one row a cell.
     pub(crate) fn csv(&self) -> String {
         let head = ["quantity", "unit", "q", "e", "printed", "value", "agreement"].map(String::from).to_vec();
         let cells = self.rows.iter().flat_map(|row| {
@@ -148,7 +148,7 @@ impl Table1 {
 }
 
 impl Claims {
-    /// One row a measured figure.
+    /// Returns one row a measured figure.
     pub(crate) fn csv(&self) -> String {
         let head =
             ["place", "statement", "verdict", "remark", "what", "unit", "value", "error"].map(String::from).to_vec();

@@ -1,28 +1,30 @@
-//! A plate beside the two bars that may stand for it: one along its edges, which is the paper's, and one along its diagonal.
+//! A plate compared with the two bars that may stand for it: one along its edges, which is the paper's, and one along
+//! its diagonal.
 
 use clatter::{Bar, Plate, Start, Summary};
 
 use crate::Error;
 
-/// Strikes that are followed in each direction of tilt at most.
+/// The most strikes that are followed in each direction of tilt.
 pub(crate) const STRIKES: usize = 24;
 /// Thresholds of the safe zones, in v0.
 pub(crate) const THRESHOLDS: [f64; 3] = [0.5, 1.0, 2.0];
 
-/// What a centered plate does over all directions of tilt, and what bars say of it. Shocks in v0.
+/// A centered plate over all directions of tilt, and the bars that may stand for it. Shocks are in v0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BarsAndPlate {
     /// α = A²/k_x² and β = B²/k_y².
     pub(crate) inertia: [f64; 2],
     /// Restitution.
     pub(crate) e: f64,
-    /// Largest shock of a corner, and of the middle.
+    /// Largest shock of a corner.
     pub(crate) corner: f64,
     /// Largest shock of the middle.
     pub(crate) middle: f64,
-    /// What strikes that were not followed give a corner: at most `corner` where the worst case is proven.
+    /// Bound on the shock of a corner in strikes that were not followed: at most `corner` where the worst case is
+    /// proven.
     pub(crate) later: f64,
-    /// The paper's bar, of the larger of α and β: largest shock of its ends, and of its middle.
+    /// Largest shocks of the ends and of the middle of the paper's bar, with the larger of α and β.
     pub(crate) bar: [f64; 2],
     /// Largest shock of the ends of the bar along the diagonal, q = (α + β − 1)/(α + β + 1).
     pub(crate) diagonal: f64,
@@ -33,10 +35,10 @@ pub(crate) struct BarsAndPlate {
 }
 
 impl BarsAndPlate {
-    /// The plate of these α and β.
+    /// Creates the comparison for a plate of these α and β.
     ///
     /// # Errors
-    /// As of [`Plate::new`].
+    /// The errors of [`Plate::new`].
     pub(crate) fn new(inertia: [f64; 2], e: f64) -> Result<Self, Error> {
         let [alpha, beta] = inertia;
         let shocks = Plate::new(inertia.map(|a| a.sqrt().recip()), e)?.worst(STRIKES)?;
@@ -57,7 +59,7 @@ impl BarsAndPlate {
     }
 }
 
-/// Inertia ratio of a bar with α = L²/ρ².
+/// Returns the inertia ratio of a bar with α = L²/ρ².
 pub(crate) fn q(alpha: f64) -> f64 {
     (alpha - 1.0) / (alpha + 1.0)
 }
@@ -70,8 +72,9 @@ fn summary(q: f64, e: f64) -> Result<Summary, Error> {
 mod tests {
     use super::*;
 
-    /// Up to T = q (1 + e) = √(1 + e) the second strike is the hardest: (1 + e)(1 + T) at the corner, 1/μ of it in the middle,
-    /// with q = 5/7 and μ = 7 of a uniform plate; the rhombus α|x| + β|y| ≤ μ t/J − 1 has the area 2 c²/(αβ) of 4.
+    /// Up to T = q (1 + e) = √(1 + e) the second strike is the hardest: (1 + e)(1 + T) at the corner, 1/μ of it in the
+    /// middle, with q = 5/7 and μ = 7 for a uniform plate; the rhombus α|x| + β|y| ≤ μ t/J − 1 has the area 2 c²/(αβ)
+    /// of 4.
     #[test]
     fn a_uniform_plate_has_its_closed_forms() {
         for e in [0.2, 0.3, 0.5, 0.8] {

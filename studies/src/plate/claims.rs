@@ -9,9 +9,10 @@ use crate::Error;
 use crate::paper::claims::{count, largest, number, part, smallest, turn};
 use crate::paper::{Claim, Verdict};
 
-/// Every statement the paper makes about plates, measured; of uniform plates unless the row says otherwise.
+/// Returns every statement of the paper about plates, measured; for uniform plates unless the row says otherwise.
 ///
-/// Directions of tilt are taken as evenly spread in azimuth; their shares are exact. What is said of all e is measured on a grid.
+/// Directions of tilt are taken as evenly spread in azimuth; their shares are exact. Statements about all e are
+/// measured on a grid.
 ///
 /// ```
 /// use clatter_studies::{paper::Verdict, plate_claims};
@@ -28,7 +29,7 @@ pub fn plate_claims() -> Result<Vec<Claim>, Error> {
     claims(&over_e()?, &plane()?)
 }
 
-/// The same with uniform plates over e, and plates over α and β at e = 0.3.
+/// Returns the same claims from uniform plates over e, and plates over α and β at e = 0.3.
 pub(crate) fn claims(over_e: &[BarsAndPlate], plane: &[BarsAndPlate]) -> Result<Vec<Claim>, Error> {
     Ok(vec![
         sequence(over_e)?,
@@ -41,14 +42,14 @@ pub(crate) fn claims(over_e: &[BarsAndPlate], plane: &[BarsAndPlate]) -> Result<
     ])
 }
 
-/// Share of the azimuths of a plate that lead to words of one kind.
+/// Returns the share of the azimuths of a plate that lead to words of one kind.
 fn of(inertia: [f64; 2], e: f64, aspect: f64, kind: fn(&[Corner]) -> bool) -> Result<f64, Error> {
     let atlas = Plate::new(inertia.map(|a| a.sqrt().recip()), e)?.atlas(STRIKES)?;
     Ok(share(&atlas, aspect, kind))
 }
 
 const UNIFORM: [f64; 2] = [3.0; 2];
-/// Mass near the long axis: β > 1 + α.
+/// Inertia of a plate with its mass near the long axis: β > 1 + α.
 const SLENDER: [f64; 2] = [3.0, 8.0];
 
 fn sequence(over_e: &[BarsAndPlate]) -> Result<Claim, Error> {
@@ -147,7 +148,7 @@ fn short_side() -> Result<Claim, Error> {
     })
 }
 
-/// Where the bar and the plate have no safe zone within v0/2 any more.
+/// Returns the restitutions from which on the bar and the plate have no safe zone within v0/2.
 fn without_zone() -> [f64; 2] {
     let plate = |e: f64| Plate::uniform(e).and_then(|plate| plate.worst(STRIKES)).map(|s| s.safe_zone(0.5).extent);
     let bar = |e: f64| Bar::new(0.5, e).map(|bar| bar.shocks_either(&Start::default()).safe_zone(0.5).extent);

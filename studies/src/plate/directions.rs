@@ -1,4 +1,4 @@
-//! What the directions of tilt of a plate lead to: orders of corners, counts, trains without end.
+//! Directions of tilt of a plate: orders of corners, counts, trains without end.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,8 +8,8 @@ use super::bars::STRIKES;
 use crate::Error;
 use crate::paper::claims::turn;
 
-/// Share of the azimuths of tilt, evenly spread, that lead to words of one kind, of a plate `aspect` times as long, along x, as it is
-/// wide.
+/// Returns the share of the azimuths of tilt, evenly spread, that lead to words of one kind, for a plate `aspect` times
+/// as long, along x, as it is wide.
 ///
 /// A slope s that points ψ off the x axis lifts b by s·length·cos ψ and d by s·width·sin ψ: r = sin ψ/(aspect cos ψ + sin ψ).
 pub(crate) fn share(atlas: &Atlas, aspect: f64, kind: impl Fn(&[Corner]) -> bool) -> f64 {
@@ -18,7 +18,8 @@ pub(crate) fn share(atlas: &Atlas, aspect: f64, kind: impl Fn(&[Corner]) -> bool
     words.map(|word| azimuth(word.to) - azimuth(word.from)).fold(0.0, |sum, part| sum + part)
 }
 
-/// Whether a plate rocks as a rod does in its first four strikes: on two corners in turn, or on an edge and then the opposite one.
+/// Returns whether a plate rocks as a rod does in its first four strikes: on two corners in turn, or on an edge and
+/// then the opposite one.
 pub(crate) fn is_rod(word: &[Corner]) -> bool {
     let word = &word[..word.len().min(4)];
     let in_turn = word.windows(3).all(|w| w[0] == w[2]);
@@ -27,7 +28,7 @@ pub(crate) fn is_rod(word: &[Corner]) -> bool {
     in_turn || neighbors && word[2..].iter().all(|j| !word[..2].contains(j))
 }
 
-/// The letters of a word.
+/// Returns the letters of a word.
 pub(crate) fn letters(word: &[Corner]) -> String {
     word.iter().map(|corner| corner.letter()).collect()
 }
@@ -35,24 +36,24 @@ pub(crate) fn letters(word: &[Corner]) -> String {
 /// Numbers of strikes over the directions of tilt, of a uniform plate.
 #[derive(Debug)]
 pub(crate) struct Counts {
-    /// For each e, ascending: intervals of directions with one number of strikes, from r = 0 to 1; none where the train was followed
-    /// no further.
+    /// For each e, ascending: intervals of directions with one number of strikes, from r = 0 to 1; none where the train
+    /// was followed no further.
     pub(crate) rows: Vec<(f64, Vec<Interval>)>,
 }
 
 /// Directions with one number of strikes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Interval {
-    /// From this r.
+    /// Begin of the interval of r.
     pub(crate) from: f64,
-    /// To this r.
+    /// End of the interval of r.
     pub(crate) to: f64,
     /// Number of strikes.
     pub(crate) strikes: Option<usize>,
 }
 
 impl Counts {
-    /// For e in the middle of so many equal steps from 0 to 1.
+    /// Computes the counts for e in the middle of so many equal steps from 0 to 1.
     pub(crate) fn compute(steps: u16) -> Result<Self, Error> {
         let row = |k: u16| {
             let e = (f64::from(k) + 0.5) / f64::from(steps);
@@ -69,7 +70,7 @@ impl Counts {
         Ok(Self { rows: (0..steps).map(row).collect::<Result<_, _>>()? })
     }
 
-    /// Share of the directions, over all e, that have so many strikes.
+    /// Returns the share of the directions, over all e, whose number of strikes fulfills a condition.
     pub(crate) fn share(&self, is: impl Fn(Option<usize>) -> bool) -> f64 {
         let of = |row: &[Interval]| row.iter().filter(|i| is(i.strikes)).map(|i| i.to - i.from).sum::<f64>();
         #[expect(clippy::cast_precision_loss, reason = "a small grid")]
@@ -78,17 +79,18 @@ impl Counts {
     }
 }
 
-/// A restitution up to which a word has no end: in closed form, and as the trains themselves have it.
+/// A restitution up to which a word has no end: in closed form, and by the trains themselves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Endless {
     pub(crate) closed: f64,
     pub(crate) measured: f64,
 }
 
-/// Strikes after which a train that is not proven endless counts as one with an end.
+/// Number of strikes after which a train that is not proven endless counts as one with an end.
 const FOLLOWED: u64 = 256;
 
-/// The highest e at which a uniform plate with these gaps is proven to clatter without end, to the last bit, between two values.
+/// Returns the highest e at which a uniform plate with these gaps is proven to clatter without end, to the last bit,
+/// between two values.
 fn endless_up_to(gaps: [f64; 2], from: f64, to: f64) -> Result<f64, Error> {
     let start = PlateStart::level(gaps)?;
     let endless =
@@ -96,14 +98,15 @@ fn endless_up_to(gaps: [f64; 2], from: f64, to: f64) -> Result<f64, Error> {
     Ok(turn(to, from, endless))
 }
 
-/// On the diagonal, a bar with q = 5/7: up to q = 2√e/(1 + e).
+/// Returns the restitution on the diagonal, a bar with q = 5/7: up to q = 2√e/(1 + e).
 pub(crate) fn endless_on_the_diagonal() -> Result<Endless, Error> {
     let q: f64 = 5.0 / 7.0;
     let root = (1.0 - (1.0 - q * q).sqrt()) / q;
     Ok(Endless { closed: root * root, measured: endless_up_to([1.0; 2], 0.1, 0.3)? })
 }
 
-/// Round the corners: up to where λ³ + ((1 + e) g − 1) λ² + ((1 + e) g − e) λ + e, g = 1/7, touches zero at a positive λ.
+/// Returns the restitution round the corners: up to where λ³ + ((1 + e) g − 1) λ² + ((1 + e) g − e) λ + e, g = 1/7,
+/// touches zero at a positive λ.
 pub(crate) fn endless_round_the_corners() -> Result<Endless, Error> {
     let has_root = |e: f64| {
         let g = 1.0 / 7.0;
@@ -143,7 +146,7 @@ mod tests {
         let atlas = Plate::uniform(0.3).unwrap().atlas(STRIKES).unwrap();
         for aspect in [0.5, 1.0, 3.0] {
             assert!((share(&atlas, aspect, |_| true) - 1.0).abs() < 1e-14, "{aspect}");
-            // Seen along the other edge the same plate is 1/aspect as long: a–d becomes a–b.
+            // Along the other edge the same plate is 1/aspect as long: a–d becomes a–b.
             let [d, b] = [(aspect, Corner::D), (aspect.recip(), Corner::B)]
                 .map(|(aspect, next)| share(&atlas, aspect, |word| word[1] == next));
             assert!((d - b).abs() < 1e-14, "{aspect}: {d} and {b}");

@@ -7,12 +7,12 @@ use serde_json::{Value, json};
 use crate::Error;
 use crate::files::decimals;
 
-/// A worked product with what makes a plate and a box of it.
+/// A worked product with its data as a plate and as a box.
 struct Product {
     text: &'static str,
     width_m: f64,
     thickness_m: f64,
-    /// Contacts of a product whose file names no time.
+    /// Contact time of a product whose file gives none.
     contact_s: f64,
 }
 
@@ -37,7 +37,7 @@ const PRODUCTS: [Product; 3] = [
     },
 ];
 
-/// A limit of a part: its demand as a bar, as a plate and as a box over what is allowed, with what other drops may exceed it by.
+/// A limit of a part: its demand as a bar, as a plate and as a box over the limit, with the uncertainties.
 pub(crate) struct Row {
     product: String,
     part: String,
@@ -48,7 +48,7 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// In percent.
+    /// Returns the row in percent.
     pub(crate) fn json(&self) -> Value {
         json!({
             "product": self.product,
@@ -61,13 +61,13 @@ impl Row {
     }
 }
 
-/// What the demand of a bar differs from that of the plate by at most, of limits that are not about turning.
+/// Returns the largest difference of the demand of a bar from that of the plate, for limits that are not about turning.
 pub(crate) fn most_off(rows: &[Row]) -> f64 {
     let moves = rows.iter().filter(|row| row.limit != LimitKind::AngularVelocityChange);
     moves.map(|row| (row.demands[1] / row.demands[0] - 1.0).abs()).fold(0.0, f64::max)
 }
 
-/// Every limit of every product.
+/// Returns every limit of every product.
 pub(crate) fn rows() -> Result<Vec<Row>, Error> {
     let mut rows = Vec::new();
     for product in &PRODUCTS {
@@ -91,7 +91,7 @@ pub(crate) fn rows() -> Result<Vec<Row>, Error> {
 }
 
 impl Product {
-    /// The same ranges as a bar, a plate and a box: from flat up to the largest tilt of the file.
+    /// Returns the same ranges as a bar, a plate and a box: from flat up to the largest tilt of the file.
     fn files(&self) -> Result<[ProductFile; 3], Error> {
         let mut bar =
             ProductFile::read(self.text, "a worked product").map_err(|faults| Error::Data(faults.to_string()))?;
@@ -101,7 +101,7 @@ impl Product {
         bar.drop.tilt_rad = Spread::new(0.0, most, Law::Range)?;
         let mut plate = bar.clone();
         let (body, half_m) = (bar.product.body, 0.5 * self.width_m);
-        // Spread over the width as over the length.
+        // The mass is spread over the width as over the length.
         let gyration_m = self.width_m * body.gyration_m() / body.length_m();
         let width = Side { ends_m: [half_m; 2], gyration_m };
         plate.product.body = body.with_width(width).with_thickness(Side::even(self.thickness_m));

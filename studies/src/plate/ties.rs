@@ -1,4 +1,4 @@
-//! Corners that land at one instant, or nearly: what rigid impacts and contacts that take time make of it.
+//! Corners that land at one instant, or nearly, by rigid impacts and by contacts that take time.
 
 use clatter::{Bar, Corner, End, Plate, PlateStart, Start};
 use clatter_assess::{Drop, Limit, LimitKind, Model, Part, Place, answer};
@@ -9,34 +9,35 @@ use super::E;
 use super::bars::STRIKES;
 use crate::Error;
 
-/// Contact time in s, on a plate of 2 m by 2 m that falls at 1 m/s without gravity: at small tilt no other length or speed counts.
+/// Contact time in s, on a plate of 2 m by 2 m that falls at 1 m/s without gravity: at small tilt no other length or
+/// speed counts.
 const CONTACT_S: f64 = 1e-4;
-/// How exactly each drop is answered.
+/// Tolerance of the answer for each drop.
 const TOLERANCE: f64 = 1e-3;
 
-/// A drop of a uniform plate onto contacts that take time: the heights of b and d together over what it falls in one contact time,
-/// and the direction r of its tilt.
-fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Shocks, Error> {
+/// Returns the shocks of a drop of a uniform plate onto contacts that take time: `gap` is the heights of b and d
+/// together over the fall in one contact time, `r` the direction of its tilt.
+fn drop_shocks(law: ContactLaw, gap: f64, r: f64) -> Result<Shocks, Error> {
     let plate = clatter_flight::Plate::new([1.0; 4], [(1.0_f64 / 3.0).sqrt(); 2])?;
     let height = gap * CONTACT_S;
     let contact = Contact::new(law, E, CONTACT_S)?;
     let scene = PlateScene::new(plate, 1.0, [height * (1.0 - r), height * r], 0.0)?;
     let drop = Drop::of_plate(&scene, &contact)?;
-    let mut felt = Shocks { shocks: [0.0; 4], peak: 0.0 };
-    for (shock, at_m) in felt.shocks.iter_mut().zip(plate.corners_m()) {
+    let mut found = Shocks { shocks: [0.0; 4], peak: 0.0 };
+    for (shock, at_m) in found.shocks.iter_mut().zip(plate.corners_m()) {
         let part = Part::at(Place::flat(at_m), None);
-        let asked = |kind| answer(&drop, &part, &Limit::new(kind, 1.0), Model::Compliant, TOLERANCE);
-        *shock = asked(LimitKind::VelocityChange)?.value;
-        felt.peak = felt.peak.max(asked(LimitKind::Acceleration)?.value / contact.peak_per_change());
+        let value_of = |kind| answer(&drop, &part, &Limit::new(kind, 1.0), Model::Compliant, TOLERANCE);
+        *shock = value_of(LimitKind::VelocityChange)?.value;
+        found.peak = found.peak.max(value_of(LimitKind::Acceleration)?.value / contact.peak_per_change());
     }
-    Ok(felt)
+    Ok(found)
 }
 
-/// What the corners of a plate feel.
+/// The shocks of the corners of a plate.
 struct Shocks {
-    /// Largest velocity shock of each, in v0.
+    /// Largest velocity shock of each corner, in v0.
     shocks: [f64; 4],
-    /// Largest acceleration of any, as the shock of a lone contact that has it.
+    /// Largest acceleration of any corner, as the shock of a lone contact with that peak.
     peak: f64,
 }
 
@@ -51,24 +52,24 @@ impl Shocks {
 pub(crate) struct Ties {
     /// Rigid: directions from r = 0 to ½ with one shock each, (from, to, shock).
     pub(crate) rigid: Vec<[f64; 3]>,
-    /// Of each law over r, at [`GAP`].
+    /// Largest shocks by each law over r, at [`GAP`].
     pub(crate) over_direction: [Vec<(f64, f64)>; 2],
-    /// Of each law over the gap, the worst of all directions.
+    /// Largest shocks by each law over the gap, the worst of all directions.
     pub(crate) over_gap: [Vec<(f64, f64)>; 2],
-    /// Of each law the largest acceleration over all gaps and directions, as the shock of a lone contact that has it.
+    /// Largest acceleration by each law over all gaps and directions, as the shock of a lone contact with that peak.
     pub(crate) peaks: [f64; 2],
-    /// What each corner feels of a landing on the edge from a to d, by way of treating it.
+    /// Shocks of each corner in a landing on the edge from a to d, by method.
     pub(crate) edge: [(&'static str, [f64; 4]); 5],
 }
 
-/// Heights of b and d together, over what the plate falls in one contact time, where the direction varies.
+/// Heights of b and d together, over the fall in one contact time, for the curve over the direction.
 pub(crate) const GAP: f64 = 10.0;
-/// Directions of a curve, up to the diagonal, and those among which the worst is looked for.
+/// Directions of a curve, up to the diagonal, and those among which the worst is searched.
 const CURVE: u16 = 100;
 const SEARCH: u16 = 50;
 /// Gaps of a curve: from 10⁻¹ to 10²·⁵.
 const GAPS: u16 = 28;
-/// Of a landing on an edge: the far edge is so high that nothing overlaps with it.
+/// Gap of a landing on an edge: the far edge is so high that nothing overlaps with it.
 const FAR: f64 = 100.0;
 
 impl Ties {
@@ -79,7 +80,7 @@ impl Ties {
         let rigid = rigid.map(|word| [word.from, word.to.min(0.5), word.peak()]).collect();
         let direction = |k: u16, of: u16| 0.5 * f64::from(k) / f64::from(of);
         let over_direction = |law| {
-            let point = |k| Ok((direction(k, CURVE), felt(law, GAP, direction(k, CURVE))?.largest()));
+            let point = |k| Ok((direction(k, CURVE), drop_shocks(law, GAP, direction(k, CURVE))?.largest()));
             (0..=CURVE).into_par_iter().map(point).collect::<Result<Vec<_>, Error>>()
         };
         let over_gap = |law| {
@@ -87,8 +88,8 @@ impl Ties {
                 let gap = 10.0_f64.powf(3.5 * f64::from(k) / f64::from(GAPS) - 1.0);
                 let mut worst = [0.0_f64; 2];
                 for k in 0..=SEARCH {
-                    let felt = felt(law, gap, direction(k, SEARCH))?;
-                    worst = [worst[0].max(felt.largest()), worst[1].max(felt.peak)];
+                    let found = drop_shocks(law, gap, direction(k, SEARCH))?;
+                    worst = [worst[0].max(found.largest()), worst[1].max(found.peak)];
                 }
                 Ok((gap, worst))
             };
@@ -108,7 +109,7 @@ impl Ties {
         })
     }
 
-    /// The largest shock of all gaps and directions by a law, and the gap that has it.
+    /// Returns the largest shock of all gaps and directions by a law, and the gap that has it.
     pub(crate) fn worst(&self, law: usize) -> (f64, f64) {
         self.over_gap[law]
             .iter()
@@ -116,7 +117,7 @@ impl Ties {
     }
 }
 
-/// A landing on the edge from a to d: what corners a, b, c and d feel.
+/// Returns the shocks of corners a, b, c and d in a landing on the edge from a to d.
 fn edge(plate: &Plate) -> Result<[(&'static str, [f64; 4]); 5], Error> {
     let start = PlateStart::level([1.0, 0.0])?;
     let shocks = plate.shocks(&start, STRIKES as u64);
@@ -126,11 +127,11 @@ fn edge(plate: &Plate) -> Result<[(&'static str, [f64; 4]); 5], Error> {
     let [hysteretic, dashpot] = ContactLaw::ALL;
     Ok([
         ("rigid, a just before d", [a, b, c, d]),
-        // The same in a mirror.
+        // This is the same in a mirror.
         ("rigid, d just before a", [d, c, b, a]),
         ("rigid, both at once: the paper's bar", [near, far, far, near]),
-        ("contacts, hysteretic", felt(hysteretic, FAR, 0.0)?.shocks),
-        ("contacts, dashpot", felt(dashpot, FAR, 0.0)?.shocks),
+        ("contacts, hysteretic", drop_shocks(hysteretic, FAR, 0.0)?.shocks),
+        ("contacts, dashpot", drop_shocks(dashpot, FAR, 0.0)?.shocks),
     ])
 }
 
@@ -139,8 +140,8 @@ mod tests {
     use super::*;
     use crate::paper::claims::turn;
 
-    /// An edge that lands whole is the paper's bar, whose hysteretic contacts tend to instant impacts; either corner a moment before
-    /// the other shakes one far corner more and the other less.
+    /// An edge that lands whole is the paper's bar, whose hysteretic contacts tend to instant impacts. If one corner
+    /// lands a moment before the other, one far corner gets a larger shock and the other a smaller one.
     #[test]
     fn contacts_make_one_answer_of_a_tie() {
         let [(_, first), (_, second), (_, both), (_, hysteretic), (_, dashpot)] =
@@ -160,20 +161,20 @@ mod tests {
         for r in [0.1, 0.3, 0.45, 0.5] {
             let rigid = atlas.words().iter().find(|word| word.to >= r).unwrap().peak();
             for law in ContactLaw::ALL {
-                let got = felt(law, 1000.0, r).unwrap().largest();
+                let got = drop_shocks(law, 1000.0, r).unwrap().largest();
                 assert!((got / rigid - 1.0).abs() < 2.0 * TOLERANCE, "{law:?} at {r}: {got}, not {rigid}");
             }
         }
     }
 
-    /// Each of four contacts then carries a quarter of the mass, a lone one a seventh: the hysteretic law gives back as much, the dashpot
-    /// as it does where its damping ratio is √(4/7) of that.
+    /// Each of four contacts then carries a quarter of the mass, a lone one a seventh: the hysteretic law keeps its
+    /// restitution, the dashpot has that of a damping ratio √(4/7) as large.
     #[test]
     fn a_flat_landing_is_one_shock_by_the_law_of_more_mass() {
         let ratio = |e: f64| Contact::new(ContactLaw::Dashpot, e, CONTACT_S).unwrap().damping_ratio();
         let given_back = turn(0.9, 0.1, |e| ratio(e) >= (4.0_f64 / 7.0).sqrt() * ratio(E));
         for (law, e) in [(ContactLaw::Hysteretic, E), (ContactLaw::Dashpot, given_back)] {
-            let shocks = felt(law, 0.0, 0.5).unwrap().shocks;
+            let shocks = drop_shocks(law, 0.0, 0.5).unwrap().shocks;
             assert!(shocks.iter().all(|shock| (shock - 1.0 - e).abs() < 2.0 * TOLERANCE), "{law:?}, {e}: {shocks:?}");
         }
     }

@@ -1,16 +1,16 @@
-//! The same over planes and ranges: gain over (q, e), the impact that holds the peak over (Ω, position), zones over Ω.
+//! Results over planes and ranges: gain over (q, e), the impact that holds the peak over (Ω, position), zones over Ω.
 
 use super::{impact_of_peak, omegas, suspended_zone, worst};
 use clatter::{Bar, Start};
 use clatter_shock::{DampingRatio, Error, Suspension};
 use rayon::prelude::*;
 
-/// `of(0)`, …, `of(n − 1)`, on every core.
+/// Returns `of(0)`, …, `of(n − 1)`, computed on every core.
 fn parallel<T: Send>(n: usize, of: impl Fn(usize) -> Result<T, Error> + Sync + Send) -> Result<Vec<T>, Error> {
     (0..n).into_par_iter().map(of).collect()
 }
 
-/// i + ½ over n.
+/// Returns i + ½ over n.
 #[expect(clippy::cast_precision_loss, reason = "a small grid")]
 fn middle(i: usize, n: usize) -> f64 {
     (i as f64 + 0.5) / n as f64
@@ -21,7 +21,7 @@ fn middle(i: usize, n: usize) -> f64 {
 pub struct GainMap {
     /// Cells along each side; the values are those of their middles.
     pub cells: usize,
-    /// Row by row, q upward from row to row, e along a row.
+    /// Gains row by row, q upward from row to row, e along a row.
     pub gain: Vec<f64>,
     /// Share of the cells with a gain above 1: there some part gets more than drop standards assume.
     pub share_above_1: f64,
@@ -30,10 +30,10 @@ pub struct GainMap {
 }
 
 impl GainMap {
-    /// By [`worst`] at each cell.
+    /// Computes [`worst`] at each cell.
     ///
     /// # Errors
-    /// As [`worst`].
+    /// The errors of [`worst`].
     pub fn compute(damping: DampingRatio, cells: usize, per_octave: u16) -> Result<Self, Error> {
         let bar = |i: usize| Bar::new(middle(i / cells, cells), middle(i % cells, cells));
         let values = parallel(cells * cells, |i| {
@@ -53,7 +53,7 @@ impl GainMap {
     }
 }
 
-/// Which impact the peak acceleration follows, over Ω within [`super::OMEGAS`] (in equal ratios) and the position.
+/// The impact that the peak acceleration follows, over Ω within [`super::OMEGAS`] (in equal ratios) and the position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Holders {
     /// Ω of each column.
@@ -69,10 +69,10 @@ pub struct Holders {
 }
 
 impl Holders {
-    /// By [`impact_of_peak`] at each point.
+    /// Computes [`impact_of_peak`] at each point.
     ///
     /// # Errors
-    /// As [`clatter_shock::respond`].
+    /// The errors of [`clatter_shock::respond`].
     pub fn compute(bar: &Bar, damping: DampingRatio, per_octave: u16, rows: usize) -> Result<Self, Error> {
         let omegas = omegas(per_octave);
         let columns = omegas.len();
@@ -88,35 +88,35 @@ impl Holders {
     }
 }
 
-/// The safe zone of a suspended part over its frequency, beside that of the paper.
+/// The safe zone of a suspended part over its frequency, and that of the paper for comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SuspendedZones {
     /// Threshold in v0.
     pub threshold: f64,
     /// Ω, within [`super::OMEGAS`].
     pub omegas: Vec<f64>,
-    /// [`suspended_zone`] at each.
+    /// Zone by [`suspended_zone`] at each Ω.
     pub zones: Vec<Option<f64>>,
     /// s of Eq. 5, clipped to 1; `None` where there is none.
     pub paper: Option<f64>,
-    /// Share of the range (logarithmic in Ω) where some part inside the paper's zone gets more than one shock of the
-    /// threshold would give it.
+    /// Share of the range (logarithmic in Ω) where some part inside the paper's zone gets more than by one shock of the
+    /// threshold.
     pub share_unsafe: f64,
     /// Smallest zone and the Ω of the part.
     pub smallest: (Option<f64>, f64),
 }
 
 impl SuspendedZones {
-    /// For one bar, threshold and damping ratio.
+    /// Computes the zones for one bar, threshold and damping ratio.
     ///
     /// # Errors
-    /// As [`suspended_zone`].
+    /// The errors of [`suspended_zone`].
     pub fn compute(bar: &Bar, threshold: f64, damping: DampingRatio, per_octave: u16) -> Result<Self, Error> {
         let omegas = omegas(per_octave);
         let zones = parallel(omegas.len(), |i| suspended_zone(bar, &Suspension::new(omegas[i], damping)?, threshold))?;
         let s = bar.shocks_either(&Start::default()).safe_zone(threshold).s;
         let paper = (s >= 0.0).then_some(s.min(1.0));
-        // Bisection leaves a zone short by 1e-12, and the stiff limit is only tended to.
+        // Bisection leaves a zone short by 1e-12, and the zone only tends to the stiff limit.
         let short = |zone: &&Option<f64>| paper.is_some_and(|s| zone.unwrap_or(-1.0) < s - 1e-3);
         #[expect(clippy::cast_precision_loss, reason = "a short list")]
         let share_unsafe = zones.iter().filter(short).count() as f64 / zones.len().max(1) as f64;

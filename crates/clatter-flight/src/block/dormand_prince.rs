@@ -5,7 +5,7 @@
 pub(super) const SIZE: usize = 8;
 pub(super) type Vector = [f64; SIZE];
 
-/// Stages: each one's weights of those before.
+/// Weights of the earlier slopes in each stage.
 const STAGES: [&[f64]; 6] = [
     &[1.0 / 5.0],
     &[3.0 / 40.0, 9.0 / 40.0],
@@ -14,10 +14,10 @@ const STAGES: [&[f64]; 6] = [
     &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
     &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
 ];
-/// What the two orders differ by.
+/// Weights of the difference of the two orders.
 const ERROR: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
-/// The fourth power of the continuous extension.
+/// Weights of the fourth power of the continuous extension.
 const DENSE: [f64; 7] = [
     -12_715_105_075.0 / 11_282_082_432.0,
     0.0,
@@ -34,7 +34,7 @@ pub(super) struct Step {
     from: Vector,
     /// Coefficients of θ, θ(1−θ), θ²(1−θ) and θ²(1−θ)².
     powers: [Vector; 4],
-    /// What it may be wrong by.
+    /// Estimate of its error.
     pub(super) error: Vector,
 }
 
@@ -63,13 +63,13 @@ impl Step {
         Self { from: *from, powers, error: combined(&zero, h, &ERROR, &slopes) }
     }
 
-    /// How far each number may come from where it begins, by the largest values of those powers.
+    /// Returns a bound on the change of each number within the step, from the largest values of those powers.
     pub(super) fn reach(&self) -> Vector {
         let [p0, p1, p2, p3] = &self.powers;
         std::array::from_fn(|i| p0[i].abs() + 0.25 * p1[i].abs() + 0.15 * p2[i].abs() + 0.0625 * p3[i].abs())
     }
 
-    /// At a share of it.
+    /// Returns the state at a share of the step.
     pub(super) fn at(&self, share: f64) -> Vector {
         let (now, rest) = (share, 1.0 - share);
         let [p0, p1, p2, p3] = &self.powers;
@@ -81,20 +81,20 @@ impl Step {
 mod tests {
     use super::*;
 
-    /// x″ = −x as the first two numbers: order 5 at the end, 4 within.
+    /// The first two numbers obey x″ = −x; the order is 5 at the end and 4 within.
     #[test]
     fn halves_of_a_step_are_wrong_by_its_order_less() {
         let turn = |y: &Vector| std::array::from_fn(|i| [y[1], -y[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0][i]);
         let mut from = [0.0; SIZE];
         from[0] = 1.0;
         let off = |h: f64, share: f64| (Step::new(&from, h, turn).at(share)[0] - libm::cos(share * h)).abs();
-        // The local error is of one order more; cos is even, so that one more is gained at the end.
+        // The local error is of one order more; cos is even, which gains one more at the end.
         let gain = |share: f64| (off(0.4, share) / off(0.2, share)).log2();
         assert!(gain(1.0) > 5.7 && gain(0.37) > 4.7, "{} {}", gain(1.0), gain(0.37));
         assert!(off(0.2, 1.0) < 1e-7, "{}", off(0.2, 1.0));
     }
 
-    /// Of each power alone the state comes as far from where it begins as is said, or nearly: 4/27 of the third at two thirds.
+    /// Under each power alone the state changes by the stated bound, or nearly: 4/27 of the third at two thirds.
     #[test]
     fn a_step_reaches_no_further_than_said() {
         let powers = std::array::from_fn(|k| std::array::from_fn(|i| if i == k { -3.0 } else { 0.0 }));

@@ -10,7 +10,7 @@ use crate::scene::within;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlockDrop {
     pub(super) block: Block,
-    /// The vertical in axes of the box.
+    /// Vertical in axes of the box.
     pub(super) upward: [f64; 3],
     pub(super) spin: [f64; 3],
     pub(super) speed: f64,
@@ -21,8 +21,8 @@ pub struct BlockDrop {
 }
 
 impl BlockDrop {
-    /// A box whose axes are turned into those of the world, z upward, by the unit quaternion w, x, y, z; its center of mass comes
-    /// down at a speed.
+    /// Creates a drop of a box whose axes are turned into those of the world, z upward, by the unit quaternion w, x, y,
+    /// z; its center of mass comes down at a speed.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless the quaternion has the length 1 to 1e−6, the speed is in [1e−6, 1e6] m/s, and gravity is 0 or in
@@ -39,7 +39,7 @@ impl BlockDrop {
         )
     }
 
-    /// A box whose bottom is tilted by an angle, highest in a direction that turns from x towards y.
+    /// Creates a drop of a box whose bottom is tilted by an angle, highest in a direction that turns from x towards y.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless the tilt is in [0, π] and the direction within a turn; else as [`BlockDrop::new`].
@@ -58,7 +58,7 @@ impl BlockDrop {
         Self::toward(block, upward, speed_m_s, gravity_m_s2)
     }
 
-    /// A box that has this vertical in its axes; of any length.
+    /// Creates a drop of a box with this vertical in its axes, of any length.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless it has a direction; else as [`BlockDrop::new`].
@@ -85,7 +85,7 @@ impl BlockDrop {
         })
     }
 
-    /// Already turning at the first touch, in axes of the box.
+    /// Returns the drop with a spin at the first touch, in axes of the box.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless each is within 10⁵ rad/s and a lowest corner still approaches.
@@ -111,7 +111,7 @@ impl BlockDrop {
         Ok(self)
     }
 
-    /// No strike after this time since the first touch.
+    /// Returns the drop with a limit of time since the first touch: later strikes are not computed.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless positive; infinity is no limit.
@@ -123,46 +123,47 @@ impl BlockDrop {
         Err(Error::Quantity { name: "time limit in s", value: time_s, allowed: "positive" })
     }
 
-    /// No more strikes than this.
+    /// Returns the drop with a limit on the number of strikes.
     #[must_use]
     pub fn with_impact_limit(mut self, impacts: usize) -> Self {
         self.impact_limit = impacts.max(1);
         self
     }
 
-    /// Left where, by the energy left, later presses change the velocity of no corner by more than this share of the largest approach.
+    /// Returns the drop with an earlier end: where the remaining energy lets later presses change the velocity of no
+    /// corner by more than this share of the largest approach.
     #[must_use]
     pub fn with_enough(mut self, share: f64) -> Self {
         self.enough = share;
         self
     }
 
-    /// The box.
+    /// Returns the box.
     #[must_use]
     pub fn block(&self) -> Block {
         self.block
     }
-    /// The vertical in axes of the box.
+    /// Returns the vertical in axes of the box.
     #[must_use]
     pub fn upward(&self) -> [f64; 3] {
         self.upward
     }
-    /// Speed of the center of mass at the first touch, downward.
+    /// Returns the speed of the center of mass at the first touch, downward.
     #[must_use]
     pub fn speed_m_s(&self) -> f64 {
         self.speed
     }
-    /// Limit of time since the first touch.
+    /// Returns the limit of time since the first touch.
     #[must_use]
     pub fn time_limit_s(&self) -> f64 {
         self.time_limit
     }
-    /// Acceleration of gravity.
+    /// Returns the acceleration of gravity.
     #[must_use]
     pub fn gravity_m_s2(&self) -> f64 {
         self.gravity
     }
-    /// Spin at the first touch, in axes of the box.
+    /// Returns the spin at the first touch, in axes of the box.
     #[must_use]
     pub fn spin_rad_s(&self) -> [f64; 3] {
         self.spin

@@ -1,6 +1,6 @@
-//! The motion of a box from its first touch until nothing of weight can follow.
+//! The motion of a box from its first touch until nothing significant can follow.
 
-use clatter::Error as Wrong;
+use clatter::Error as InputError;
 
 use super::dormand_prince::{SIZE, Step, Vector};
 use super::system::{Corner, Hold, System, Turns, cross, dot, parts};
@@ -9,75 +9,77 @@ use crate::Error;
 use crate::contact::{Contact, alike};
 use crate::flight::Stop;
 
-/// What a step may be wrong by: depths over the deepest, velocities over the fastest. Peaks of parts are then within some 1e−6.
+/// Allowed error of a step: depths over the deepest, velocities over the fastest. Peaks of parts are then within some
+/// 1e−6.
 const TOLERANCE: f64 = 1e-8;
-/// Samples of a step among which events are looked for.
+/// Samples of a step among which events are searched.
 const SAMPLES: u32 = 8;
-/// Halvings to the moment of an event: to the last bit of a share.
+/// Halvings of the time of an event: to the last bit of a share.
 const HALVINGS: u32 = 52;
-/// Steps at most: a box that rings on for so long is left.
+/// The most steps: a box that rings on for so long is left.
 const STEPS: usize = 1_000_000;
-/// Events at one moment, one after the other, that no motion needs.
+/// Events in a row at one time that no motion needs.
 const IDLE: usize = 256;
-/// A box is followed until later presses change velocities by less than this share of the largest change so far.
+/// A box is followed until later presses change velocities by less than this share of the largest approach.
 const REST: f64 = 1e-3;
-/// Or by less than its weight does in so many contact times.
+/// The number of contact times whose velocity change by the weight ends the flight as well.
 const WEIGHT: f64 = 4.0;
-/// A flight ends where its energy has changed by this share without reason.
+/// Share of unexplained change of energy at which a flight ends.
 const ENERGY: f64 = 0.01;
-/// Hysteretic contacts of a box rebound with this at least: unloading is a hundred times as fast as loading then.
+/// The least restitution of hysteretic contacts of a box: unloading is then a hundred times as fast as loading.
 pub const LEAST_OF_BLOCKS: f64 = 0.01;
-/// Corners sink in by no more than this share of the smallest size.
+/// Largest depth that a corner may have, over the smallest size.
 const SUNK: f64 = 0.25;
 
 /// One press of a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlockStrike {
-    /// From 1.
+    /// Number of the press, from 1.
     pub number: u64,
-    /// Its index in [`Block::corners_m`].
+    /// Index of its corner in [`Block::corners_m`].
     pub corner: usize,
-    /// When it touches.
+    /// Time of touching.
     pub time_s: f64,
-    /// When it parts; infinite where it presses still as the flight ends.
+    /// Time of parting; infinite where it still presses at the end of the flight.
     pub until_s: f64,
     /// Vertical velocity of the corner as it touches; negative.
     pub approach_m_s: f64,
-    /// What the force of this press does to the vertical velocities of all corners.
+    /// Changes of the vertical velocities of all corners by the force of this press.
     pub delta_v_m_s: [f64; 8],
 }
 
 /// A flight of a box.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockFlight {
-    /// In the order of their touches.
+    /// Presses in the order of their touches.
     pub strikes: Vec<BlockStrike>,
-    /// Why it ends; at rest with what later presses do at most.
+    /// Reason for its end; at rest with a bound on the effect of later presses.
     pub stop: Stop,
-    /// What the energy of the box has changed by without reason, summed without regard to sign, over that at the first touch.
+    /// Unexplained changes of the energy of the box, summed without regard to sign, over the energy at the first touch.
     pub energy_error: f64,
-    /// Height and velocity of the center of mass at the end.
+    /// Height of the center of mass at the end.
     pub center_m: f64,
-    /// Its velocity, upward.
+    /// Velocity of the center of mass at the end, upward.
     pub center_m_s: f64,
     /// The vertical in axes of the box, at the end.
     pub upward: [f64; 3],
     /// Spin in axes of the box, at the end.
     pub spin_rad_s: [f64; 3],
-    /// The speed of the center of mass that all of the energy left would give it: what the box has over lying still, on the face under
-    /// it where it cannot fall over an edge, else on the broadest.
+    /// Speed of the center of mass that the whole remaining energy would give it: the energy above that of lying still,
+    /// on the face under the box where it cannot fall over an edge, else on the broadest face.
     pub left_m_s: f64,
-    /// How far a corner has sunk in at most.
+    /// Largest depth of a corner.
     pub deepest_m: f64,
 }
 
 impl BlockFlight {
-    /// Largest change of velocity of a corner by one press.
+    /// Returns the largest change of velocity of a corner by one press.
     #[must_use]
     pub fn largest_m_s(&self) -> f64 {
         self.strikes.iter().flat_map(|strike| strike.delta_v_m_s).fold(0.0, |most, v| most.max(v.abs()))
     }
-    /// What a place from the center of mass feels along the axes of a box that lies and turns on about the vertical.
+    /// Returns the acceleration above free fall at a place from the center of mass, along the axes of a box that lies
+    /// and turns on about the vertical.
     #[must_use]
     pub fn at_rest_m_s2(&self, place_m: [f64; 3], gravity_m_s2: f64) -> [f64; 3] {
         let turn = dot(self.spin_rad_s, self.upward);
@@ -90,9 +92,9 @@ impl BlockFlight {
 /// A part of a flight in which every force is smooth.
 #[derive(Debug)]
 pub struct BlockStep<'a> {
-    /// When it begins.
+    /// Begin of the part.
     pub from_s: f64,
-    /// How long it lasts.
+    /// Duration of the part.
     pub length_s: f64,
     whole: f64,
     step: &'a Step,
@@ -103,12 +105,14 @@ impl BlockStep<'_> {
     fn state(&self, share: f64) -> Vector {
         self.step.at(share * self.length_s / self.whole)
     }
-    /// What an accelerometer at a place from the center of mass feels along the axes of the box, at a share of the step.
+    /// Returns the acceleration above free fall at a place from the center of mass, along the axes of the box, at a
+    /// share of the step.
     #[must_use]
     pub fn felt_m_s2(&self, place_m: [f64; 3], share: f64) -> [f64; 3] {
         self.felt_everywhere(share).map(|[center, x, y, z]| center + dot([x, y, z], place_m))
     }
-    /// The same of every place: along each axis of the box what the center of mass feels, and what a meter along x, y and z adds.
+    /// Returns that acceleration for every place: along each axis of the box the one of the center of mass, and its
+    /// increase per meter along x, y and z.
     #[must_use]
     pub fn felt_everywhere(&self, share: f64) -> [[f64; 4]; 3] {
         let y = self.state(share);
@@ -124,22 +128,22 @@ impl BlockStep<'_> {
             [force * n[i], x, y, z]
         })
     }
-    /// Whether the ground presses on a corner.
+    /// Returns whether the ground presses on a corner.
     #[must_use]
     pub fn presses(&self) -> bool {
         self.system.presses()
     }
-    /// The vertical in axes of the box, at a share of the step.
+    /// Returns the vertical in axes of the box, at a share of the step.
     #[must_use]
     pub fn upward(&self, share: f64) -> [f64; 3] {
         parts(&self.state(share)).2
     }
-    /// Height and vertical velocity of a place from the center of mass, at a share of the step.
+    /// Returns the height and vertical velocity of a place from the center of mass, at a share of the step.
     #[must_use]
     pub fn place_m(&self, place_m: [f64; 3], share: f64) -> (f64, f64) {
         System::place(&self.state(share), place_m)
     }
-    /// Forces of the ground on the corners over the mass.
+    /// Returns the forces of the ground on the corners over the mass.
     #[must_use]
     pub fn force_per_mass_m_s2(&self, share: f64) -> [f64; 8] {
         let y = self.state(share);
@@ -148,13 +152,14 @@ impl BlockStep<'_> {
 }
 
 impl BlockDrop {
-    /// The flight with contacts that take time at the corners; `each` is shown every part of it.
+    /// Returns the flight with contacts that take time at the corners; `each` is called with every part of it.
     ///
-    /// It ends at rest: where, by the energy left, later presses change the velocity of no corner by more than a thousandth of the
-    /// largest approach, or than the weight does in some contact times.
+    /// It ends at rest: where the remaining energy lets later presses change the velocity of no corner by more than a
+    /// thousandth of the largest approach, or than the weight does in some contact times.
     ///
     /// # Accuracy
-    /// Steps are wrong by 1e−8 of depths and velocities; peaks of parts beside an independent integration by 1e−5 (`tests/block`).
+    /// Steps are wrong by 1e−8 of depths and velocities; peaks of parts differ from an independent integration by 1e−5
+    /// (`tests/block`).
     /// The restitution of a hysteretic contact is [`LEAST_OF_BLOCKS`] at least.
     ///
     /// # Errors
@@ -176,10 +181,11 @@ impl BlockDrop {
         self.own_contacts(&[*contact; 8], each)
     }
 
-    /// The same with a contact of its own at each corner, in the order of [`Block::corners_m`].
+    /// Returns the same flight with a contact of its own at each corner, in the order of [`Block::corners_m`].
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts), by each of the contacts; [`Error::Laws`] unless all are hysteretic, where they differ.
+    /// The errors of [`contacts`](Self::contacts), for each of the contacts; [`Error::Laws`] if they differ and not all
+    /// are hysteretic.
     pub fn own_contacts(
         &self,
         contacts: &[Contact; 8],
@@ -209,14 +215,14 @@ impl BlockDrop {
         Ok(())
     }
 
-    /// No corner is faster at the first touch.
+    /// Returns a bound on the speed of every corner at the first touch.
     fn fastest(&self) -> f64 {
         self.speed + dot(self.spin, self.spin).sqrt() * self.block.reach()
     }
 }
 
 impl Block {
-    /// Distance of the furthest corner from the center of mass.
+    /// Returns the distance of the furthest corner from the center of mass.
     fn reach(&self) -> f64 {
         self.corners_m().iter().map(|corner| dot(*corner, *corner).sqrt()).fold(0.0, f64::max)
     }
@@ -225,23 +231,23 @@ impl Block {
 struct Run<'a> {
     drop: &'a BlockDrop,
     contacts: &'a [Contact; 8],
-    /// The largest of all.
+    /// Largest restitution of all contacts.
     restitution: f64,
-    /// The shortest and the longest of all.
+    /// Shortest and longest contact times.
     times_s: [f64; 2],
     system: System,
     y: Vector,
     now: f64,
-    /// The next step.
+    /// Length of the next step.
     stride: f64,
-    /// What states are told in.
+    /// Scales of the numbers of a state.
     scales: Vector,
     strikes: Vec<BlockStrike>,
     fastest: f64,
     opened: f64,
     misfit: f64,
     most_coupling: f64,
-    /// How deep a corner has been.
+    /// Largest depth of a corner so far.
     sunk: f64,
 }
 
@@ -253,7 +259,7 @@ impl<'a> Run<'a> {
             contacts.map(|contact| contact.restitution().max(if has_dents { LEAST_OF_BLOCKS } else { 0.0 }));
         let (corners, reach) = (block.corners_m(), block.reach());
         let loss = restitutions.map(|e| if has_dents { e * e } else { 1.0 });
-        // Dashpots are alike.
+        // Dashpots are all equal.
         let delay = 2.0 * contacts[0].damping_ratio() / contacts[0].frequency_rad_s();
         let shortest = contacts.iter().fold(f64::INFINITY, |least, contact| least.min(contact.time_s()));
         let longest = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.time_s()));
@@ -299,7 +305,7 @@ impl<'a> Run<'a> {
         if self.strikes.is_empty() {
             let (name, allowed) = ("spin in rad/s", "such that the lowest corner approaches");
             let value = dot(self.drop.spin, self.drop.spin).sqrt();
-            return Err(Wrong::Quantity { name, value, allowed }.into());
+            return Err(InputError::Quantity { name, value, allowed }.into());
         }
         let mut idle = 0;
         for _ in 0..STEPS {
@@ -335,7 +341,7 @@ impl<'a> Run<'a> {
         Err(Error::Bound { name, value, bound: value * most / self.sunk, most: true, unit, reason })
     }
 
-    /// Whether nothing of weight can follow.
+    /// Returns the reason to stop, if nothing significant can follow.
     fn ends(&self) -> Option<Stop> {
         let (z, v, _, _) = parts(&self.y);
         if self.misfit > ENERGY * self.opened {
@@ -347,7 +353,7 @@ impl<'a> Run<'a> {
             let is_clear = is_up && v > 0.0 && z > self.drop.block.reach();
             return is_clear.then_some(Stop::BouncedClear { time_s: self.now });
         }
-        let bound = (1.0 + self.restitution) * (2.0 * self.left() * self.most_coupling).sqrt();
+        let bound = (1.0 + self.restitution) * (2.0 * self.available_energy() * self.most_coupling).sqrt();
         let weight = WEIGHT * gravity * self.times_s[0];
         if bound <= (REST * self.fastest).max(weight) {
             let (time_s, time_bound_s) = (self.now, f64::INFINITY);
@@ -356,8 +362,8 @@ impl<'a> Run<'a> {
         (bound <= self.drop.enough * self.fastest).then_some(Stop::Enough { time_s: self.now })
     }
 
-    /// The energy over the mass that later presses can take.
-    fn left(&self) -> f64 {
+    /// Returns the energy over the mass that later presses can take.
+    fn available_energy(&self) -> f64 {
         let (_, _, n, spin) = parts(&self.y);
         let energy = self.system.energy(&self.y) + self.system.stored(&self.y);
         let momentum = dot(n, times(&self.drop.block.inertia, spin));
@@ -365,7 +371,7 @@ impl<'a> Run<'a> {
         (energy - self.drop.block.kept(n, energy, self.drop.gravity, momentum, ground)).max(0.0)
     }
 
-    /// One step, to the next event at most. Whether the time is over.
+    /// Makes one step, to the next event at most, and returns whether the time is over.
     fn step(&mut self, each: &mut impl FnMut(&BlockStep<'_>)) -> bool {
         let left = self.drop.time_limit - self.now;
         let (_, _, _, spin) = parts(&self.y);
@@ -376,7 +382,7 @@ impl<'a> Run<'a> {
         let step = loop {
             let step = Step::new(&self.y, h, |y| self.system.slope(y));
             let over = (0..SIZE).map(|i| step.error[i].abs() / (TOLERANCE * self.scales[i])).fold(0.0, f64::max);
-            // Below that it is more than the stride may grow by.
+            // Below this error the factor exceeds the largest growth of the stride.
             let factor = if over < 1e-4 { 5.0 } else { 0.9 * libm::pow(over, -0.2) };
             if over <= 1.0 {
                 self.stride = h * factor.clamp(0.2, 5.0);
@@ -417,7 +423,7 @@ impl<'a> Run<'a> {
         h >= left
     }
 
-    /// What forces do over a part of a step, by Simpson's rule, and what its energy misses.
+    /// Books the effect of the forces over a part of a step, by Simpson's rule, and the error of its energy.
     fn push(&mut self, step: &Step, h: f64, share: f64) {
         let states = [0.0, 0.5, 1.0].map(|of| step.at(of * share));
         let mut work = 0.0;
@@ -443,7 +449,7 @@ impl<'a> Run<'a> {
             self.sunk = self.sunk.max(-System::place(&self.y, corner).0);
         }
         self.misfit += (self.system.energy(&self.y) - before - work).abs();
-        // What roundings do to the length of the vertical.
+        // This removes the effect of roundings on the length of the vertical.
         let n = [self.y[2], self.y[3], self.y[4]];
         let length = dot(n, n).sqrt();
         (2..5).for_each(|i| self.y[i] /= length);
@@ -492,7 +498,7 @@ impl<'a> Run<'a> {
     fn finish(self, stop: Stop) -> Result<BlockFlight, Error> {
         self.check_depth()?;
         let (center_m, center_m_s, upward, spin_rad_s) = parts(&self.y);
-        let (energy_error, left_m_s) = (self.misfit / self.opened, (2.0 * self.left()).sqrt());
+        let (energy_error, left_m_s) = (self.misfit / self.opened, (2.0 * self.available_energy()).sqrt());
         let strikes = self.strikes;
         let deepest_m = self.sunk;
         Ok(BlockFlight { strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s, left_m_s, deepest_m })

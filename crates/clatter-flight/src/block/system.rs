@@ -1,4 +1,4 @@
-//! A box and what presses on it: forces at its corners, and what they accelerate it by.
+//! A box with its contacts: forces at its corners, and the accelerations by them.
 
 use super::dormand_prince::Vector;
 use super::{Block, times};
@@ -11,36 +11,36 @@ pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// How the ground carries a corner.
+/// State of the contact of a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Hold {
     Up,
     Loads,
-    /// Down from the largest depth.
+    /// Unloading from the largest depth.
     Unloads(f64),
-    /// A dashpot that would pull.
+    /// Contact of a dashpot that would pull.
     Slack,
 }
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
     pub(super) hold: Hold,
-    /// Height of the ground of this corner: 0, or where it was left.
+    /// Height of the ground of this corner: 0, or the bottom of its dent.
     pub(super) ground: f64,
     /// Stiffness of loading over the mass.
     pub(super) stiffness: f64,
-    /// The number of its press, from 0.
+    /// Index of its press, from 0.
     pub(super) strike: usize,
 }
 
 impl Corner {
-    /// Whether the ground presses on it.
+    /// Returns whether the ground presses on it.
     fn bears(&self) -> bool {
         !matches!(self.hold, Hold::Up | Hold::Slack)
     }
 }
 
-/// A box and what presses on it.
+/// A box with its contacts.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct System {
     pub(super) corners: [[f64; 3]; 8],
@@ -53,14 +53,14 @@ pub(super) struct System {
     pub(super) holds: [Corner; 8],
 }
 
-/// Of a force of 1 on each corner its moment, and the angular acceleration by that.
+/// Moment of a force of 1 on each corner, and the angular acceleration by it.
 pub(super) struct Turns {
     arms: [[f64; 3]; 8],
     turned: [[f64; 3]; 8],
 }
 
 impl Turns {
-    /// What a force on a corner over the mass accelerates another corner by.
+    /// Returns the acceleration of one corner by a force of 1 over the mass on another.
     pub(super) fn coupling(&self, i: usize, j: usize) -> f64 {
         1.0 + dot(self.arms[i], self.turned[j])
     }
@@ -71,7 +71,7 @@ pub(super) fn parts(y: &Vector) -> (f64, f64, [f64; 3], [f64; 3]) {
 }
 
 impl System {
-    /// Height and vertical velocity of a place from the center of mass.
+    /// Returns the height and vertical velocity of a place from the center of mass.
     #[inline]
     pub(super) fn place(y: &Vector, place: [f64; 3]) -> (f64, f64) {
         let (z, v, n, spin) = parts(y);
@@ -89,11 +89,11 @@ impl System {
             _ => stiffness * (depth - self.delay * velocity),
         }
     }
-    /// Whether the ground presses on a corner.
+    /// Returns whether the ground presses on a corner.
     pub(super) fn presses(&self) -> bool {
         self.holds.iter().any(Corner::bears)
     }
-    /// Force over the mass, and moment over the mass.
+    /// Returns the force over the mass, and moment over the mass.
     pub(super) fn load(&self, y: &Vector) -> (f64, [f64; 3]) {
         let (_, _, n, _) = parts(y);
         let (mut force, mut moment) = (0.0, [0.0; 3]);
@@ -107,7 +107,7 @@ impl System {
         }
         (force, moment)
     }
-    /// Angular acceleration.
+    /// Returns the angular acceleration.
     pub(super) fn turning(&self, spin: [f64; 3], moment: [f64; 3]) -> [f64; 3] {
         let gyration = cross(spin, times(&self.block.inertia, spin));
         times(&self.block.inverse, std::array::from_fn(|axis| moment[axis] - gyration[axis]))
@@ -118,12 +118,12 @@ impl System {
         let (turn, spun) = (cross(n, spin), self.turning(spin, moment));
         [v, force - self.gravity, turn[0], turn[1], turn[2], spun[0], spun[1], spun[2]]
     }
-    /// How a vertical force on each corner turns the box.
+    /// Returns the effect of a vertical force on each corner on the rotation of the box.
     pub(super) fn turns(&self, n: [f64; 3]) -> Turns {
         let arms = self.corners.map(|corner| cross(corner, n));
         Turns { arms, turned: arms.map(|arm| times(&self.block.inverse, arm)) }
     }
-    /// Height at which a corner parts from the ground, as far as it is pressed in now.
+    /// Returns the height at which a corner parts from the ground, from its present depth.
     pub(super) fn dent(&self, i: usize, y: &Vector) -> f64 {
         let Corner { hold, ground, .. } = self.holds[i];
         let deepest = match hold {
@@ -133,12 +133,12 @@ impl System {
         };
         ground - deepest * (1.0 - self.loss[i])
     }
-    /// Kinetic and potential energy over the mass.
+    /// Returns the kinetic and potential energy over the mass.
     pub(super) fn energy(&self, y: &Vector) -> f64 {
         let (z, v, _, spin) = parts(y);
         0.5 * (v * v + dot(spin, times(&self.block.inertia, spin))) + self.gravity * z
     }
-    /// What pressed corners may give back.
+    /// Returns the energy that pressed corners may give back, over the mass.
     pub(super) fn stored(&self, y: &Vector) -> f64 {
         let one = |i: usize| {
             let Corner { hold, ground, stiffness, .. } = self.holds[i];
@@ -151,16 +151,17 @@ impl System {
         };
         (0..8).map(one).sum()
     }
-    /// Whether a corner is up all along a step from y on which the state comes so far, also but for roundings.
+    /// Returns whether a corner is up all along a step from y within which the numbers change by `reach` at most, with
+    /// a margin for roundings.
     pub(super) fn stays_up(&self, i: usize, y: &Vector, reach: &Vector) -> bool {
         let (Corner { hold, ground, .. }, corner) = (self.holds[i], self.corners[i]);
         let falls = reach[0] + dot([reach[2], reach[3], reach[4]], corner.map(f64::abs));
         hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], corner) > falls * (1.0 + 1e-6)
     }
-    /// Whether a corner has come to its next event.
+    /// Returns whether a corner has come to its next event.
     pub(super) fn has_happened(&self, i: usize, y: &Vector) -> bool {
         let Corner { hold, ground, .. } = self.holds[i];
-        // Most corners that are looked at are up, most of the time.
+        // Most corners are up, most of the time.
         if hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], self.corners[i]) >= 0.0 {
             return false;
         }

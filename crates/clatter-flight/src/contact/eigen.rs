@@ -1,12 +1,12 @@
 //! Eigenvalues and eigenvectors of a small symmetric matrix.
 
-/// Eigenvalues and eigenvectors (columns), by Jacobi's rotations.
+/// Returns eigenvalues and eigenvectors (columns), by Jacobi's rotations.
 pub(crate) fn eigen<const N: usize>(mut a: [[f64; N]; N]) -> ([f64; N], [[f64; N]; N]) {
     let mut v = [[0.0; N]; N];
     for (i, row) in v.iter_mut().enumerate() {
         row[i] = 1.0;
     }
-    // Each sweep squares what is left beside the diagonal; two points need one.
+    // Each sweep squares the off-diagonal rest; two points need one.
     for _ in 0..SWEEPS {
         let mut rotated = false;
         for p in 0..N {
@@ -45,7 +45,7 @@ fn rotate<const N: usize>(a: &mut [[f64; N]; N], v: &mut [[f64; N]; N], p: usize
     }
 }
 
-/// Sweeps at most: eight points settle in six.
+/// The most sweeps: eight points settle in six.
 const SWEEPS: usize = 12;
 
 #[cfg(test)]
@@ -56,7 +56,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// The columns are orthogonal, and the matrix is put together again from them.
+        /// The columns are orthogonal, and the matrix follows from them.
         #[test]
         fn the_matrix_is_what_its_eigenvectors_make(raw in prop::array::uniform4(prop::array::uniform4(-1.0..1.0_f64)), scale in prop::array::uniform4(-6.0..6.0_f64)) {
             let scale = scale.map(|s| 10f64.powf(s));

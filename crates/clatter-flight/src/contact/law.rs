@@ -4,35 +4,36 @@ use clatter::{Error, Restitution};
 
 use crate::scene::within;
 
-/// What the ground does to a point that presses into it by a depth d.
+/// The force of the ground on a point that presses into it by a depth d.
 ///
 /// Both have the restitution e at any speed and the stated contact time τ for a lone contact without gravity. With ω₁ and
 /// μ = 1 + (lever arm/radius of gyration)² at the moment of touch, forces are per mass of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ContactLaw {
-    /// Loading along F = k₁ d; unloading and reloading along F = k₂ (d − d₀) with k₂ = k₁/e² and d₀ = d_max (1 − e²), never
-    /// pulling; back at d_max the point is on the first line again (after Walton and Braun). Parted below the ground, the next press
-    /// begins there as new, d₀ lower, until the point has been above the ground. With ω₁ = (π/2)(1 + e)/τ and k₁ = ω₁²/μ the pulse is a quarter sine of τ/(1 + e) and a quarter
-    /// cosine of τ e/(1 + e): its largest force is that of the half-sine with the same length and velocity change, which
-    /// shock tables and standards mean.
+    /// Loading along F = k₁ d; unloading and reloading along F = k₂ (d − d₀) with k₂ = k₁/e² and d₀ = d_max (1 − e²),
+    /// never pulling; back at d_max the point is on the first line again (after Walton and Braun). After parting below
+    /// the ground, the next press begins there as new, d₀ lower, until the point has been above the ground. With ω₁ =
+    /// (π/2)(1 + e)/τ and k₁ = ω₁²/μ the pulse is a quarter sine of τ/(1 + e) and a quarter cosine of τ e/(1 + e): its
+    /// largest force is that of the half-sine with the same length and velocity change, which shock tables and
+    /// standards mean.
     #[default]
     Hysteretic,
-    /// A spring and a dashpot, F = κ (d + θ d′), never pulling. The force jumps as the point touches, and is largest there
-    /// below e ≈ 0.3: right for some rubber.
+    /// A spring and a dashpot, F = κ (d + θ d′), never pulling. The force jumps as the point touches, and is largest
+    /// there below e ≈ 0.3; some rubber behaves so.
     Dashpot,
 }
 
 impl ContactLaw {
-    /// All of them.
+    /// All laws.
     pub const ALL: [Self; 2] = [Self::Hysteretic, Self::Dashpot];
-    /// Their names.
+    /// Names of the laws, in that order.
     pub const NAMES: [&'static str; Self::ALL.len()] = ["hysteretic", "dashpot"];
-    /// `hysteretic` or `dashpot`.
+    /// Returns `hysteretic` or `dashpot`.
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::NAMES[self as usize]
     }
-    /// In running text.
+    /// Returns the law in running text.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -40,12 +41,13 @@ impl ContactLaw {
             Self::Dashpot => "spring and dashpot",
         }
     }
-    /// The law of this name.
+    /// Returns the law of this name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|law| law.name() == name)
     }
-    /// Whether it takes energy by unloading along a stiffer line than it was loaded on, and so leaves a dent; else by a dashpot.
+    /// Returns whether the law takes energy by unloading along a stiffer line than that of loading, and so leaves a
+    /// dent; else it takes it by a dashpot.
     #[must_use]
     pub const fn leaves_a_dent(self) -> bool {
         match self {
@@ -53,7 +55,7 @@ impl ContactLaw {
             Self::Dashpot => false,
         }
     }
-    /// The other one.
+    /// Returns the other law.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -73,15 +75,15 @@ pub struct Contact {
     damping: f64,
 }
 
-/// Below this restitution a hysteretic contact does not rebound at all: what that leaves out is 1e-4 of a shock.
+/// The restitution below which a hysteretic contact does not rebound at all: the error is 1e-4 of a shock.
 const PLASTIC: f64 = 1e-4;
-/// Below this restitution a dashpot rebounds with it: its damping has no limit at e = 0.
+/// The restitution of a dashpot below that value: its damping has no limit at e = 0.
 const LEAST_OF_DASHPOT: f64 = 1e-3;
-/// Newton's steps of the fit at most: eight do.
+/// The most steps of Newton's method in the fit: eight are enough.
 const NEWTON: usize = 12;
 
 impl Contact {
-    /// The contact with restitution `e` whose lone contact lasts `time_s`.
+    /// Creates the contact with restitution `e` whose lone contact lasts `time_s`.
     ///
     /// # Accuracy
     /// A lone contact without gravity has this restitution and this duration to 1e−9; a hysteretic one with e below 1e−4
@@ -111,32 +113,32 @@ impl Contact {
         };
         Ok(Self { law, e, time_s, frequency, damping })
     }
-    /// The law.
+    /// Returns the law.
     #[must_use]
     pub fn law(&self) -> ContactLaw {
         self.law
     }
-    /// Restitution.
+    /// Returns the restitution.
     #[must_use]
     pub fn restitution(&self) -> f64 {
         self.e
     }
-    /// Duration of a lone contact.
+    /// Returns the duration of a lone contact.
     #[must_use]
     pub fn time_s(&self) -> f64 {
         self.time_s
     }
-    /// Natural angular frequency of a lone contact as it loads, ω₁ or the dashpot's ω.
+    /// Returns the natural angular frequency of a lone contact as it loads, ω₁ or the dashpot's ω.
     #[must_use]
     pub fn frequency_rad_s(&self) -> f64 {
         self.frequency
     }
-    /// Damping ratio of a lone contact: 0 for a hysteretic one.
+    /// Returns the damping ratio of a lone contact: 0 for a hysteretic one.
     #[must_use]
     pub fn damping_ratio(&self) -> f64 {
         self.damping
     }
-    /// Largest acceleration of the contact point in a lone contact over the change of its velocity, in 1/s.
+    /// Returns the largest acceleration of the contact point in a lone contact over the change of its velocity, in 1/s.
     ///
     /// # Formula
     /// Hysteretic: (π/2)/τ, that of a half-sine. Dashpot, which touches at v: 2ζω v at the touch and later less where ζ ≥ ½, else
@@ -152,25 +154,26 @@ impl Contact {
         };
         self.frequency * per_speed / (1.0 + self.e)
     }
-    /// θ of F = κ (d + θ d′).
+    /// Returns θ of F = κ (d + θ d′).
     pub(super) fn delay_s(&self) -> f64 {
         2.0 * self.damping / self.frequency
     }
-    /// Whether a point stays where its first loading leaves it.
+    /// Returns whether a point stays at the largest depth of its first loading.
     pub(super) fn is_plastic(&self) -> bool {
         self.law.leaves_a_dent() && self.e < PLASTIC
     }
-    /// Share of a velocity that the line of unloading gives back, which lever arms must not lose: e; all where there is no such line.
+    /// Returns the share of a velocity that the line of unloading gives back, which lever arms must resolve: e, or 1
+    /// where there is no such line.
     pub(super) fn springs_back(&self) -> f64 {
         if self.law.leaves_a_dent() && !self.is_plastic() { self.e } else { 1.0 }
     }
-    /// Stiffness of unloading over that of loading, of a law that leaves a dent.
+    /// Returns the stiffness of unloading over that of loading, for a law that leaves a dent.
     pub(super) fn unloading(&self) -> f64 {
         if self.is_plastic() { f64::INFINITY } else { self.e.powi(-2) }
     }
 }
 
-/// ωτ and damping ratio of a spring and dashpot with restitution e.
+/// Returns ωτ and damping ratio of a spring and dashpot with restitution e.
 ///
 /// A lone contact without gravity parts when d + θ d′ = 0. With ζ = cos β (or cosh β beyond critical damping)
 ///
@@ -180,7 +183,7 @@ impl Contact {
 ///
 /// which is solved for β² by Newton's steps to a few roundings.
 fn dashpot(e: f64) -> (f64, f64) {
-    /// β, sin β and cos β of β² = x; sinh and cosh where x is negative.
+    /// Returns β, sin β and cos β of β² = x; sinh and cosh where x is negative.
     fn angle(x: f64) -> (f64, f64, f64) {
         let b = x.abs().sqrt();
         let (sine, cosine) = if x > 0.0 { libm::sincos(b) } else { (libm::sinh(b), libm::cosh(b)) };

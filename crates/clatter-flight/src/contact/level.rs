@@ -3,7 +3,8 @@
 //! With the positions x, y of the points about the center of mass and the radii of gyration k_x, k_y,
 //! M_ij = 1 + x_i x_j/k_x² + y_i y_j/k_y²; with a product of inertia 1 + r_i·C⁻¹ r_j, C the second moments of the mass.
 //!
-//! The first four points are the corners of the [`Plate`], on which it rests; others are over them, such as the edges beyond feet.
+//! The first four points are the corners of the [`Plate`], on which it rests; others lie above them, such as the edges
+//! beyond feet.
 
 use super::Sample;
 use super::pose::{Borne, Extent, Pose, Pushes, solve};
@@ -15,7 +16,7 @@ use crate::rigid::Falls;
 pub struct Level<const N: usize = 4> {
     plate: Plate,
     points: [[f64; 2]; N],
-    /// Heights of the points over the corners of the plate, where it is level.
+    /// Heights of the points above the corners of the plate, where it is level.
     over: [f64; N],
     gravity: f64,
     /// Height and velocity of the center of mass.
@@ -26,15 +27,15 @@ pub struct Level<const N: usize = 4> {
     rates: [f64; 2],
 }
 
-/// Round the plate: forces of these signs do nothing to it.
+/// Signs of forces around the plate that have no effect on it.
 const AROUND: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
 impl Level {
-    /// The first touch: the lowest corner is on the ground.
+    /// Returns the plate at its first touch: the lowest corner is on the ground.
     pub(crate) fn start(scene: &PlateScene) -> Self {
         Self::on(scene, scene.plate().corners_m(), [0.0; 4])
     }
-    /// With its corners at these heights and velocities.
+    /// Returns the plate with its corners at these heights and velocities.
     pub(crate) fn of(scene: &PlateScene, height: [f64; 4], velocity: [f64; 4]) -> Self {
         let level = Self::start(scene);
         let [length, width] = level.plate.sides_m();
@@ -45,7 +46,8 @@ impl Level {
 }
 
 impl<const N: usize> Level<N> {
-    /// The first touch of a plate with these points so high over its corners, which are the first four.
+    /// Returns the plate at its first touch with these points and their heights over its corners, which are the first
+    /// four.
     pub(crate) fn on(scene: &PlateScene, points: [[f64; 2]; N], over: [f64; N]) -> Self {
         let plate = scene.plate();
         let ([length, width], [x, y]) = (plate.sides_m(), scene.gaps_m());
@@ -58,7 +60,7 @@ impl<const N: usize> Level<N> {
     fn height_of(&self, point: usize) -> f64 {
         self.y + Self::along(self.slopes, self.points[point]) + self.over[point]
     }
-    /// Where the points that lie hold the plate, their forces: those that move independently do.
+    /// Returns the forces on all points if the lying ones hold the plate, by those of them that move independently.
     fn held_by_any(&self, lying: &[bool; N], forces: &[f64; N]) -> Option<[f64; N]> {
         let coupling = |i: usize, j: usize| self.share(self.points[i], self.points[j]);
         let pushed = |i: usize, forces: &[f64; N]| (0..N).map(|j| coupling(i, j) * forces[j]).sum::<f64>();
@@ -66,33 +68,33 @@ impl<const N: usize> Level<N> {
         let falls = std::array::from_fn(|i| self.gravity - pushed(i, &others));
         let held = solve(coupling, lying, falls);
         let all = std::array::from_fn(|i| if lying[i] { held[i] } else { forces[i] });
-        // To a rounding of what it falls with.
+        // The balance is to a rounding of gravity.
         (0..4).all(|i| (pushed(i, &all) - self.gravity).abs() <= 1e-9 * self.gravity).then_some(all)
     }
-    /// What grows along x and y like this, at a place.
+    /// Returns the value at a place of a quantity with these slopes along x and y.
     fn along(of: [f64; 2], [x, y]: [f64; 2]) -> f64 {
         x * of[0] + y * of[1]
     }
-    /// What a force of 1 over the mass at one place does to another.
+    /// Returns the acceleration at one place by a force of 1 over the mass at another.
     fn share(&self, one: [f64; 2], other: [f64; 2]) -> f64 {
         1.0 + Self::along(self.plate.turned(other), one)
     }
-    /// What a force of 1 over the mass at each point does to the slope along a direction.
+    /// Returns the acceleration of the slope along a direction by a force of 1 over the mass at each point.
     pub(super) fn slope_by(&self, direction: [f64; 2]) -> [f64; N] {
         self.points.map(|corner| Self::along(self.plate.turned(corner), direction))
     }
-    /// The rate of the slope along a direction.
+    /// Returns the rate of the slope along a direction.
     pub(super) fn rate_along(&self, direction: [f64; 2]) -> f64 {
         Self::along(self.rates, direction)
     }
-    /// Forces on the corners that are a force of 1 at a place.
+    /// Returns the forces on the corners that are equivalent to a force of 1 at a place.
     fn shares_of(&self, [x, y]: [f64; 2]) -> [f64; 4] {
         let ([left, right, front, back], [length, width]) = (self.plate.edges_m(), self.plate.sides_m());
         let ([left, right], [front, back]) =
             ([(right - x) / length, (left + x) / length], [(back - y) / width, (front + y) / width]);
         [left * front, right * front, right * back, left * back]
     }
-    /// Forces on the corners of 1 in all and without moment.
+    /// Returns forces on the corners that sum to 1 and have no moment.
     fn even(&self) -> [f64; 4] {
         self.shares_of([0.0; 2])
     }
@@ -107,7 +109,7 @@ impl<const N: usize> Pose<N> for Level<N> {
     }
     /// Instant impacts are those of the corners alone.
     fn sample_of(falls: &Falls, time_s: f64) -> Option<Sample<N>> {
-        falls.sample(time_s).of_points()
+        falls.sample(time_s).with_points()
     }
 
     fn extent(&self) -> Extent {
@@ -124,7 +126,7 @@ impl<const N: usize> Pose<N> for Level<N> {
         let height = std::array::from_fn(|i| self.height_of(i));
         (height, self.points.map(|point| self.velocity_of(point)))
     }
-    /// At x, y on the plate.
+    /// Returns the velocity at x, y on the plate.
     fn velocity_of(&self, place: [f64; 2]) -> f64 {
         self.v + Self::along(self.rates, place)
     }
@@ -176,8 +178,8 @@ impl<const N: usize> Pose<N> for Level<N> {
         pose
     }
 
-    /// By the forces on its corners that leave least of its energy over that at rest, F and F + s (1, −1, 1, −1) doing the same to the
-    /// plate: nothing else is left where it rests on lines like these.
+    /// Returns the forces on its corners are those that leave the least energy above that at rest: F and F + s (1, −1,
+    /// 1, −1) have the same effect on the plate. No other freedom remains where it rests on such lines.
     fn borne(&self, (): &(), height: &[f64; N], line: impl Fn(usize) -> [f64; 2]) -> Option<Borne<N>> {
         let even = self.even().map(|share| share * self.gravity);
         let [mut off, mut yields] = [0.0; 2];
@@ -192,8 +194,8 @@ impl<const N: usize> Pose<N> for Level<N> {
         let forces = std::array::from_fn(|i| if i < 4 { even[i] + s * AROUND[i] } else { 0.0 });
         Some(Borne { on: std::array::from_fn(|i| i < 4), forces })
     }
-    /// By three corners that lie or four; of four each alike, as their own yielding would tell. Where a point over them lies too, by as
-    /// many points as move independently.
+    /// Returns three or four corners that lie hold it; four share alike, as equal springs would. Where a point above
+    /// them lies too, as many points hold it as move independently.
     fn held_by(&self, lying: &[bool; N], forces: &[f64; N]) -> Option<[f64; N]> {
         let beyond = || 4..N;
         if beyond().any(|i| lying[i]) {
@@ -212,7 +214,7 @@ impl<const N: usize> Pose<N> for Level<N> {
         };
         Some(std::array::from_fn(|i| if i < 4 { even[i] + s * AROUND[i] } else { forces[i] }))
     }
-    /// Where more than one corner does not carry, what the others can not stop is left out.
+    /// Where more than one corner does not carry, the motion that the others cannot stop is left out.
     fn stopping(&self, carrying: &[bool; N]) -> Option<[Option<f64>; N]> {
         if !carrying[..4].contains(&true) {
             return None;
@@ -237,7 +239,8 @@ impl<const N: usize> Pose<N> for Level<N> {
 mod tests {
     use super::*;
 
-    /// Off center and askew, rising and turning both ways: what stops it on four corners or on three leaves no corner a velocity.
+    /// The plate is off center and askew, rises and turns both ways: the stopping impulses on four corners or on three
+    /// leave no corner a velocity.
     #[test]
     fn what_stops_a_plate_stops_every_corner() {
         let plate =
@@ -255,7 +258,7 @@ mod tests {
         }
     }
 
-    /// Forces that carry the weight and do not turn the plate.
+    /// Checks that forces carry the weight and do not turn the plate.
     fn carries(level: &Level, forces: [f64; 4]) {
         let corners = level.plate.corners_m();
         let moment = |axis: usize| (0..4).map(|i| forces[i] * corners[i][axis]).sum::<f64>();
@@ -277,7 +280,7 @@ mod tests {
         assert!(warp.abs() < 1e-15, "{heights:?}");
     }
 
-    /// Where three corners lie, they bear what the spring of the fourth leaves them.
+    /// Where three corners lie, they bear the weight less the spring force of the fourth.
     #[test]
     fn corners_that_lie_bear_what_the_other_leaves() {
         let plate = Plate::new([0.08, 0.07, 0.03, 0.045], [0.043, 0.02]).unwrap();

@@ -15,7 +15,7 @@ pub(crate) struct Mode {
     nu: f64,
 }
 
-/// Angles within this of a turn are that turn: some hundred roundings.
+/// Difference of angles that counts as zero: some hundred roundings.
 const ROUNDING: f64 = 1e-13;
 
 /// A mode at one time: z and its first three derivatives.
@@ -26,7 +26,7 @@ impl Mode {
         let s = 0.5 * theta * lambda;
         Self { lambda, theta, load, z, dz, s, nu: (lambda - s * s).abs().sqrt() }
     }
-    /// Where it would rest.
+    /// Returns the z of rest.
     pub(crate) fn rest(&self) -> f64 {
         self.load / self.lambda
     }
@@ -42,7 +42,7 @@ impl Mode {
         let ddu = second(u, du);
         [u + self.rest(), du, ddu, second(du, ddu)]
     }
-    /// e^(−st) cos νt and e^(−st) sin(νt)/ν, beyond critical damping of the hyperbolic functions.
+    /// Returns e^(−st) cos νt and e^(−st) sin(νt)/ν, with hyperbolic functions beyond critical damping.
     fn turn(&self, t: f64) -> (f64, f64) {
         let Self { s, nu, lambda, .. } = *self;
         if s == 0.0 {
@@ -53,7 +53,7 @@ impl Mode {
             let (sin, cos) = libm::sincos(nu * t);
             (decay * cos, decay * sin / nu)
         } else {
-            // The slow exponent by the product of both, without cancellation.
+            // The slow exponent comes from the product of both, without cancellation.
             let decay = libm::exp(-lambda / (s + nu) * t);
             let x = 2.0 * nu * t;
             // e^(−x) − 1, which cancels for small x alone.
@@ -62,11 +62,11 @@ impl Mode {
             (decay * (1.0 + 0.5 * less), decay * t * sn)
         }
     }
-    /// Force of the mode over its stiffness, z + θ z′, at a motion.
+    /// Returns the force of the mode over its stiffness, z + θ z′, at a motion.
     pub(crate) fn press(&self, motion: &Motion) -> f64 {
         motion[0] + self.theta * motion[1]
     }
-    /// Once and twice the integral of [`press`](Self::press) since time 0, at the motion of time t.
+    /// Returns the first and second integrals of [`press`](Self::press) since time 0, at the motion of time t.
     pub(super) fn pressed(&self, t: f64, motion: &Motion) -> [f64; 2] {
         let half = 0.5 * t * t;
         [
@@ -74,7 +74,8 @@ impl Mode {
             (self.load * half - (motion[0] - self.z - self.dz * t)) / self.lambda,
         ]
     }
-    /// What its dashpot has taken since time 0, at the motion of time t: θ∫z′² dt, the loss of ½ z′² + ½ λ (z − rest)² over λ.
+    /// Returns the energy that its dashpot has taken since time 0, at the motion of time t: θ∫z′² dt, the loss of ½ z′²
+    /// + ½ λ (z − rest)² over λ.
     pub(super) fn taken(&self, motion: &Motion) -> f64 {
         if self.theta == 0.0 {
             return 0.0;
@@ -82,29 +83,29 @@ impl Mode {
         let held = |z: f64, dz: f64| 0.5 * (dz * dz / self.lambda + (z - self.rest()).powi(2));
         held(self.z, self.dz) - held(motion[0], motion[1])
     }
-    /// Stiffness λ.
+    /// Returns the stiffness λ.
     pub(crate) fn lambda(&self) -> f64 {
         self.lambda
     }
-    /// Bounds, from time 0 on, of |z − rest| and of the second, third and fourth derivatives.
+    /// Returns bounds, from time 0 on, of |z − rest| and of the second, third and fourth derivatives.
     pub(crate) fn bounds(&self) -> [f64; 4] {
         self.bounds_from(&self.at(0.0))
     }
-    /// The same from the time of a motion on.
+    /// Returns the same bounds from the time of a motion on.
     pub(crate) fn bounds_from(&self, &[z, dz, ddz, dddz]: &Motion) -> [f64; 4] {
-        // Of z and every derivative, √(x² + x′²/λ) never grows.
+        // √(x² + x′²/λ) never grows, for z and for every derivative.
         let root = self.lambda.sqrt();
         let fourth = -2.0 * self.s * dddz - self.lambda * ddz;
         let length = |x: f64, dx: f64| (x * x + dx * dx / self.lambda).sqrt();
         let third = length(dddz, fourth);
         [length(z - self.rest(), dz), length(ddz, dddz), third, root * third]
     }
-    /// When `offset + of_z z + of_rate z′` of an undamped mode first falls to zero, where it is positive before; one of both
-    /// factors is 0.
+    /// Returns the time at which `offset + of_z z + of_rate z′` of an undamped mode first falls to zero, where it is
+    /// positive before; one of both factors is 0.
     pub(super) fn falls(&self, offset: f64, of_z: f64, of_rate: f64) -> Option<f64> {
         let [amplitude, rate, phase] = self.wave();
         let level = offset + of_z * self.rest();
-        // level + swing sin(begin + νt), z′ a quarter of a turn ahead of z.
+        // The sum is level + swing sin(begin + νt), with z′ a quarter of a turn ahead of z.
         let (swing, begin) =
             if of_rate == 0.0 { (of_z * amplitude, phase) } else { (of_rate * amplitude * rate, phase + 0.5 * PI) };
         let (swing, begin) = if swing < 0.0 { (-swing, begin + PI) } else { (swing, begin) };
@@ -116,15 +117,15 @@ impl Mode {
             return None;
         }
         let turn = (PI + libm::asin((level / swing).max(-1.0)) - begin).rem_euclid(2.0 * PI);
-        // Falling, and zero but for rounding.
+        // It falls, and is zero but for rounding.
         let over = slope < 0.0 && turn > 2.0 * PI - ROUNDING;
         Some(if over { 0.0 } else { turn / rate })
     }
-    /// Whether nothing damps it.
+    /// Returns whether it has no damping.
     pub(super) fn is_undamped(&self) -> bool {
         self.s == 0.0
     }
-    /// The undamped vibration as an amplitude, a rate and a phase: z = rest + a sin(ψ + νt).
+    /// Returns the undamped vibration as an amplitude, a rate and a phase: z = rest + a sin(ψ + νt).
     pub(crate) fn wave(&self) -> [f64; 3] {
         let u = self.z - self.rest();
         let across = self.dz / self.nu;

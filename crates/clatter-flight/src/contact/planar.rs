@@ -37,7 +37,7 @@ pub struct Levers<const N: usize> {
 }
 
 impl<const N: usize> Planar<N> {
-    /// The first touch: the lowest point is on the ground.
+    /// Returns the body at its first touch: the lowest point is on the ground.
     pub(super) fn start(scene: &Scene<N>) -> Self {
         let body = scene.body();
         let tilt = scene.tilt_rad();
@@ -46,19 +46,19 @@ impl<const N: usize> Planar<N> {
         let (gravity, v, spin) = (scene.gravity_m_s2(), -scene.speed_m_s(), scene.spin_rad_s());
         Self { body, gravity, rho2: body.gyration_m().powi(2), y: -lowest, v, tilt, spin }
     }
-    /// What a force at one lever arm does to a place at another.
+    /// Returns the acceleration of a place at one lever arm by a force of 1 over the mass at another.
     fn share(&self, x: f64, other: f64) -> f64 {
         1.0 + x * other / self.rho2
     }
-    /// What a force of 1 over the mass at each point does to the angular velocity.
+    /// Returns the angular acceleration by a force of 1 over the mass at each point.
     pub(super) fn turned_by(&self, arms: &Levers<N>) -> [f64; N] {
         arms.x.map(|x| x / self.rho2)
     }
-    /// Whether all points are on one side: what turns over comes down on others.
+    /// Returns whether all points are on one side, so that a body that turns over comes down on none of them.
     fn one_sided(&self) -> bool {
         self.body.points_m().iter().all(|[_, z]| *z < 0.0)
     }
-    /// The lowest points on both sides of the center of mass; none where there is none on one side.
+    /// Returns the lowest points on both sides of the center of mass; `None` where a side has none.
     fn lowest(x: &[f64; N], height: &[f64; N]) -> Option<[usize; 2]> {
         let lowest = |side: f64| {
             let there = (0..N).filter(|&i| side * x[i] > 0.0);
@@ -66,7 +66,7 @@ impl<const N: usize> Planar<N> {
         };
         Some([lowest(-1.0)?, lowest(1.0)?])
     }
-    /// The outermost of some points on both sides.
+    /// Returns the outermost of some points on both sides.
     fn outermost(x: &[f64; N], of: &[bool; N]) -> Option<[usize; 2]> {
         let those = || (0..N).filter(|&i| of[i]);
         let left = those().min_by(|&i, &j| x[i].total_cmp(&x[j]))?;
@@ -93,7 +93,7 @@ impl<const N: usize> Pose<N> for Planar<N> {
     fn points_by(&self, Levers { x, over, .. }: &Levers<N>) -> ([f64; N], [f64; N]) {
         (over.map(|h| self.y + h), x.map(|x| self.v + x * self.spin))
     }
-    /// At x, z on the body.
+    /// Returns the velocity at x, z on the body.
     fn velocity_of(&self, [x, z]: [f64; 2]) -> f64 {
         let (sin, cos) = libm::sincos(self.tilt);
         self.v + (x * cos - z * sin) * self.spin
@@ -124,10 +124,10 @@ impl<const N: usize> Pose<N> for Planar<N> {
         let turning = self.body.radius(point) * w * w;
         [self.gravity + turning, turning * w, turning * w * w]
     }
-    fn flying_felt(&self, place: [f64; 2], length_s: f64) -> (Sine, f64) {
+    fn flying_excitation(&self, place: [f64; 2], length_s: f64) -> (Sine, f64) {
         turning(place, self.tilt, self.spin, length_s)
     }
-    /// The center of mass is higher than the distance of the point.
+    /// The point cannot touch while the center of mass is higher than its distance.
     fn clear(&self, point: usize, t: f64) -> f64 {
         let g = self.gravity;
         let clear = self.y + t * (self.v - 0.5 * g * t) - self.body.radius(point);
@@ -174,7 +174,7 @@ impl<const N: usize> Pose<N> for Planar<N> {
         arms.over[point].abs() / arms.x[point].abs().max(0.1 * self.body.gyration_m())
     }
 
-    /// On its lowest points on both sides of its center of mass.
+    /// The lowest points on both sides of its center of mass bear it.
     fn borne(
         &self,
         Levers { x, .. }: &Levers<N>,
@@ -191,7 +191,7 @@ impl<const N: usize> Pose<N> for Planar<N> {
     fn lower(&self) -> f64 {
         let arms = self.arms();
         let Some(on @ [i, j]) = Self::lowest(&arms.x, &self.points_by(&arms).0) else { return 0.0 };
-        // Straight above a side that is steep the center is higher than over it.
+        // Above a steep side the center is higher than the height over it.
         let [[x1, z1], [x2, z2]] = [i, j].map(|point| self.body.points_m()[point]);
         let above = self.body.height_over(on).abs() * libm::hypot(x2 - x1, z2 - z1) / (arms.x[j] - arms.x[i]);
         self.gravity * (above - self.body.lowest_m()).max(0.0)
@@ -218,7 +218,7 @@ impl<const N: usize> Pose<N> for Planar<N> {
         Self { v: 0.0, spin: 0.0, ..*self }
     }
 
-    /// Of a body that has points on one side alone.
+    /// Returns the time is finite for a body with points on one side alone.
     fn upright(&self) -> f64 {
         let Self { tilt, spin, .. } = *self;
         if spin != 0.0 && self.one_sided() {

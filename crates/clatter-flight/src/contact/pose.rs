@@ -1,4 +1,4 @@
-//! What the engine asks of a body in motion: the one place where it meets a shape.
+//! The interface between the engine and a body in motion: the one place where the engine meets a shape.
 
 use std::fmt::Debug;
 
@@ -6,153 +6,157 @@ use clatter::Sine;
 
 use super::Sample;
 
-/// A body in motion. All that the engine knows of its shape it knows from here, the coupling
+/// A body in motion. The engine knows its shape through these methods alone, in the first place through the coupling
 ///
 /// ```text
-/// M_ij    what a force of 1 over the mass at point i does to the vertical acceleration of point j
+/// M_ij    the vertical acceleration of point j by a force of 1 over the mass at point i
 /// ```
 ///
 /// first. Heights and velocities are vertical, upward positive, forces and energies per mass of the body.
 ///
-/// What has a body of its own below holds where lever arms never change and nothing turns over.
+/// The provided methods hold where lever arms never change and nothing turns over.
 pub trait Pose<const N: usize>: Copy + Debug {
     /// Lever arms of one position, which a phase keeps.
     type Arms: Copy + Debug;
-    /// What a motion by instant impacts is known by, between them.
+    /// The data of a motion by instant impacts between them.
     type Impacts: Clone + Debug;
 
-    /// Acceleration of gravity in a motion by instant impacts.
+    /// Returns the acceleration of gravity in a motion by instant impacts.
     fn gravity_of(impacts: &Self::Impacts) -> f64;
-    /// The body at one time of a motion by instant impacts, where they have forces in between.
+    /// Returns the body at one time of a motion by instant impacts, where they have forces in between.
     fn sample_of(_impacts: &Self::Impacts, _time_s: f64) -> Option<Sample<N>> {
         None
     }
 
-    /// How large it is.
+    /// Returns its size.
     fn extent(&self) -> Extent;
-    /// Acceleration of gravity.
+    /// Returns the acceleration of gravity.
     fn gravity(&self) -> f64;
-    /// Heights and vertical velocities of all points, by the lever arms of now.
+    /// Returns the heights and vertical velocities of all points, by the given lever arms.
     fn points_by(&self, arms: &Self::Arms) -> ([f64; N], [f64; N]);
-    /// Velocity of a place on the body.
+    /// Returns the velocity of a place on the body.
     fn velocity_of(&self, place: [f64; 2]) -> f64;
-    /// Tilt and angular velocity, as [`Strike`](crate::Strike) tells them.
+    /// Returns tilt and angular velocity, as a [`Strike`](crate::Strike) has them.
     fn angles(&self) -> [f64; 2];
-    /// Energy of its motion.
+    /// Returns the kinetic energy.
     fn kinetic(&self) -> f64;
-    /// The same and that of its height, the center of mass at height 0 without any.
+    /// Returns the kinetic and potential energy; the latter is 0 for the center of mass at height 0.
     fn energy(&self) -> f64;
 
-    /// The pose after a free flight of time t.
+    /// Returns the pose after a free flight of time t.
     fn flown(&self, t: f64) -> Self;
-    /// Height of a point after a free flight of time t, and its first three derivatives.
+    /// Returns the height of a point after a free flight of time t, and its first three derivatives.
     fn flying(&self, point: usize, t: f64) -> [f64; 4];
-    /// Bounds of the second, third and fourth derivative of the height of a point in free flight.
+    /// Returns bounds of the second, third and fourth derivative of the height of a point in free flight.
     fn flying_bounds(&self, point: usize) -> [f64; 3];
-    /// What a place feels of the turning in a free flight of this length, and what that changes its velocity by.
-    fn flying_felt(&self, _place: [f64; 2], _length_s: f64) -> (Sine, f64) {
+    /// Returns the acceleration of a place by turning in a free flight of this length, and the change of its velocity
+    /// by it.
+    fn flying_excitation(&self, _place: [f64; 2], _length_s: f64) -> (Sine, f64) {
         (Sine::default(), 0.0)
     }
-    /// Time after t in which no angle lets a point touch.
+    /// Returns the time after t in which no angle lets a point touch.
     fn clear(&self, _point: usize, _t: f64) -> f64 {
         0.0
     }
 
-    /// The lever arms of now.
+    /// Returns the present lever arms.
     fn arms(&self) -> Self::Arms;
-    /// M_ij by these lever arms.
+    /// Returns M_ij by these lever arms.
     fn coupling(&self, arms: &Self::Arms, i: usize, j: usize) -> f64;
-    /// What a force of 1 over the mass at each point does to a place.
+    /// Returns the acceleration of a place by a force of 1 over the mass at each point.
     fn couplings_of(&self, arms: &Self::Arms, place: [f64; 2]) -> [f64; N];
-    /// Acceleration with which each point falls where nothing presses: gravity and turning.
+    /// Returns the acceleration with which each point falls without contact: gravity and turning.
     fn falls(&self, arms: &Self::Arms) -> [f64; N];
-    /// Upward acceleration of a place by turning alone.
+    /// Returns the upward acceleration of a place by turning alone.
     fn turning(&self, _arms: &Self::Arms, _place: [f64; 2]) -> f64 {
         0.0
     }
-    /// The pose a time t later, the ground having done meanwhile ∫F dt and ∬F dt² at these lever arms.
+    /// Returns the pose a time t later, after the impulses ∫F dt and double integrals ∬F dt² of the ground at these
+    /// lever arms.
     fn after(&self, t: f64, arms: &Self::Arms, pushes: &Pushes<N>) -> Self;
 
-    /// The pose in the middle of a phase, with the angles that its forces weigh those of its begin, middle and end by.
+    /// Returns the pose in the middle of a phase, with the mean of the angles at its begin, middle and end, weighed by
+    /// its forces.
     fn mean(_begin: &Self, middle: &Self, _end: &Self, _weigh: impl Fn([f64; 3]) -> f64) -> Self {
         *middle
     }
-    /// The angle from another pose that changes lever arms.
+    /// Returns the angle from another pose as far as it changes lever arms.
     fn turned_from(&self, _other: &Self) -> f64 {
         0.0
     }
-    /// What a turn changes the lever arm of a point by, over itself.
+    /// Returns the relative change of the lever arm of a point by a turn.
     fn steepness(&self, _arms: &Self::Arms, _point: usize) -> f64 {
         0.0
     }
 
-    /// How the ground bears the weight at these lever arms and heights, where it can; each point on the straight line of its force,
-    /// by stiffness and height without force.
+    /// Returns the points and forces by which the ground can bear the weight at these lever arms and heights; the force
+    /// on each point is a straight line, given by stiffness and height without force.
     fn borne(&self, arms: &Self::Arms, height: &[f64; N], line: impl Fn(usize) -> [f64; 2]) -> Option<Borne<N>>;
-    /// Energy that it may yet give by coming to lie on a lower side.
+    /// Returns the energy that it may still give by coming to lie on a lower side.
     fn lower(&self) -> f64 {
         0.0
     }
-    /// Where the points that lie hold the body, the forces on them beside these of the others.
+    /// Returns the forces on the lying points if they hold the body, together with those on the others.
     fn held_by(&self, _lying: &[bool; N], _forces: &[f64; N]) -> Option<[f64; N]> {
         None
     }
-    /// Impulses at points that carry it that stop it; none where they can not.
+    /// Returns the impulses at carrying points that stop it; `None` where they cannot.
     fn stopping(&self, carrying: &[bool; N]) -> Option<[Option<f64>; N]>;
 
-    /// The same without motion.
+    /// Returns the pose without motion.
     #[must_use]
     fn still(&self) -> Self;
 
-    /// Time until it stands upright and may turn over to a side without points.
+    /// Returns the time until it stands upright and may turn over to a side without points.
     fn upright(&self) -> f64 {
         f64::INFINITY
     }
-    /// Whether it has turned over.
+    /// Returns whether it has turned over.
     fn is_over(&self) -> bool {
         false
     }
-    /// The same without whole turns, which have done their part and take digits.
+    /// Returns the pose without whole turns, which have no effect and cost digits.
     #[must_use]
     fn unwound(self) -> Self {
         self
     }
 
-    /// Heights and vertical velocities of all points.
+    /// Returns the heights and vertical velocities of all points.
     fn points(&self) -> ([f64; N], [f64; N]) {
         self.points_by(&self.arms())
     }
-    /// M_ij of now.
+    /// Returns M_ij at the present lever arms.
     fn coupled(&self, i: usize, j: usize) -> f64 {
         self.coupling(&self.arms(), i, j)
     }
-    /// Acceleration with which a point falls now where nothing presses.
+    /// Returns the present acceleration with which a point falls without contact.
     fn fall(&self, point: usize) -> f64 {
         self.falls(&self.arms())[point]
     }
 }
 
-/// How large a body is.
+/// The size of a body.
 #[derive(Debug, Clone, Copy)]
 pub struct Extent {
-    /// Its length, or twice how far it reaches if that is shorter.
+    /// Its length, or twice its reach if that is shorter.
     pub(super) size: f64,
-    /// From the center of mass to the farthest point.
+    /// Distance from the center of mass to the farthest point.
     pub(super) reach: f64,
     /// The largest M_ii at any angle.
     pub(crate) coupling: f64,
 }
 
-/// What the ground has done since a phase began: ∫F dt and ∬F dt² of each point, per mass.
+/// The integrals of the forces of the ground since a phase began: ∫F dt and ∬F dt² of each point, per mass.
 #[derive(Debug, Clone, Copy)]
 pub struct Pushes<const N: usize> {
     pub(super) impulse: [f64; N],
     pub(super) path: [f64; N],
 }
 
-/// What pushes at some points are worth to move these points so: x of M x = b, of as many of them as move independently.
+/// Returns the pushes at some points that give the wanted motions of these points: x of M x = b, of as many of them as
+/// move independently.
 ///
-/// Corners of a plate are four, and have three ways to move: what is no more than a rounding is left out.
+/// Four corners of a plate have three degrees of freedom: a pivot that is no more than a rounding is left out.
 pub(crate) fn solve<const N: usize>(
     coupling: impl Fn(usize, usize) -> f64,
     points: &[bool; N],
@@ -182,7 +186,8 @@ pub(crate) fn solve<const N: usize>(
     x
 }
 
-/// Whether a point moves where others are held: its own coupling then, over that where nothing is held, is no rounding.
+/// Returns whether a point moves while others are held: its coupling with these held, over that without, exceeds
+/// roundings.
 pub(super) fn moves_freely(held: f64, own: f64) -> bool {
     held > 1e-10 * own
 }
@@ -190,7 +195,7 @@ pub(super) fn moves_freely(held: f64, own: f64) -> bool {
 /// A body whose weight the ground bears.
 #[derive(Debug, Clone, Copy)]
 pub struct Borne<const N: usize> {
-    /// The points that may do so.
+    /// Points that may bear it.
     pub(super) on: [bool; N],
     /// Their forces.
     pub(super) forces: [f64; N],

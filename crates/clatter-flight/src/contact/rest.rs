@@ -1,4 +1,4 @@
-//! What lies, what rests, and what may still come.
+//! Points that lie, bodies at rest, and bounds on their later motion.
 
 use super::phase::Hold;
 use super::pose::{Borne, Pose, Pushes, solve};
@@ -7,31 +7,32 @@ use super::touch::{Event, State, Touch};
 use crate::flight::Stop;
 use crate::motion::Ahead;
 
-/// A depth must be so many times what heights are told apart by.
+/// The least depth over the resolution of heights.
 const SUNK: f64 = 16.0;
 
-/// So many times the energy of a weight that comes to press at once do not rise from it: with that, both ends press in turn, each
-/// deeper in its dent, and no force is more than four times the weight that the point carries. (Between 2 and 3 times is what bodies
-/// with q = 0.7 keep up for ever, as the ground gives way.)
+/// The multiple of the energy of a suddenly applied weight up to which energy does not rise again: with that, both ends
+/// press in turn, each deeper in its dent, and no force is more than four times the weight that the point carries.
+/// (Between 2 and 3 times is the level that bodies with q = 0.7 keep up for ever, as the ground yields.)
 const BY_WEIGHT: f64 = 4.0;
 
-/// A point whose force swings by its weight and this more does not part, or parts so slowly that it soon does not.
+/// The factor on the weight of a point by which its force may swing: it does not part then, or parts so slowly that it
+/// soon does not.
 const PARTS: f64 = 1.001;
 
 /// A body over the points that would carry its weight.
 struct Weighed<const N: usize> {
     forces: [f64; N],
-    /// Its energy over that at rest there, on the lines on which they are.
+    /// Its energy above that at rest there, on the present lines.
     left: f64,
-    /// The same where one of them may leave its line, as what parts from its dent or bears more than ever before loads it further and
-    /// sinks.
+    /// The same energy if one of them may leave its line: a point that parts from its dent or bears more than ever
+    /// before loads it further and sinks.
     yielding: f64,
-    /// What that is where these points come to press with their weight at once, from no depth and no speed.
+    /// The energy above rest if these points were suddenly loaded by their weight, from no depth and no speed.
     by_weight: f64,
 }
 
 impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
-    /// Takes the velocity of points that lie.
+    /// Stops the points that lie.
     pub(super) fn stop_lying(&mut self) {
         let lying = self.touches.map(|touch| touch.state == State::Lying);
         if lying.contains(&true) {
@@ -51,7 +52,8 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         }
     }
 
-    /// The speed that is not followed: by the precision, or because roundings of heights are deeper than it sinks in.
+    /// Returns the speed below which motion is not followed: by the precision, or because roundings of heights exceed
+    /// the depth.
     pub(super) fn slow(&self) -> f64 {
         let stiffest = self.contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.frequency_rad_s()));
         (self.precision * self.fastest).max(SUNK * self.margins.height * stiffest)
@@ -70,22 +72,23 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let (height, velocity) = self.pose.points();
         let rate = (line.stiffness * self.pose.coupled(i, i)).sqrt();
         let rest = line.zero - fall / (rate * rate);
-        // Below its rest, where its spring holds no less than its weight: else it would be given what it lacks.
+        // The point must be below its rest, where its spring holds no less than its weight: else lying would give it
+        // the missing force.
         let rings_by_weight = self.leave_dents() && height[i] <= rest;
         let by_weight = if rings_by_weight { PARTS * fall / rate } else { 0.0 };
         if libm::hypot(velocity[i], rate * (height[i] - rest)) <= self.slow().max(by_weight) {
-            let (contact, told) = (&self.contacts[i], SUNK * self.margins.height);
+            let (contact, resolution) = (&self.contacts[i], SUNK * self.margins.height);
             let force = fall / self.pose.coupled(i, i);
             let touch = &mut self.touches[i];
             touch.state = State::Lying;
-            // What sinks in by less than heights tell carries its weight.
-            if touch.limit(contact) < force && force < told * touch.stiffness {
+            // A point whose depth is below the resolution of heights carries its weight.
+            if touch.limit(contact) < force && force < resolution * touch.stiffness {
                 touch.ground = touch.crest + 2.0 * force / touch.stiffness;
             }
         }
     }
 
-    /// Points that lie answer on their own lines to what another one does through the body; upright lines have none.
+    /// Puts lying points back on their own lines, to respond to another one through the body; upright lines have none.
     pub(super) fn rouse_others(&mut self, striking: usize) {
         let (height, _) = self.pose.points();
         for i in 0..N {
@@ -101,7 +104,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         }
     }
 
-    /// What may still come.
+    /// Returns the state of the motion and bounds on its continuation.
     pub(super) fn ahead(&self, lands: bool) -> Ahead<N> {
         let strikes = &self.log.flight.strikes;
         let down = (0..N).filter(|&i| self.touches[i].is_pressing());
@@ -117,12 +120,12 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         }
     }
 
-    /// No point of the body is faster with this energy.
+    /// Returns a bound on the speed of every point with this energy.
     fn fastest_by(&self, energy: f64) -> f64 {
         (2.0 * energy.max(0.0) * self.extent.coupling).sqrt()
     }
 
-    /// The forces of the ground on the body where it is at rest, and a bound of the velocity shocks that may still come.
+    /// Returns the forces of the ground on the body if it is at rest, and a bound on later velocity shocks.
     pub(super) fn rests(&mut self) -> Option<([f64; N], f64)> {
         if let Some(forces) = self.lies_still() {
             return Some((forces, 0.0));
@@ -130,7 +133,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let slow = self.slow();
         if self.pose.gravity() == 0.0 {
             let fastest = self.fastest_by(self.pose.kinetic());
-            // Nothing on a line of its law, which would hold energy, and not all in the air.
+            // No point is on a line of its law, which would hold energy, and not all are in the air.
             let holds = |touch: &Touch| matches!(touch.state, State::Loading | State::Elastic);
             let down = self.touches.iter().any(|touch| touch.state != State::Away) && !self.touches.iter().any(holds);
             return (down && fastest <= slow).then_some(([0.0; N], 2.0 * fastest));
@@ -142,7 +145,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         .then_some((forces, 2.0 * self.fastest_by(yielding)))
     }
 
-    /// The body on the points that would bear its weight; none where they can not.
+    /// Returns the body on the points that would bear its weight; `None` where they cannot.
     fn weighed(&self) -> Option<Weighed<N>> {
         let arms = self.pose.arms();
         let (height, _) = self.pose.points_by(&arms);
@@ -156,7 +159,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let unloaded = || those().filter(dented);
         let loading = |i: usize| 0.5 * forces[i] * forces[i] / self.touches[i].stiffness;
         let softer = |i: usize| self.contacts[i].unloading().recip();
-        // Too slow to part, and pressed before by all that they bear.
+        // The point is too slow to part, and has been pressed by its whole load before.
         let stays = |i: usize| left < loading(i) * softer(i) && forces[i] <= self.touches[i].limit(&self.contacts[i]);
         let sinking =
             if unloaded().all(stays) { 0.0 } else { unloaded().map(|i| loading(i) * (1.0 - softer(i))).sum() };
@@ -164,7 +167,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         Some(Weighed { forces, left, yielding, by_weight })
     }
 
-    /// Stiffness of the line on which a point at this height is or would be, and where that has no force. A point that lies stays
+    /// Returns stiffness and zero of the line on which a point at this height is or would be. A point that lies stays
     /// where it is under any weight.
     fn line(&self, arms: &P::Arms, i: usize, height: f64) -> [f64; 2] {
         let touch = &self.touches[i];
@@ -177,7 +180,8 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         }
     }
 
-    /// The forces on a body that points which lie hold. Where they can not carry it, one of them parts or loads further.
+    /// Returns the forces on a body that lying points hold. Where they cannot carry it, one of them parts or loads
+    /// further.
     fn lies_still(&mut self) -> Option<[f64; N]> {
         loop {
             let lying = self.touches.map(|touch| touch.state == State::Lying);
@@ -201,8 +205,8 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         }
     }
 
-    /// Ends the flight at rest: what is left of the motion is taken by the points that carry the weight, or by the
-    /// one that lies.
+    /// Ends the flight at rest: the rest of the motion is taken by the points that carry the weight, or by the one that
+    /// lies.
     pub(super) fn rest(&mut self, forces: [f64; N], shock_bound_m_s: f64) {
         self.unrested = Some(self.pose);
         let carrying: [bool; N] = std::array::from_fn(|i| forces[i] > 0.0 || self.touches[i].state == State::Lying);
@@ -222,10 +226,10 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
     }
 }
 
-/// Energy of a point under a weight over the least that it can have, by its line.
+/// Returns the energy of a point under a weight over its least value, by its line.
 ///
-/// What loads it deeper takes more energy than the ground there gives: from a force above twice its weight on, the energy
-/// that is left never rises.
+/// Loading it deeper takes more energy than the ground there gives: from a force above twice its weight on, the
+/// remaining energy never rises.
 fn over([stiffness, zero]: [f64; 2], height: f64, weight: f64) -> f64 {
     if stiffness == f64::INFINITY {
         return 0.0;

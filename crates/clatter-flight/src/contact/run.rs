@@ -12,36 +12,36 @@ use crate::motion::{Ahead, Course};
 use crate::rigid::Clock;
 use crate::roots::{Zero, far_step, first_zero, safe_step};
 
-/// A body is followed until its energy has changed by this share of what it was at the first touch without reason, whatever the
-/// number of its strikes. What changes it by as much in one phase is no motion of this body.
+/// Share of the energy at the first touch whose unexplained change ends a flight, whatever the number of its strikes. A
+/// phase that changes the energy by as much is an error.
 const ENERGY: f64 = 0.01;
-/// Turn of a phase over the lever arm, times what it pushes over the fastest approach, over the precision: a strike is then
-/// wrong by less than the precision (measured on random scenes by the tests).
+/// Factor on the precision for the turn of a phase over the lever arm, times its push over the fastest approach: a
+/// strike is then wrong by less than the precision (measured on random scenes by the tests).
 const KEPT: f64 = 4.0;
-/// How often a phase is worked out anew with better lever arms.
+/// The most computations of a phase with better lever arms.
 const PASSES: usize = 6;
-/// Share of the force that a point has borne by which it may be pulled or pushed on by roundings.
+/// Share of the past force on a point by which roundings may pull or push it.
 const BEARS: f64 = 1e-9;
-/// Contact times within which an event happens at once.
+/// Share of a contact time within which an event counts as immediate.
 const AT_ONCE: f64 = 1e-6;
-/// How often it is cut shorter.
+/// The most cuts of a phase.
 const CUTS: usize = 12;
-/// A phase is at most this many times as long as the one before, where that was cut.
+/// The largest length of a phase over the one before, where that was cut.
 const GROWTH: f64 = 4.0;
-/// Events without time between them, one after the other, that no motion needs.
+/// Events in a row without time between them that no motion needs.
 const IDLE: u32 = 64;
-/// Longest phase in contact times where anything vibrates, else a tenth of √(reach/gravity) or of a turn by 1 if that is
-/// longer.
+/// The longest phase in contact times where anything vibrates, else a tenth of √(reach/gravity) or of a turn by 1 if
+/// that is longer.
 const LONG: f64 = 64.0;
-/// Phases at most beyond those for each strike so far: a body that neither rests nor strikes is left then.
+/// The most phases beyond those for each strike so far: a body that neither rests nor strikes is left then.
 const PHASES: usize = 150_000;
 const EACH_STRIKE: usize = 128;
-/// Heights within this share of the body's length, and velocities within this share of the largest approach, are the same
-/// where an event has just happened.
+/// Heights within this share of the body's length, and velocities within this share of the largest approach, count as
+/// equal just after an event.
 const MARGIN: f64 = 1e-14;
 
 pub(crate) struct Run<'a, P: Pose<N>, const N: usize> {
-    /// That of each point; of one law.
+    /// Contact of each point, all by one law.
     pub(super) contacts: &'a [Contact; N],
     pub(super) precision: f64,
     pub(super) margins: Margins,
@@ -54,7 +54,7 @@ pub(crate) struct Run<'a, P: Pose<N>, const N: usize> {
     pub(super) touches: [Touch; N],
     /// Largest approach so far.
     pub(super) fastest: f64,
-    /// How long the next phase may be, by what the last one got wrong.
+    /// Largest length of the next phase, from the error of the last one.
     stride: f64,
     opened: f64,
     misfit: f64,
@@ -64,7 +64,7 @@ pub(crate) struct Run<'a, P: Pose<N>, const N: usize> {
     pub(super) resting: [f64; N],
 }
 
-/// A phase, how long it lasts, and what ends it.
+/// A phase, its length, and the event that ends it.
 struct Lasting<P: Pose<N>, const N: usize> {
     phase: Phase<P, N>,
     dt: f64,
@@ -72,7 +72,7 @@ struct Lasting<P: Pose<N>, const N: usize> {
 }
 
 impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
-    /// From the first touch.
+    /// Creates a flight from the first touch.
     pub(crate) fn new(pose: P, log: Log<N>, contacts: &'a [Contact; N], precision: f64) -> Self {
         let extent = pose.extent();
         Self {
@@ -108,13 +108,14 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         Ok(self.finish())
     }
 
-    /// The points that are on the ground and come down.
+    /// Returns starts a press at the points that are on the ground and come down, and returns whether the flight goes
+    /// on.
     fn first_touches(&mut self) -> bool {
         let (height, velocity) = self.pose.points();
         (0..N).all(|i| height[i] > 0.0 || velocity[i] >= 0.0 || self.touch(i, height[i], velocity[i]))
     }
 
-    /// A phase and the event at its end. Whether the flight goes on.
+    /// Computes a phase and the event at its end, and returns whether the flight goes on.
     fn step(&mut self, enough: &mut impl FnMut(&Ahead<N>) -> bool) -> Result<bool, Error> {
         let Lasting { phase, dt, event } = self.next();
         if dt > 0.0 {
@@ -157,7 +158,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         Ok(self.happens(&phase, dt, point, watch))
     }
 
-    /// From the last parting on nothing happens any more.
+    /// Ends the flight at the last parting, after which nothing happens.
     fn bounced_clear(&mut self) {
         let parted = self.presses.iter().fold(0.0_f64, |last, press| last.max(press.until_s));
         let begun = self.phases.partition_point(|(from, _)| *from <= parted);
@@ -212,11 +213,11 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         Lasting { phase, dt, event: event.and_then(|(_, event)| event) }
     }
 
-    /// A phase with forces, with lever arms and of a length as its precision asks.
+    /// Returns a phase with forces, its lever arms and length by the wanted precision.
     fn pressed(&mut self, holds: [Hold; N]) -> Lasting<P, N> {
         let delay = self.contacts[0].delay_s();
         let arms = self.pose.arms();
-        // What a turn changes the lever arms by, over themselves.
+        // This is the relative change of the lever arms by a turn.
         let steep = (0..N)
             .filter(|&i| self.touches[i].is_pressing())
             .fold(0.1_f64, |most, i| most.max(self.pose.steepness(&arms, i)));
@@ -225,13 +226,13 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             pressing.fold(f64::INFINITY, |least, i| least.min(of(&self.contacts[i])))
         };
         let budget = self.precision.min(of_pressing(&Contact::springs_back)) * self.fastest;
-        // The shortest of those that press.
+        // This is the shortest contact time of those that press.
         let contact_s = of_pressing(&Contact::time_s);
         let mut longest = self.stride;
         let mut halfway = self.pose.flown(0.5 * longest.min(0.5 * contact_s));
         let ([_, spin], reach) = (self.pose.angles(), self.extent.reach);
         let (mut passes, mut cuts) = (0, 0);
-        // Whether the lever arms are those of now, and how long the phase was by the last lever arms.
+        // These are whether the lever arms are the present ones, and the length of the phase by the last lever arms.
         let (mut early, mut before) = (false, f64::INFINITY);
         loop {
             let phase = Phase::new(self.pose, &halfway, holds, delay);
@@ -247,7 +248,8 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
                 (halfway, early) = (self.mean(&phase, longest).pose, false);
                 continue;
             }
-            // An event that the lever arms of later bring about now: those of now tell, or a load and a rest take turns for ever.
+            // An event that later lever arms bring about now is decided by the present ones, or a load and a rest take
+            // turns for ever.
             if !early && dt < AT_ONCE * contact_s && passes < PASSES {
                 passes += 1;
                 longest = longest.min(0.5 * before);
@@ -275,8 +277,8 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         }
     }
 
-    /// By how much a dashpot that presses again is not where its line begins, as the velocity that this is worth to its vibration:
-    /// the ground would pull, or push at once.
+    /// Returns the distance of a dashpot that presses again from the begin of its line, as the equivalent velocity of
+    /// its vibration: the ground would pull, or push at once.
     fn pressed_off(&self, phase: &Phase<P, N>, dt: f64, event: Option<(f64, Option<(usize, Watch)>)>, end: &P) -> f64 {
         let Some((_, Some((i, watch)))) = event else { return 0.0 };
         if watch.event != Event::Presses || self.leave_dents() {
@@ -286,7 +288,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         rate * ((end.points().0[i] - phase.watched(i, dt)[0]).abs() - self.margins.height).max(0.0)
     }
 
-    /// The share of a phase after which turning lifts a point that alone presses and lies, and a little more.
+    /// Returns the share of a phase after which turning lifts a point that alone presses and lies, and a little more.
     fn lets_go(&self, phase: &Phase<P, N>, end: &P) -> Option<f64> {
         let l = phase.lies.iter().position(|lies| *lies).filter(|_| phase.modes().is_empty())?;
         let (now, then) = (self.pose.fall(l), end.fall(l));
@@ -294,8 +296,8 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         (now > 0.0 && then < 0.0 && share < 0.9).then_some(share)
     }
 
-    /// The mean pose of a phase of length dt as its forces weigh it, by Simpson's rule; how far the body turns, and by how much a
-    /// point that presses is pushed.
+    /// Returns the mean pose of a phase of length dt, weighed by its forces by Simpson's rule; the turn of the body,
+    /// and the push on a point that presses.
     fn mean(&self, phase: &Phase<P, N>, dt: f64) -> Mean<P> {
         let at = |t: f64, motions: &[Motion; N]| {
             let pushes = phase.pushes(t, motions);
@@ -312,11 +314,11 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         Mean { pose, turn, pushed: phase.pushed(&pushes), off, end }
     }
 
-    /// The first event of a phase before `cap`, or the time until which none is proven to happen.
+    /// Returns the first event of a phase before `cap`, or the time until which none is proven to happen.
     fn first_event(&self, phase: &Phase<P, N>, cap: f64) -> Option<(f64, Option<(usize, Watch)>)> {
         let modes = phase.mode_bounds();
         let mut found: Option<(f64, Option<(usize, Watch)>)> = None;
-        // Points that press first: what they end is short.
+        // Points that press come first: their phases are short.
         let pressing = |i: &usize| phase.lines[*i].is_some();
         for i in (0..N).filter(pressing).chain((0..N).filter(|i| !pressing(i))) {
             for watch in self.touches[i].watches(&self.contacts[i], &self.margins).into_iter().flatten() {
@@ -331,13 +333,13 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         found
     }
 
-    /// What is watched at a point that lies and is below this as a phase begins is no rounding: what holds it has changed with the last
-    /// event, and it bears more or less than it can.
+    /// Returns the value below which the watch on a lying point is no rounding at the begin of a phase: the last event
+    /// has changed the forces that hold it, and it bears more or less than it can.
     fn overcome(&self, phase: &Phase<P, N>, i: usize) -> f64 {
         if phase.lies[i] { -BEARS * self.touches[i].limit(&self.contacts[i]) } else { f64::NEG_INFINITY }
     }
 
-    /// When what is watched at a point happens, if before `cap`.
+    /// Returns the time at which the watch on a point falls to zero, if before `cap`.
     fn when(&self, phase: &Phase<P, N>, i: usize, watch: &Watch, modes: &[[f64; 4]; N], cap: f64) -> Zero {
         if let Some(known) = phase.falls(i, watch) {
             return known.filter(|t| *t < cap).map_or(Zero::Never, Zero::At);
@@ -364,7 +366,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         first(cap, [second, third], self.overcome(phase, i), |t| watch.at(phase.watched(i, t)), clear)
     }
 
-    /// Moves the pose to the end of a phase, and books what the ground has done.
+    /// Moves the pose to the end of a phase, and books the impulses of the ground.
     fn advance(&mut self, phase: &Phase<P, N>, dt: f64) -> Result<(), Error> {
         if phase.is_free() {
             self.pose = self.pose.flown(dt);
@@ -396,7 +398,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         Ok(())
     }
 
-    /// Books what the ground does at point i with its strike.
+    /// Books the effect of the ground at point i with its strike.
     pub(super) fn book(&mut self, i: usize, jumps: [f64; N]) {
         let strike = &mut self.log.flight.strikes[self.touches[i].strike];
         for (sum, jump) in strike.delta_v_m_s.iter_mut().zip(jumps) {
@@ -404,7 +406,8 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         }
     }
 
-    /// An event, and all others of its kind that come with it by symmetry. Whether the flight goes on.
+    /// Applies an event, and all others of its kind that come with it by symmetry, and returns whether the flight goes
+    /// on.
     fn happens(&mut self, phase: &Phase<P, N>, dt: f64, point: usize, watch: Watch) -> bool {
         let [value, ..] = watch.at(phase.watched(point, dt));
         let mut due = [None; N];
@@ -451,10 +454,10 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         true
     }
 
-    /// A new press, from the height at which it begins. Whether the flight goes on.
+    /// Begins a new press, from the given height, and returns whether the flight goes on.
     fn touch(&mut self, i: usize, height: f64, velocity: f64) -> bool {
         self.rouse_others(i);
-        // A touch that grazes has no approach, whatever rounding says.
+        // A grazing touch has no approach, whatever the rounding.
         let approach = velocity.min(0.0);
         let (h, v) = self.pose.points();
         self.pose = self.pose.unwound();
@@ -476,17 +479,17 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         true
     }
 
-    /// Stiffness that a lone contact of a point has at this angle as it loads.
+    /// Returns the stiffness of a lone contact of a point at this angle as it loads.
     pub(super) fn stiffness(&self, arms: &P::Arms, i: usize) -> f64 {
         self.contacts[i].frequency_rad_s().powi(2) / self.pose.coupling(arms, i, i)
     }
 
-    /// How the ground carries the points.
+    /// Returns the states of the contacts of all points.
     fn holds(&self) -> [Hold; N] {
         std::array::from_fn(|i| self.touches[i].hold(&self.contacts[i]))
     }
 
-    /// Whether the law takes energy by dents; it is one for all points.
+    /// Returns whether the law takes energy by dents; it is one for all points.
     pub(super) fn leave_dents(&self) -> bool {
         self.contacts[0].law().leaves_a_dent()
     }
@@ -500,7 +503,8 @@ struct Mean<P> {
     end: P,
 }
 
-/// First time before `cap` at which what is watched falls to zero; where it begins at zero, not far below, and rises, not then.
+/// Returns the first time before `cap` at which the watched value falls to zero; a begin at zero, or not far below,
+/// with a rise does not count.
 fn first(
     cap: f64,
     [second, third]: [f64; 2],

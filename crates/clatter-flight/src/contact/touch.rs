@@ -1,19 +1,19 @@
-//! What a contact point is doing: in the air, loading, unloading, lying, or parted below the ground.
+//! The state of a contact point: in the air, loading, unloading, lying, or parted below the ground.
 
 use super::law::{Contact, ContactLaw};
 use super::phase::{Hold, Line};
 
-/// A contact point and what its last contact has left.
+/// A contact point and the marks of its last contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
     pub(super) state: State,
     /// Stiffness of the first loading.
     pub(super) stiffness: f64,
-    /// Height from which the first loading counts its depth: the ground, or where the last press in this dent left it.
+    /// Height from which the first loading counts its depth: the ground, or the end of the last press in this dent.
     pub(super) ground: f64,
     /// Lowest height so far.
     pub(super) crest: f64,
-    /// Height at which the line of unloading has no force; the ground from where it has parted there.
+    /// Height at which the line of unloading has no force; after parting there it is the ground.
     pub(super) zero: f64,
     /// The strike it belongs to.
     pub(super) strike: usize,
@@ -21,19 +21,19 @@ pub(super) struct Touch {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum State {
-    /// Above the ground, with nothing to remember.
+    /// Above the ground, without a dent.
     Away,
-    /// On the line of first loading; a dashpot always.
+    /// On the line of first loading, or on that of a dashpot.
     Loading,
     /// On the line of unloading and reloading.
     Elastic,
-    /// Still: what it would ring with on the line of unloading is left out, or that line is upright.
+    /// Still: its ringing on the line of unloading is left out, or that line is upright.
     Lying,
-    /// Without force in the dent that it has made.
+    /// Without force in its dent.
     Parted,
 }
 
-/// What ends a phase.
+/// The end of a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Event {
     /// A point comes down on the ground.
@@ -60,7 +60,7 @@ pub(super) struct Watch {
     pub(super) of_velocity: f64,
 }
 
-/// What keeps an event from happening again where it has just happened: a height, a velocity, and a share of a force.
+/// Margins against the repetition of an event just after it: a height, a velocity, and a share of a force.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Margins {
     pub(super) height: f64,
@@ -69,12 +69,12 @@ pub(super) struct Margins {
 }
 
 impl Watch {
-    /// Value and first two derivatives at height, velocity, acceleration and jerk of a point.
+    /// Returns value and first two derivatives at height, velocity, acceleration and jerk of a point.
     pub(super) fn at(&self, [h, v, a, j]: [f64; 4]) -> [f64; 3] {
         let (x, y) = (self.of_height, self.of_velocity);
         [self.offset + x * h + y * v, x * v + y * a, x * a + y * j]
     }
-    /// Value and slope at height and velocity, where that is all it takes.
+    /// Returns value and slope at height and velocity, if these are enough.
     pub(super) fn begins(&self, [h, v]: [f64; 2]) -> Option<[f64; 2]> {
         (self.of_velocity == 0.0).then_some([self.offset + self.of_height * h, self.of_height * v])
     }
@@ -83,7 +83,7 @@ impl Watch {
         let (x, y) = (self.of_height.abs(), self.of_velocity.abs());
         [x * second + y * third, x * third + y * fourth]
     }
-    /// Whether a swing about a rest never reaches it.
+    /// Returns whether a swing about a rest never reaches it.
     pub(super) fn never(&self, [rest, swing]: [f64; 2]) -> bool {
         self.of_velocity == 0.0 && self.offset + self.of_height * rest > self.of_height.abs() * swing
     }
@@ -93,7 +93,7 @@ impl Touch {
     pub(super) fn away() -> Self {
         Self { state: State::Away, stiffness: 0.0, ground: 0.0, crest: 0.0, zero: 0.0, strike: 0 }
     }
-    /// How the ground carries it.
+    /// Returns the state of its contact by the law.
     pub(super) fn hold(&self, contact: &Contact) -> Hold {
         match self.state {
             State::Away | State::Parted => Hold::No,
@@ -105,11 +105,11 @@ impl Touch {
     pub(super) fn is_pressing(&self) -> bool {
         !matches!(self.state, State::Away | State::Parted)
     }
-    /// The force with which it has been at its lowest: more loads it further, where a dent is left.
+    /// Returns the force at its lowest height: a larger one loads it further, where a dent is left.
     pub(super) fn limit(&self, contact: &Contact) -> f64 {
         if contact.law().leaves_a_dent() { self.stiffness * (self.ground - self.crest) } else { f64::INFINITY }
     }
-    /// What may happen to it next.
+    /// Returns the watches on its next events.
     pub(super) fn watches(&self, contact: &Contact, margins: &Margins) -> [Option<Watch>; 2] {
         let watch = |event, offset, of_height, of_velocity| Some(Watch { event, offset, of_height, of_velocity });
         let dashpot = !contact.law().leaves_a_dent();
@@ -134,13 +134,13 @@ impl Touch {
             }
         }
     }
-    /// At its lowest: from here it unloads.
+    /// Turns from loading to unloading at its lowest height.
     pub(super) fn crest(&mut self, height: f64, contact: &Contact) {
         self.crest = height;
         self.zero = height + (self.ground - height) / contact.unloading();
         self.state = if contact.is_plastic() { State::Lying } else { State::Elastic };
     }
-    /// Without force at this height.
+    /// Parts without force at this height.
     pub(super) fn part(&mut self, height: f64, velocity: f64, contact: &Contact) {
         let by = match contact.law() {
             ContactLaw::Hysteretic => height - self.zero,
@@ -149,12 +149,12 @@ impl Touch {
         self.shift(by);
         self.state = State::Parted;
     }
-    /// Loads further, from the height and force at which it was at its lowest.
+    /// Loads further, from height and force at its lowest.
     pub(super) fn reload(&mut self, height: f64) {
         self.shift(height - self.crest);
         self.state = State::Loading;
     }
-    /// A point that lies with this force, back on its line.
+    /// Puts a point that lies with this force back on its line.
     pub(super) fn rouse(&mut self, height: f64, force: f64, contact: &Contact) {
         match contact.law() {
             ContactLaw::Hysteretic => {
@@ -167,7 +167,7 @@ impl Touch {
             }
         }
     }
-    /// Moves all that is remembered by what the exact geometry differs from that of a phase.
+    /// Shifts all heights by the difference between the exact geometry and that of a phase.
     fn shift(&mut self, by: f64) {
         self.ground += by;
         self.crest += by;

@@ -68,7 +68,7 @@ pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Log<2>) -> bool) -
             break;
         }
         if jump <= SHARE * log.largest_m_s {
-            let (left_s, speed) = settling.left(settling.energy(state.h, state.v));
+            let (left_s, speed) = settling.remaining(settling.energy(state.h, state.v));
             if log.settled(time.now(), scale_s, left_s, (1.0 + e) * speed) {
                 break;
             }
@@ -97,13 +97,13 @@ fn chatter(state: &mut State, time: &mut Clock, log: &mut Log<2>, i: usize, [q, 
     }
 }
 
-/// Whether an end lies on the ground without moving.
+/// Returns whether an end lies on the ground without moving.
 fn still(state: &State, i: usize) -> bool {
     state.h[i] == 0.0 && state.v[i] == 0.0
 }
 
-/// Time until height h ≥ 0 with velocity v comes to 0 under gravity g > 0: `h + v t − ½ g t² = 0`, t ≥ 0, the later
-/// root where h = 0 and v > 0.
+/// Returns the time until height h ≥ 0 with velocity v comes to 0 under gravity g > 0: `h + v t − ½ g t² = 0`, t ≥ 0,
+/// the later root where h = 0 and v > 0.
 fn fall(h: f64, v: f64, g: f64) -> f64 {
     let root = libm::hypot(v, (2.0 * g * h).sqrt());
     if v > 0.0 {
@@ -115,7 +115,7 @@ fn fall(h: f64, v: f64, g: f64) -> f64 {
     }
 }
 
-/// Velocity on landing from height h with velocity v.
+/// Returns the velocity at landing from height h with velocity v.
 fn landing(h: f64, v: f64, g: f64) -> f64 {
     -libm::hypot(v, (2.0 * g * h).sqrt())
 }

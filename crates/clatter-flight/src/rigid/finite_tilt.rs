@@ -51,12 +51,12 @@ pub(super) struct Airborne {
     pub(super) spin: f64,
 }
 
-/// −1 for end a, +1 for end b.
+/// Returns −1 for end a, +1 for end b.
 pub(super) fn sigma(i: usize) -> f64 {
     if i == 0 { -1.0 } else { 1.0 }
 }
 
-/// θ − sin θ, to a few roundings of itself.
+/// Returns θ − sin θ, to a few roundings of itself.
 fn theta_minus_sin(theta: f64, sin: f64) -> f64 {
     if theta.abs() > 0.7 {
         return theta - sin;
@@ -77,11 +77,11 @@ impl Airborne {
         let ends = State { h: [0.0, scene.height_gap_m()], v: scene.end_velocities(levers) };
         Self { body: scene.body(), gravity: scene.gravity_m_s2(), ends, sin, cos, spin: scene.spin_rad_s() }
     }
-    /// Lever arms of the ends, signed.
+    /// Returns the signed lever arms of the ends.
     pub(super) fn levers(&self) -> [f64; 2] {
         self.body.levers(self.sin, self.cos).0
     }
-    /// Height, velocity and acceleration of end i after a flight of time t.
+    /// Returns the height, velocity and acceleration of end i after a flight of time t.
     pub(super) fn end(&self, i: usize, t: f64) -> [f64; 3] {
         let (h, v, g, w) = (self.ends.h[i], self.ends.v[i], self.gravity, self.spin);
         if t == 0.0 {
@@ -90,8 +90,9 @@ impl Airborne {
         let [bend, swing, over] = self.bend(i, w * t);
         [h + (t * (v - 0.5 * g * t) - bend), v - g * t - w * swing, -g - w * w * over]
     }
-    /// What a turn by θ takes from the height of end i beyond its lever arm x, `x (θ − sin θ) + H (1 − cos θ)` for an
-    /// end at height H over the center, and from the lever arm; and the height over the center then.
+    /// Returns the loss of height of end i by a turn by θ beyond that of its lever arm x, `x (θ − sin θ) + H (1 − cos
+    /// θ)` for an end at height H over the center; the loss of lever arm; and the height over the center after the
+    /// turn.
     pub(super) fn bend(&self, i: usize, theta: f64) -> [f64; 3] {
         let (half_sin, half_cos) = libm::sincos(0.5 * theta);
         let sin = 2.0 * half_sin * half_cos;
@@ -103,11 +104,11 @@ impl Airborne {
     pub(super) fn after(&self) -> After {
         After { ends: self.ends, tilt: libm::atan2(self.sin, self.cos), spin: self.spin }
     }
-    /// Free vertical acceleration of end i.
+    /// Returns the free vertical acceleration of end i.
     pub(super) fn acceleration(&self, i: usize) -> f64 {
         -self.gravity - self.spin * self.spin * self.body.levers(self.sin, self.cos).1[i]
     }
-    /// Height and velocity of the center.
+    /// Returns the height and velocity of the center.
     pub(super) fn center(&self) -> (f64, f64) {
         let [a, b] = self.body.arms_m();
         let State { h, v } = self.ends;
@@ -115,13 +116,14 @@ impl Airborne {
         let on_the_line = |of: [f64; 2]| (b * of[0] + a * of[1]) / (a + b);
         (on_the_line(h) + d * self.cos, on_the_line(v) - d * self.sin * self.spin)
     }
-    /// Time after t in which no angle lets end i touch: the center is higher than its distance.
+    /// Returns the time after t in which no angle lets end i touch: the center is higher than its distance.
     pub(super) fn clear(&self, i: usize, t: f64) -> f64 {
         let (y, v) = self.center();
         let clear = y + t * (v - 0.5 * self.gravity * t) - self.body.radius(i);
         if clear > 0.0 { safe_step(clear, v - self.gravity * t, self.gravity) } else { 0.0 }
     }
-    /// When end i touches the ground, if before `cap`. `leaving`: it starts on the ground without velocity, upward.
+    /// Returns the time at which end i touches the ground, if before `cap`. With `leaving` it starts on the ground
+    /// without velocity, upward.
     pub(super) fn touch(&self, i: usize, cap: f64, leaving: bool) -> Option<f64> {
         let arm = self.body.radius(i);
         let w2 = self.spin * self.spin;
@@ -151,12 +153,12 @@ impl Airborne {
         };
         if first.is_nan() || first >= cap { None } else { first_zero(first, cap, |t| self.end(i, t), step).last() }
     }
-    /// Whether a touch of end i at t says nothing: the body turned so often until then that its angle is known to 10⁻⁴
-    /// no more, or the search was given up with the end still in the air.
+    /// Returns whether a touch of end i at t is meaningless: the body turned so often until then that its angle is no
+    /// longer known to 10⁻⁴, or the search was given up with the end still in the air.
     fn is_lost(&self, i: usize, t: f64) -> bool {
         (self.spin * t).abs() > 1e-4 / f64::EPSILON || self.end(i, t)[0] > 1e-3 * self.body.length_m()
     }
-    /// The pose after a flight of time t that ends with end i on the ground, before the strike.
+    /// Returns the pose after a flight of time t that ends with end i on the ground, before the strike.
     pub(super) fn landed(&self, i: usize, t: f64) -> Self {
         let j = 1 - i;
         let (turn_sin, turn_cos) = libm::sincos(self.spin * t);
@@ -168,7 +170,7 @@ impl Airborne {
         let [h, v, _] = self.end(j, t);
         (next.ends.h[i], next.ends.v[j]) = (0.0, v);
         if sin.abs() < 0.5 {
-            // Heights know a small angle to its last digit. Below zero is rounding: the other end has not touched.
+            // Heights give a small angle to its last digit. Below zero is rounding: the other end has not touched.
             next.ends.h[j] = h.max(0.0);
             next.sin = sigma(j) * next.ends.h[j] / length;
             next.cos = ((1.0 - next.sin) * (1.0 + next.sin)).sqrt().copysign(cos);
@@ -178,13 +180,13 @@ impl Airborne {
             next.ends.h[j] = (sigma(j) * length * next.sin).max(0.0);
         }
         if t > 0.0 && next.cos.abs() <= 0.5 {
-            // A steep body turns as its spin says; the other end follows, so that both never drift apart.
+            // The spin gives the angle of a steep body; the other end follows, so that both never drift apart.
             let x = next.levers();
             next.ends.v[j] = next.ends.v[i] + (x[j] - x[i]) * next.spin;
         }
         next
     }
-    /// Inertia ratio of a strike at end i at this angle.
+    /// Returns the inertia ratio of a strike at end i at this angle.
     fn ratio(&self, i: usize) -> f64 {
         let [a, b] = self.levers();
         let product = if self.body.thickness_m() > 0.0 {
@@ -194,11 +196,12 @@ impl Airborne {
         };
         product / self.body.inertia([a, b][i])
     }
-    /// Effective mass of end i over the mass of the body, ρ²/(ρ² + x²).
+    /// Returns the effective mass of end i over the mass of the body, ρ²/(ρ² + x²).
     fn mass(&self, i: usize) -> f64 {
         self.body.gyration_m().powi(2) / self.body.inertia(self.levers()[i])
     }
-    /// Time until a body of thickness stands at a right angle; never for one without, which has no other corners.
+    /// Returns the time until a body of thickness stands at a right angle; never for one without, which has no other
+    /// corners.
     fn upright(&self) -> f64 {
         let turn = libm::atan2(self.sin, self.cos) * self.spin.signum();
         if self.body.thickness_m() > 0.0 && self.spin != 0.0 {
@@ -217,13 +220,13 @@ impl Airborne {
         self.level();
         other
     }
-    /// Energy per unit mass.
+    /// Returns the energy per unit mass.
     pub(super) fn energy(&self) -> f64 {
         let (y, v) = self.center();
         let turning = self.body.gyration_m() * self.spin;
         0.5 * (v * v + turning * turning) + self.gravity * y
     }
-    /// Spin from the velocities of the ends, which know it better while they shrink.
+    /// Sets the spin from the velocities of the ends, which are more exact while they shrink.
     fn level(&mut self) {
         if self.cos.abs() > 0.5 {
             self.spin = (self.ends.v[1] - self.ends.v[0]) / (self.body.length_m() * self.cos);
@@ -231,7 +234,7 @@ impl Airborne {
     }
 }
 
-/// The energy that a body must have, carried beside the motion so that roundings do not add up over 10⁴ strikes.
+/// The energy that a body must have, kept apart from the motion so that roundings do not add up over 10⁴ strikes.
 struct Ledger {
     energy: f64,
     opened: f64,
@@ -242,12 +245,12 @@ impl Ledger {
         let energy = pose.energy();
         Self { energy, opened: energy }
     }
-    /// Corrects the velocities of a body in flight by what rounding has done to its energy.
+    /// Corrects the velocities of a body in flight for the roundings of its energy.
     fn settle(&self, pose: &mut Airborne) {
         let (y, _) = pose.center();
         let now = pose.energy();
         let share = 0.5 * (self.energy - now) / (now - pose.gravity * y);
-        // Beyond 10⁵ roundings it is not rounding: the kinetic energy is a small difference there.
+        // More than 10⁵ roundings are no rounding: the kinetic energy is a small difference there.
         if share.abs() < 1e5 * f64::EPSILON {
             pose.ends.v = pose.ends.v.map(|v| v + share * v);
             pose.spin += share * pose.spin;
@@ -262,11 +265,10 @@ impl Ledger {
     }
 }
 
-/// Touches without speed, one after the other, that no motion needs: beyond them the time has no digits left for a
-/// turn.
+/// Touches in a row without speed that no motion needs: beyond them the time has no digits left for a turn.
 const IDLE: u32 = 64;
 
-/// `e` of ends a and b. Strikes are looked for until `horizon_s`.
+/// Returns the flight with restitution `e` of ends a and b. Strikes are searched until `horizon_s`.
 pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: impl FnMut(&Log<2>) -> bool) -> Flight {
     let g = scene.gravity_m_s2();
     let rest = Rest::new(scene, e);
@@ -307,7 +309,7 @@ pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: i
             let sight = upright.min((horizon_s - time.now()).max(0.0));
             let ta = pose.touch(0, sight, leaving[0]);
             let tb = pose.touch(1, ta.unwrap_or(sight), leaving[1]);
-            // At one instant end a strikes first: b is looked for before a's time only.
+            // At one instant end a strikes first: b is searched before a's time only.
             if [ta, tb].into_iter().enumerate().any(|(i, t)| t.is_some_and(|t| pose.is_lost(i, t))) {
                 log.lost(time.now());
                 break;
@@ -333,7 +335,7 @@ pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: i
         let before = pose;
         let u = pose.ends.v[i].min(0.0);
         if u == 0.0 {
-            // A touch without speed. What lies still stays, what turns upward leaves.
+            // This is a touch without speed. A point that lies still stays, one that turns upward leaves.
             pose.ends.v[i] = 0.0;
             idle += 1;
             if idle > IDLE {
@@ -354,7 +356,7 @@ pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: i
             break;
         }
         if jump <= SHARE * log.largest_m_s {
-            if let Some((left_s, shock)) = rest.left(&before, &pose, i)
+            if let Some((left_s, shock)) = rest.remaining(&before, &pose, i)
                 && log.settled(time.now(), rest.scale_s, left_s, shock)
             {
                 break;
@@ -374,7 +376,7 @@ fn chatter(pose: &mut Airborne, time: &mut Clock, log: &mut Log<2>, i: usize, e:
     let gamma = -pose.acceleration(i);
     let s = pose.ends.v[i] / (1.0 - e);
     let tau = 4.0 * s / gamma;
-    // The first shock left out, as the contraction bounds it.
+    // This is the first omitted shock, as the contraction bounds it.
     let omitted = 1.3 * (1.0 + e) * pose.ends.v[i];
     if omitted > SHARE * log.largest_m_s || gamma <= 0.0 || !short(tau, time.now(), 0.0) {
         return;
@@ -389,7 +391,7 @@ fn chatter(pose: &mut Airborne, time: &mut Clock, log: &mut Log<2>, i: usize, e:
     if change <= 0.25 * gamma * (1.0 - e) && lowest > 0.0 {
         log.omitted_m_s = log.omitted_m_s.max(omitted);
         let dt = 2.0 * s / gamma;
-        // To first order in a time below an ulp: what the free motion and the strikes give.
+        // The time is below an ulp: the effects of the free motion and of the strikes are of first order in it.
         let free = pose.acceleration(j) * dt;
         pose.ends.h[j] += dt * pose.ends.v[j];
         pose.ends.v[j] += free - pose.ratio(i) * (1.0 + e) * s;
@@ -408,7 +410,7 @@ struct Rest {
     settling: Settling,
     scale_s: f64,
     gravity: f64,
-    /// The larger one: it bounds both ends.
+    /// The larger of both restitutions: it bounds both ends.
     e: f64,
     /// λ₊ and λ₋ of the level body where they are apart and below 1 and both ends rebound alike, κ.
     contraction: Option<(f64, f64, f64)>,
@@ -421,7 +423,7 @@ impl Rest {
         let q = (qa * qb).sqrt().copysign(qa);
         let trace = q * (1.0 + e);
         let root = (trace * trace - 4.0 * e).sqrt();
-        // Margins far above rounding and the tilt left: what is closer to the edge runs to its limits instead.
+        // The margins are far above rounding and the tilt left: a bar closer to the edge runs to its limits instead.
         let contracts = e_a - e_b == 0.0 && trace > 0.0 && root > 1e-3 && q < 1.0 - 1e-6;
         let [a, b] = body.arms_m();
         let kappa = (body.inertia(a) / body.inertia(b)).sqrt();
@@ -433,8 +435,8 @@ impl Rest {
             contraction: contracts.then_some((0.5 * (trace + root), root, kappa)),
         }
     }
-    /// Largest time and shock left after a strike of end i, where a proof is at hand.
-    fn left(&self, before: &Airborne, after: &Airborne, i: usize) -> Option<(f64, f64)> {
+    /// Returns the largest remaining time and shock after a strike of end i, where a proof is at hand.
+    fn remaining(&self, before: &Airborne, after: &Airborne, i: usize) -> Option<(f64, f64)> {
         let [a, b] = after.body.arms_m();
         // A center half a thickness over the ends moves them as a tilt does.
         if after.sin.abs() * (1.0 + after.body.thickness_m() / a.min(b)) > 1e-3 {
@@ -449,7 +451,7 @@ impl Rest {
             if turning > 1e-3 * self.gravity || energy > 1e-3 * self.gravity * a.min(b) {
                 return None;
             }
-            let (time, speed) = self.settling.left(energy);
+            let (time, speed) = self.settling.remaining(energy);
             return Some((2.0 * time, 2.0 * (1.0 + self.e) * speed));
         }
         // Without gravity the tail is the map's: t_∞ = h/(λ₊|u| − v) from this strike on, doubled.

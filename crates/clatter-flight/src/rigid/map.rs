@@ -9,8 +9,8 @@ use crate::flight::{After, Flight, Log, SHARE, State, Stop};
 use crate::scene::Scene;
 
 impl Scene {
-    /// The symmetric bar and start that have the train of this scene at small tilt without gravity, and κ: velocities
-    /// of end b are κ times the scene's, times the scene's own.
+    /// Returns the symmetric bar and start with the train of this scene at small tilt without gravity, and κ:
+    /// velocities of end b are κ times those of the scene, times are the same.
     #[must_use]
     pub fn symmetric_bar(&self) -> (Bar, Start, f64) {
         let body = self.body();
@@ -61,7 +61,7 @@ pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Log<2>) -> bool) -
         if !log.strike(i, impact.time, u, delta_v, &After::small(&state, body.length_m()), &mut enough) {
             return log.flight;
         }
-        // The approach speeds of an endless train rise to one peak and fall for ever: what follows is slower.
+        // The approach speeds of an endless train rise to one peak and fall for ever: later ones are slower.
         let left_s = summary.duration - impact.time;
         if settles && jump <= SHARE * log.largest_m_s && left_s <= f64::EPSILON * summary.duration {
             let time_s = summary.duration.max(impact.time); // to a rounding the same

@@ -18,10 +18,10 @@ use super::finite_tilt::Airborne;
 use crate::profile::Profile;
 use clatter::quadrature::integrate;
 
-/// No error allowed beyond the quadrature's own rounding.
+/// Tolerance of the quadrature: its own rounding alone.
 const ROUNDING: f64 = 0.0;
 
-/// How a pivot ends.
+/// The end of a pivot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Event {
     /// The other end lands.
@@ -48,7 +48,7 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
     let corners = slope > 0.0;
     let beyond = x < 0.0 && corners;
     let other_side = if corners { 0.5 * std::f64::consts::PI - slope } else { 0.0 };
-    // Angles count from where the body lies, which they know to the last digit however small.
+    // Angles count from that of the lying body, where they are exact to the last digit however small.
     let base = if beyond { 0.0 } else { slope };
     let about = Turn { gl: g * arm, rho2, arm2: arm * arm, base };
     let tilt0 = if beyond { libm::atan2(s0, c0) } else { libm::atan2(side * pose.sin, pose.cos.abs()) };
@@ -75,7 +75,7 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
     let over = p0 > 0.0 && energy >= about.gl;
     let upright = 0.5 * std::f64::consts::PI;
     let time = if over {
-        // Over the top: up to 90°, then down as a mirror image of going up from the other side.
+        // The body goes over the top: up to 90°, then down as a mirror image of going up from the other side.
         let mirror = Turn { base: 0.0, ..about };
         let up = about.direct(tilt0, upright - base, kinetic0);
         up + mirror.direct(far, upright, energy - about.gl * libm::sin(far))
@@ -101,8 +101,8 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
     (next, time, Event::Landing)
 }
 
-/// Tilt and spin a time t after a pivot about end `i` began with these, by Runge and Kutta's fourth order in steps of 1/256 of
-/// `whole`.
+/// Returns tilt and spin a time t after a pivot about end `i` began with these, by Runge and Kutta's fourth order in
+/// steps of 1/256 of `whole`.
 ///
 /// With the lever arm x and the height over the center of mass of that end, `ω′ = x (g + over ω²)/(ρ² + x²)`.
 pub(super) fn along(body: &Profile, gravity: f64, i: usize, begin: [f64; 2], t: f64, whole: f64) -> [f64; 2] {
@@ -138,18 +138,18 @@ impl Turn {
     fn inertia(&self, cos: f64) -> f64 {
         self.rho2 + self.arm2 * cos * cos
     }
-    /// Gain of potential energy between two angles, `g L (sin ψ − sin ψ0)`.
+    /// Returns the gain of potential energy between two angles, `g L (sin ψ − sin ψ0)`.
     fn gain(&self, from: f64, to: f64) -> f64 {
         2.0 * self.gl * libm::cos(self.base + 0.5 * (from + to)) * libm::sin(0.5 * (to - from))
     }
-    /// sin ψ where the force on the end vanishes on the way up.
+    /// Returns sin ψ where the force on the end vanishes on the way up.
     fn lift_off(&self, energy: f64) -> Option<f64> {
         // In units of g L: s² − 2 ε s + (ρ² + L²)/L² = 0, the smaller root.
         let eps = energy / self.gl;
         let c = (self.rho2 + self.arm2) / self.arm2;
         (eps * eps >= c).then(|| c / (eps + (eps * eps - c).sqrt()))
     }
-    /// Angle from `from` up to the turning point, where the gain is K0; `c0` = cos ψ at `from`.
+    /// Returns the angle from `from` up to the turning point, where the gain is K0; `c0` = cos ψ at `from`.
     fn rise(&self, from: f64, c0: f64, kinetic0: f64) -> f64 {
         let k = kinetic0 / self.gl;
         let mut delta = k / c0;
@@ -164,7 +164,7 @@ impl Turn {
         }
         delta
     }
-    /// Time between angles `lo < hi` below any turning point, with kinetic energy `k_lo` at `lo`.
+    /// Returns the time between angles `lo < hi` below any turning point, with kinetic energy `k_lo` at `lo`.
     fn direct(&self, lo: f64, hi: f64, k_lo: f64) -> f64 {
         let f = |at: f64| {
             let inertia = self.inertia(libm::cos(self.base + at));
@@ -172,7 +172,7 @@ impl Turn {
         };
         integrate(f, &[lo, hi], ROUNDING).value
     }
-    /// Time between `x = √(ψ_m − ψ)` of `x0 < x1`, where the turning point `ψ_m` is `top`.
+    /// Returns the time between `x = √(ψ_m − ψ)` of `x0 < x1`, where the turning point `ψ_m` is `top`.
     fn below_top(&self, top: f64, x0: f64, x1: f64) -> f64 {
         let top = self.base + top;
         let f = |x: f64| {

@@ -1,24 +1,25 @@
 //! Instant impacts of an almost level plate under gravity: parabolas of its corners between strikes.
 //!
-//! With M_ij, what an impulse of 1 over the mass at corner i does to corner j (see [`level`](crate::contact)), a strike of corner i with
-//! velocity u is the impulse −(1 + e) u/M_ii. Between strikes every corner has a constant acceleration: −g in flight, and where
-//! corners lie that of the weight and of the forces which hold them; a corner that would have to be held down is let go. A corner that
-//! lies stays until another one strikes, as all forces are constant.
+//! M_ij is the acceleration of corner j by a force of 1 over the mass at corner i (see [`level`](crate::contact)). A
+//! strike of corner i with velocity u is the impulse −(1 + e) u/M_ii. Between strikes every corner has a constant
+//! acceleration: −g in flight, and where corners lie that of the weight and of the forces which hold them; a corner
+//! that would have to be held down is let go. A corner that lies stays until another one strikes, as all forces are
+//! constant.
 //!
 //! # One instant
-//! What is on the ground at one time strikes as the map has it, in the order of a vanishing tilt along the diagonal: from heights
-//! 0, 1, 2 and 1 of a and the others, in any small unit, along straight lines.
+//! Corners on the ground at one time strike in the order of a vanishing tilt along the diagonal: from heights 0, 1, 2
+//! and 1 of a and the others, in any small unit, along straight lines.
 //!
 //! # Chatter
 //! Alone, a corner that leaves with w strikes ever sooner and is still after 2w/(g (1 − e)). Its strikes and its fall have then added up
-//! to −w, as the force of a corner that lies would have added up to after an impulse that stops it now: the others cannot tell. So
+//! to −w, as the force of a corner that lies would have added up to after an impulse that stops it now: the effect on the others is the same. So
 //! corners that are slower than [`SHARE`] of the largest shock, and still before the time has moved by an ulp, lie from then on.
 //!
 //! # Rounding
 //! A corner that strikes is at 0, and one that is near it keeps its digits; the largest height and velocity are what the other three
 //! corners make them, so that the plate stays plane.
 
-use clatter::{Error as Given, Excitation, Restitution, Section};
+use clatter::{Error as InputError, Excitation, Restitution, Section};
 
 use super::Clock;
 use crate::contact::{Level, Pose, Sample, solve};
@@ -27,7 +28,7 @@ use crate::motion::{Ahead, Course, PlateMotion};
 use crate::plate::PlateScene;
 use crate::roots::safe_step;
 
-/// What settles the order at one instant.
+/// Heights that settle the order at one instant.
 const TILTED: [f64; 4] = [0.0, 1.0, 2.0, 1.0];
 
 /// A plate between its strikes, in stretches of constant acceleration.
@@ -37,14 +38,14 @@ pub struct Falls {
     list: Vec<Fall>,
 }
 
-/// One stretch: how it begins, and what goes on.
+/// One stretch: its first state, and its constant accelerations and forces.
 #[derive(Debug, Clone, Copy)]
 struct Fall {
     from_s: f64,
     state: State<4>,
     acceleration: [f64; 4],
     force: [f64; 4],
-    /// Strikes before it.
+    /// Number of strikes before it.
     strikes: usize,
 }
 
@@ -62,12 +63,12 @@ fn corner<T>(of: impl FnMut(usize) -> T) -> [T; 4] {
     std::array::from_fn(of)
 }
 
-/// Whether a corner is on the ground without moving.
+/// Returns whether each corner is on the ground without moving.
 fn still(state: &State<4>) -> [bool; 4] {
     corner(|i| state.h[i] == 0.0 && state.v[i] == 0.0)
 }
 
-/// The largest of these values as the other three have it, by opposite corners.
+/// Replaces the largest of these values by that of the plane through the other three.
 fn plane(of: &mut [f64; 4]) {
     let size = |i: usize| of[i].abs();
     let k = (1..4).fold(0, |most, i| if size(i) > size(most) { i } else { most });
@@ -100,7 +101,7 @@ impl Run {
         }
     }
 
-    /// Forces that hold the corners which lie, and the accelerations of all.
+    /// Returns the forces that hold the lying corners, and the accelerations of all.
     fn held(&self) -> ([f64; 4], [f64; 4]) {
         let g = self.scene.gravity_m_s2();
         let mut lying = still(&self.state);
@@ -115,12 +116,12 @@ impl Run {
         (force, acceleration)
     }
 
-    /// Goes on until the first corner lands, if one does.
+    /// Flies until the first corner lands, and returns whether one does.
     fn flown(&mut self, fall: &Fall) -> bool {
         let State { h, v } = self.state;
         let a = fall.acceleration;
         let lands = corner(|i| {
-            // Where nothing pulls it down, the step is none.
+            // Where nothing pulls it down, there is no step.
             let t = if still(&self.state)[i] { f64::INFINITY } else { safe_step(h[i], v[i], -a[i]) };
             if t >= 0.0 { t } else { f64::INFINITY }
         });
@@ -130,7 +131,7 @@ impl Run {
             for i in (0..4).filter(|&i| lands[i] <= t) {
                 self.state.h[i] = 0.0;
                 if h[i] == 0.0 {
-                    // As fast as it has left, however short the time.
+                    // Its speed is that of leaving, however short the time.
                     self.state.v[i] = -v[i];
                 }
             }
@@ -144,12 +145,12 @@ impl Run {
         let State { h, v } = &mut self.state;
         plane(h);
         plane(v);
-        // On two corners opposite of one another it is flat.
+        // A plate on two opposite corners is flat.
         let flat = h[0] + h[2] <= 0.0 || h[1] + h[3] <= 0.0;
         *h = if flat { [0.0; 4] } else { h.map(|h| h.max(0.0)) };
     }
 
-    /// A strike, and what it changes.
+    /// Applies a strike, and returns the velocity changes of all corners.
     fn strike(&mut self, i: usize) -> [f64; 4] {
         let u = self.state.v[i];
         let jump = -(1.0 + self.e) * u;
@@ -160,7 +161,7 @@ impl Run {
         delta_v
     }
 
-    /// Ends the motion where no shock counts any more, or lays down corners of which none does.
+    /// Ends the motion where no shock counts any more, or lays down corners whose shocks do not count.
     fn settled(&mut self, i: usize, log: &mut Log<4>) -> bool {
         let (g, now, counts) = (self.scene.gravity_m_s2(), self.time.now(), SHARE * log.largest_m_s);
         let left = (1.0 + self.e) * self.fastest(&self.state);
@@ -184,7 +185,7 @@ impl Run {
         false
     }
 
-    /// No corner is faster by the energy of a state.
+    /// Returns a bound on the speed of every corner by the energy of a state.
     fn fastest(&self, state: &State<4>) -> f64 {
         let energy = Level::of(&self.scene, state.h, state.v).energy();
         (2.0 * self.most * energy.max(0.0)).sqrt()
@@ -216,7 +217,7 @@ impl Run {
 
 fn motion(scene: &PlateScene, e: f64, mut enough: impl FnMut(&Ahead<4>) -> bool) -> PlateMotion {
     let (mut run, mut log) = (Run::new(scene, e), Log::new(scene.time_limit_s(), scene.impact_limit()));
-    // What is ahead is told by the strikes so far, whatever the run does.
+    // The bounds depend on the strikes so far, whatever the state of the run.
     let still_to_run = Run::new(scene, e);
     let mut enough = |log: &Log<4>| enough(&still_to_run.ahead(log));
     let mut list = vec![run.fall(&log)];
@@ -265,17 +266,17 @@ fn motion(scene: &PlateScene, e: f64, mut enough: impl FnMut(&Ahead<4>) -> bool)
 }
 
 impl PlateScene {
-    /// The motion by instant impacts with a coefficient of restitution, as far as it is needed: as
-    /// [`Scene::fly_until`](crate::Scene::fly_until) by [`Model::Ballistic`]. Without gravity [`clatter::Plate`] has it to the last digit,
-    /// where this goes strike by strike.
+    /// Returns the motion by instant impacts with a coefficient of restitution, as far as it is needed: as
+    /// [`Scene::fly_until`](crate::Scene::fly_until) by [`Model::Ballistic`]. Without gravity [`clatter::Plate`] is
+    /// exact to the last digit, while this method goes strike by strike.
     ///
-    /// What comes down at one instant strikes in the order of a vanishing tilt along the diagonal.
+    /// Corners that come down at one instant strike in the order of a vanishing tilt along the diagonal.
     ///
     /// # Errors
-    /// [`Error::Restitution`](Given::Restitution) unless that is in [0, 1].
+    /// [`Error::Restitution`](InputError::Restitution) unless that is in [0, 1].
     ///
     /// # Examples
-    /// What has bounced clear comes back, until it lies still.
+    /// A plate that has bounced clear comes back, until it lies still.
     /// ```
     /// use clatter_flight::{Plate, PlateScene, Stop};
     /// let plate = Plate::new([0.075, 0.075, 0.035, 0.035], [0.0433, 0.0202])?;
@@ -284,7 +285,11 @@ impl PlateScene {
     /// assert!(matches!(motion.stop, Stop::AtRest { shock_bound_m_s, .. } if shock_bound_m_s < 1e-14));
     /// # Ok::<(), clatter::Error>(())
     /// ```
-    pub fn impacts_until(&self, restitution: f64, enough: impl FnMut(&Ahead<4>) -> bool) -> Result<PlateMotion, Given> {
+    pub fn impacts_until(
+        &self,
+        restitution: f64,
+        enough: impl FnMut(&Ahead<4>) -> bool,
+    ) -> Result<PlateMotion, InputError> {
         Ok(motion(self, Restitution::new(restitution)?.get(), enough))
     }
 }
@@ -309,39 +314,40 @@ impl Falls {
         }
     }
 
-    /// How far each corner makes the slope along a direction.
+    /// Returns the weights of the corners in the slope along a direction.
     pub(crate) fn slope(&self, [x, y]: [f64; 2]) -> [f64; 4] {
         let [length, width] = self.scene.plate().sides_m();
         let [b, d] = [x / length, y / width];
         [-b - d, b, 0.0, d]
     }
-    /// How far each corner moves a place, in m from the center of mass.
+    /// Returns the weights of the corners in the motion of a place, in m from the center of mass.
     pub(crate) fn place(&self, [x, y]: [f64; 2]) -> [f64; 4] {
         let [left, _, front, _] = self.scene.plate().edges_m();
         let [a, b, c, d] = self.slope([x + left, y + front]);
         [1.0 + a, b, c, d]
     }
 
-    /// What a sum of the motions of the corners with these weights goes through, above a fall with an acceleration.
-    pub(crate) fn felt(&self, motion: &PlateMotion, weights: [f64; 4], gravity: f64) -> Excitation {
+    /// Returns the excitation of a sum of the motions of the corners with these weights, above a fall with an
+    /// acceleration.
+    pub(crate) fn excitation(&self, motion: &PlateMotion, weights: [f64; 4], gravity: f64) -> Excitation {
         let (strikes, end_s) = (&motion.strikes, motion.stop.time_s());
         let of = |corners: &[f64; 4]| weights.iter().zip(corners).map(|(weight, x)| weight * x).sum::<f64>();
-        let mut felt = Excitation::with_capacity(strikes.len() + self.list.len());
+        let mut excitation = Excitation::with_capacity(strikes.len() + self.list.len());
         let mut struck = 0;
-        let mut shocks = |until: usize, felt: &mut Excitation| {
+        let mut shocks = |until: usize, excitation: &mut Excitation| {
             for strike in &strikes[struck..until] {
-                felt.push(Section::shock(strike.time_s, 0.0, of(&strike.delta_v_m_s)));
+                excitation.push(Section::shock(strike.time_s, 0.0, of(&strike.delta_v_m_s)));
             }
             struck = until;
         };
         for (n, fall) in self.list.iter().enumerate() {
-            shocks(fall.strikes, &mut felt);
+            shocks(fall.strikes, &mut excitation);
             let until = self.list.get(n + 1).map_or(end_s, |next| next.from_s);
             let section = Section::shock(fall.from_s, (until - fall.from_s).max(0.0), 0.0);
-            felt.push(Section { acceleration: [of(&fall.acceleration) + gravity; 2], ..section });
+            excitation.push(Section { acceleration: [of(&fall.acceleration) + gravity; 2], ..section });
         }
-        shocks(strikes.len(), &mut felt);
-        felt
+        shocks(strikes.len(), &mut excitation);
+        excitation
     }
 }
 

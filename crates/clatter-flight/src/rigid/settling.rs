@@ -1,4 +1,4 @@
-//! How long a body with little energy can still move: the proof behind [`Stop::AtRest`](crate::Stop::AtRest).
+//! The time for which a body with little energy can still move: the proof behind [`Stop::AtRest`](crate::Stop::AtRest).
 //!
 //! Take a small-tilt motion under gravity g with energy E per unit mass, e < 1, effective masses
 //! `m_i = ρ²/(ρ² + L_i²)` and m the smaller of the two. E bounds every velocity of an end by `V = √(2E/m)` and every
@@ -14,14 +14,14 @@
 //! E ≥ (1 + κ) E′,   κ = m (1 − e²)/(2C)
 //! ```
 //!
-//! The times 2τ shrink like √E, so all that is left takes at most `2τ(E)/(1 − 1/√(1 + κ))`. An end that lies still is
-//! the limit of ever more, ever slower strikes, and changes nothing. This holds for any pattern of strikes.
+//! The times 2τ shrink like √E, so that the rest of the motion takes at most `2τ(E)/(1 − 1/√(1 + κ))`. An end that lies
+//! still is the limit of ever more, ever slower strikes, and changes nothing. This holds for any pattern of strikes.
 //!
 //! *q < 0: strikes lift the other end,* by `p = max(−q_a, −q_b) < 1` of their own jump. Momentum of the other end
 //! limits how often: `v_a(t) = v_a(0) − (1 − p) g t + p (v_b(t) − v_b(0))` until a touches, and likewise for b. The
 //! same steps give `τ = V (6 + √((1 − p) m L/L_min))/((1 − p) g)`, velocities below 5δ at any time with two touches of
-//! both ends around it, heights below `(11 δ)²/(2 (1 − p) g)`, so a window of 4τ and
-//! `C = 12.5 + 50 ρ²/L² + 60.5/(1 − p)`. Coarse, but the price of a factor is a few more strikes.
+//! both ends around it, heights below `(11 δ)²/(2 (1 − p) g)`, so a window of 4τ and `C = 12.5 + 50 ρ²/L² + 60.5/(1 −
+//! p)`. The bound is coarse, but each factor costs only a few more strikes.
 
 use crate::profile::Profile;
 
@@ -42,7 +42,8 @@ pub(super) struct Settling {
 }
 
 impl Settling {
-    /// `slack` ≥ 0 widens the case q < 0 for a motion whose inertia ratios are only nearly those of a level body.
+    /// Creates the bound. `slack` ≥ 0 widens the case q < 0 for a motion whose inertia ratios are only nearly those of
+    /// a level body.
     pub(super) fn new(body: &Profile, e: f64, gravity: f64, slack: f64) -> Self {
         let arm = body.arms_m();
         let length = body.length_m();
@@ -72,13 +73,13 @@ impl Settling {
             kappa: mass * (1.0 - e) * (1.0 + e) / (2.0 * c),
         }
     }
-    /// All windows over the first, `1/(1 − 1/√(1+κ))` without cancellation; infinite for e = 1 or massless ends, which
-    /// never settle.
+    /// Returns the sum of all windows over the first, `1/(1 − 1/√(1+κ))` without cancellation; infinite for e = 1 or
+    /// massless ends, which never settle.
     fn windows(&self) -> f64 {
         let root = (1.0 + self.kappa).sqrt();
         root * (root + 1.0) / self.kappa
     }
-    /// Energy per unit mass for heights and velocities of the ends.
+    /// Returns the energy per unit mass for heights and velocities of the ends.
     pub(super) fn energy(&self, h: [f64; 2], v: [f64; 2]) -> f64 {
         let [a, b] = self.arm;
         let length = a + b;
@@ -86,8 +87,8 @@ impl Settling {
         let spin = self.gyration * (v[1] - v[0]) / length;
         0.5 * (center * center + spin * spin) + self.gravity * (b * h[0] + a * h[1]) / length
     }
-    /// Largest time and largest end velocity that this energy leaves.
-    pub(super) fn left(&self, energy: f64) -> (f64, f64) {
+    /// Returns bounds on the remaining time and on the end velocities for this energy.
+    pub(super) fn remaining(&self, energy: f64) -> (f64, f64) {
         (self.window_per_root * self.windows() * energy.sqrt(), (2.0 * energy / self.mass).sqrt())
     }
 }
@@ -114,13 +115,13 @@ mod tests {
         Settling::new(body, e, G, 0.0)
     }
 
-    /// Velocities and heights of a window whose strikes are slower than 1, over 1 and over 1/2g.
+    /// Returns bounds on velocities and heights of a window whose strikes are slower than 1, over 1 and over 1/2g.
     fn slow_box(body: &Profile) -> (f64, f64) {
         let lift = body.inertia_ratios().into_iter().fold(0.0, |p: f64, q| p.max(-q));
         if lift > 0.0 { (5.0, 121.0 / (1.0 - lift)) } else { (1.0, 1.0) }
     }
 
-    /// κ is what the slowest strike that a window must have takes from the energy: the impact law on the lighter end.
+    /// κ is the loss of energy by the slowest strike that a window must have: the impact law on the lighter end.
     #[test]
     fn the_strike_of_a_window_takes_kappa_of_the_energy_after_it() {
         for (body, e) in cases() {
@@ -139,7 +140,7 @@ mod tests {
             assert!((least / s.kappa - 1.0).abs() < 1e-11, "{body:?} e {e}: {least}, κ = {}", s.kappa);
         }
     }
-    /// C from above, by all corners of the box, and for q ≥ 0 within a factor of 2.
+    /// Checks that C is a bound, by all corners of the box, and for q ≥ 0 within a factor of 2.
     #[test]
     fn no_slow_motion_has_more_energy_than_the_box() {
         for (body, e) in cases() {
@@ -156,13 +157,14 @@ mod tests {
         for (body, e) in cases() {
             let s = settling(&body, e);
             let sum: f64 = (0..200_000).map(|k| (1.0 + s.kappa).powf(-0.5 * f64::from(k))).sum();
-            // What 200 000 terms leave out.
+            // This is the sum of the terms after 200 000.
             let rest = (1.0 + s.kappa).powf(-100_000.0);
             assert!((sum / s.windows() + rest - 1.0).abs() < 1e-9, "{body:?} e {e}: {sum} {}", s.windows());
         }
     }
 
-    /// Drops until rest, low enough that the body stays near the ground, high enough for strikes of every pattern.
+    /// Returns drops until rest, low enough that the body stays near the ground, high enough for strikes of every
+    /// pattern.
     fn drops(body: Profile, e: f64) -> impl Iterator<Item = Motion> {
         [(0.0, 0.0), (0.3, 0.0), (3.0, 0.0), (0.3, 6.0), (3.0, -5.0)].into_iter().map(move |(tilt, spin)| {
             let scene = Scene::new(body, e, 1.5, tilt, G).and_then(|s| s.with_spin(spin)).expect("a drop");
@@ -186,10 +188,10 @@ mod tests {
                 for n in (1..fastest_from.len()).rev() {
                     fastest_from[n - 1] = fastest_from[n - 1].max(fastest_from[n]);
                 }
-                // The last strikes are too near to rest for times to tell.
+                // The last strikes are too near to rest for the resolution of times.
                 for (n, strike) in flight.strikes.iter().enumerate().filter(|(_, k)| rest - k.time_s > 1e-9 * rest) {
                     let window = s.window_per_root * energies[n].sqrt();
-                    let (left, fastest) = s.left(energies[n]);
+                    let (left, fastest) = s.remaining(energies[n]);
                     assert!(
                         rest - strike.time_s <= left,
                         "{body:?} e {e}, strike {n}: {} of {left}",

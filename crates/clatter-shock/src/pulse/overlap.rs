@@ -1,7 +1,7 @@
-//! Pulses that overlap: time is cut at every begin and end, and what acts between is summed.
+//! Pulses that overlap: time is cut at every begin and end, and the parts between are summed.
 //!
-//! Where few act at once they are summed cut by cut. Where many do, time is halved again and again, and what acts
-//! throughout a part is summed once for all of it, sinusoids of one rate as one: n log n steps instead of n².
+//! Where few parts act at once they are summed cut by cut. Where many do, time is halved again and again, and the parts
+//! that act throughout a half are summed once for all of it, sinusoids of one rate as one: n log n steps instead of n².
 
 use super::{Instant, Piece, Pulse, Shape, SinePiece};
 use crate::Error;
@@ -24,12 +24,12 @@ enum Law {
     Sine { amplitude: f64, phase: f64, rate: f64 },
 }
 
-/// Up to so many at once are summed cut by cut.
+/// The most parts at once that are summed cut by cut.
 const FEW: usize = 16;
-/// Sinusoids kept at most, or four for each part of a pulse.
+/// The most sinusoids that are kept, or four for each part of a pulse.
 const MOST_SINES: usize = 1 << 22;
 
-/// What acts throughout a part of time, as from its begin.
+/// The sum of the parts that act throughout an interval, as from its begin.
 #[derive(Debug, Clone)]
 struct Base {
     at: Instant,
@@ -67,7 +67,7 @@ impl Base {
 /// Pieces, their sinusoids, and the last end.
 type Built = (Vec<Piece>, Vec<SinePiece>, Instant);
 
-/// Cuts time at every begin and end and sums what acts between.
+/// Cuts time at every begin and end, and sums the parts between.
 pub(super) fn pieces(mut terms: Vec<Term>) -> Result<Built, Error> {
     terms.sort_by(|a, b| a.start.order(&b.start));
     let mut cuts: Vec<Instant> = terms.iter().flat_map(|t| [t.start, t.end]).collect();
@@ -88,7 +88,7 @@ pub(super) fn pieces(mut terms: Vec<Term>) -> Result<Built, Error> {
     Ok(built)
 }
 
-/// Whether no instant has many parts. `terms` are in order of their starts.
+/// Returns whether no instant has many parts. `terms` are in order of their starts.
 fn are_few(terms: &[Term]) -> bool {
     let mut ends: Vec<Instant> = terms.iter().map(|t| t.end).collect();
     ends.sort_by(Instant::order);
@@ -96,7 +96,7 @@ fn are_few(terms: &[Term]) -> bool {
     terms.iter().skip(FEW).zip(&ends).all(|(term, end)| end.order(&term.start) != Ordering::Greater)
 }
 
-/// How many sinusoids of different rates there are between all cuts.
+/// Returns the number of sinusoids of different rates between all cuts.
 fn count_sines(terms: &[Term], cuts: &[Instant]) -> usize {
     let mut ends: Vec<&Term> = terms.iter().collect();
     ends.sort_by(|a, b| a.end.order(&b.end));
@@ -148,7 +148,7 @@ fn divide(cuts: &[Instant], terms: &[Term], base: &Base, built: &mut Built) {
     }
 }
 
-/// Sums cut by cut what acts, beside `base`. `terms` are in order of their starts.
+/// Sums the active parts cut by cut, in addition to `base`. `terms` are in order of their starts.
 fn sweep(cuts: &[Instant], terms: &[Term], base: &Base, (pieces, sines, _): &mut Built) {
     let mut coming = terms.iter().peekable();
     let mut active: Vec<Term> = Vec::new();
@@ -193,7 +193,7 @@ fn sweep(cuts: &[Instant], terms: &[Term], base: &Base, (pieces, sines, _): &mut
     }
 }
 
-/// The parts of one pulse. Sinusoids are cut so that each part turns by half a circle at most.
+/// Adds the parts of one pulse. Sinusoids are cut so that each part turns by half a circle at most.
 pub(super) fn add_terms(p: &Pulse, terms: &mut Vec<Term>) {
     let (a, d) = (p.amplitude, p.duration);
     let instant = |fraction: f64| Instant::after(p.start, fraction * d);

@@ -1,4 +1,4 @@
-//! Eight parts side by side through the steps of an uneven record.
+//! The response of eight parts side by side to the steps of an uneven record.
 
 use super::BLOCK;
 use super::steps::{Block, Leap, Series, Step, TERMS};
@@ -9,16 +9,16 @@ use crate::peaks::{Peaks, Range};
 use crate::side_by_side::Step as Free;
 use crate::suspension::{Modes, Motion};
 
-/// Lengths s = (1 + 2ζ)τ up to which a series of so many terms leaves out less than half a rounding of itself, sⁿ/(n + 1)!.
+/// Lengths s = (1 + 2ζ)τ up to which the error of a series of so many terms is less than half a rounding, sⁿ/(n + 1)!.
 const SHORT: [(f64, usize); 6] = [(2.4e-4, 4), (0.02, 7), (0.13, 10), (0.5, 14), (1.0, 18), (SHORTEST_LONG, TERMS)];
-/// From here on closed forms lose nothing to their differences.
+/// The length from which on closed forms lose nothing to their differences.
 const SHORTEST_LONG: f64 = 2.0;
 /// Smaller numbers would slow the machine down; they are far below one rounding of anything that is compared.
 const TINY: f64 = 1e-280;
 /// Smaller motions are not bounded by their squares.
 const SMALLEST: f64 = 1e-140;
 
-/// What all groups share.
+/// Constants that all groups share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Constants<'a> {
     pub(super) modes: &'a Modes,
@@ -38,7 +38,7 @@ pub(super) struct Group {
     high: Many,
     low: Many,
     row: usize,
-    /// Oscillators that are asked for.
+    /// Number of wanted oscillators.
     count: usize,
     pub(super) peaks: [Peaks; WIDTH],
 }
@@ -77,7 +77,7 @@ impl Group {
             peaks: [Peaks::default(); WIDTH],
         }
     }
-    /// Short steps by `N` terms of the series.
+    /// Crosses short steps by `N` terms of the series.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn short<S: pulp::Simd, const N: usize>(
@@ -90,9 +90,9 @@ impl Group {
         let [r0, r1] = c.modes.rows[self.row];
         let (r0, r1) = (simd.splat_f64s(r0), simd.splat_f64s(r1));
         let (mut high, mut low) = (trace.q[0], trace.q[0]);
-        // In vectors of the machine by name: the compiler leaves these loops to scalars.
+        // The vectors of the machine are named: the compiler alone leaves these loops to scalars.
         for i in 0..WIDTH / S::F64_LANES {
-            // First what depends on the steps alone, that no step waits for the one before.
+            // Terms that depend on the steps alone come first, so that no step waits for the one before.
             for (s, integrals) in block.steps.iter().zip(&mut trace.integrals) {
                 let [h, x0, ramp] = self.integrals::<S, N>(simd, c, s, i);
                 S::as_mut_simd_f64s(&mut integrals[0]).0[i] = h;
@@ -116,7 +116,7 @@ impl Group {
         }
         [high, low]
     }
-    /// One step by closed forms.
+    /// Crosses one step by closed forms, and returns x and w.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn long(&self, modes: &Modes, s: &Step) -> (Many, Many) {
@@ -139,7 +139,7 @@ impl Group {
         }
         (x, w)
     }
-    /// One step at any frequencies.
+    /// Crosses one step at any frequencies, and returns x and w.
     #[inline(never)]
     fn one_by_one(&self, modes: &Modes, s: &Step) -> (Many, Many) {
         let (mut x, mut w) = (self.x, self.w);
@@ -151,7 +151,7 @@ impl Group {
         }
         (x, w)
     }
-    /// Steps of which some are long, each as its length asks for.
+    /// Crosses steps of which some are long, each by the form for its length.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn any<S: pulp::Simd>(&mut self, simd: S, c: &Constants<'_>, block: &Block<'_>, trace: &mut Trace) -> [Many; 2] {
@@ -185,7 +185,7 @@ impl Group {
         }
         [high, low]
     }
-    /// h, X₀ and f₁X₁ of a short step for one vector of the machine.
+    /// Returns h, X₀ and f₁X₁ of a short step for one vector of the machine.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn integrals<S: pulp::Simd, const N: usize>(&self, simd: S, c: &Constants<'_>, s: &Step, i: usize) -> [S::f64s; 3] {
@@ -199,7 +199,7 @@ impl Group {
         let f1 = simd.mul_f64s(simd.splat_f64s(-s.slope), square_inverse);
         [h, x0, simd.mul_f64s(f1, x1)]
     }
-    /// x and w after one step.
+    /// Returns x and w after one step.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn step<S: pulp::Simd>(
@@ -225,7 +225,8 @@ impl Group {
         let dw = simd.mul_add_f64s(x0, push, simd.mul_f64s(plus, ramp));
         (simd.add_f64s(x, dx), simd.add_f64s(w, simd.mul_add_f64s(h, pull, dw)))
     }
-    /// All steps of a block; what there is at the ends of each goes into `trace`. The largest and smallest samples.
+    /// Crosses all steps of a block, stores the state at the ends of each in `trace`, and returns the largest and
+    /// smallest samples.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn through<S: pulp::Simd>(
@@ -248,12 +249,13 @@ impl Group {
             None => self.any(simd, c, block, trace),
         }
     }
-    /// Terms of the series that a time needs at the highest frequency; `None` if it is too long.
+    /// Returns the number of terms of the series that a time needs at the highest frequency; `None` if the time is too
+    /// long.
     fn terms(&self, modes: &Modes, time: f64) -> Option<usize> {
         let s = (1.0 + 2.0 * modes.zeta) * self.omega.iter().copied().fold(0.0, f64::max) * time;
         SHORT.iter().find(|(up_to, _)| s <= *up_to).map(|(_, terms)| *terms)
     }
-    /// Whether no oscillator can reach a new extreme within a block, also between samples.
+    /// Returns whether no oscillator can reach a new extreme within a block, also between samples.
     ///
     /// √(x² + y²) grows by no more than the velocity that the acceleration adds; q stays below a multiple of it, and
     /// within reach of where it begins.
@@ -281,7 +283,7 @@ impl Group {
         }
         !stays.contains(&0)
     }
-    /// Across a block in one leap or in a few, if they are short enough.
+    /// Crosses a block in one leap or in a few, and returns whether they are short enough.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn leap<S: pulp::Simd>(&mut self, simd: S, c: &Constants<'_>, block: &Block<'_>) -> bool {
@@ -321,7 +323,7 @@ impl Group {
             }
         }
     }
-    /// Numbers too small for full speed are nothing.
+    /// Sets numbers too small for full speed to 0.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn flush(&mut self) {
@@ -330,8 +332,8 @@ impl Group {
             self.w[l] = if self.w[l].abs() < TINY { 0.0 } else { self.w[l] };
         }
     }
-    /// How far each quantity can rise between the samples of a block above the largest of them; nothing where it stays
-    /// within what it has reached before.
+    /// Returns bounds on the rise of each quantity between the samples of a block above the largest of them; `None`
+    /// where it stays within its earlier range.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn bumps(&self, modes: &Modes, block: &Block<'_>, trace: &Trace, [high, low]: &[Many; 2]) -> [Option<f64>; WIDTH] {
@@ -345,7 +347,7 @@ impl Group {
             let v = x[l].abs() + y.abs() + block.added;
             let (f, slope) = (block.peak * self.inverse[l], block.steepest * self.square_inverse[l]);
             let q = if high[l] > -low[l] { high[l] } else { -low[l] };
-            bump[l] = share_of_bend(self.omega[l] * block.longest) * (q + modes.bend_beside(self.row, v, f, slope));
+            bump[l] = share_of_bend(self.omega[l] * block.longest) * (q + modes.bend_bound(self.row, v, f, slope));
             let rises = u64::from(high[l] + bump[l] > self.high[l]) | u64::from(low[l] - bump[l] < self.low[l]);
             let far = u64::from(reach * v > self.high[l]) | u64::from(reach * v > -self.low[l]);
             may[l] = rises & far;
@@ -390,21 +392,22 @@ impl Group {
             (self.low[l], self.peaks[l].low) = (low.value, low);
         }
     }
-    /// How far the quantity can rise within one step that begins with `m`, above `q`, what it reaches at its ends.
+    /// Returns a bound on the rise of the quantity within one step that begins with `m`, above `q`, the larger of its
+    /// values at the ends.
     fn bump(&self, modes: &Modes, l: usize, m: Motion, s: &Step, q: f64) -> f64 {
         let peak = s.from.abs().max(s.to.abs());
         let v = m.x.abs() + (m.w - modes.sigma * m.x).abs() + s.dt * peak;
         let (f, slope) = (peak * self.inverse[l], s.slope.abs() * self.square_inverse[l]);
-        share_of_bend(self.omega[l] * s.dt) * (q + modes.bend_beside(self.row, v, f, slope))
+        share_of_bend(self.omega[l] * s.dt) * (q + modes.bend_bound(self.row, v, f, slope))
     }
 }
 
-/// The first `N` terms of a series in powers of `t`, whose square is given: even and odd ones side by side, that fewer
-/// wait for another.
+/// Returns the sum of the first `N` terms of a series in powers of `t`, whose square is given: even and odd ones side
+/// by side, so that fewer wait for another.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
 fn series<S: pulp::Simd, const N: usize>(simd: S, terms: &[Many; TERMS], t: S::f64s, square: S::f64s) -> S::f64s {
-    // A loop, where closures of an iterator would not take on the instruction set.
+    // This is a loop: closures of an iterator would not take on the instruction set.
     let mut sums = [S::as_simd_f64s(&terms[N - 1]).0[0], S::as_simd_f64s(&terms[N - 2]).0[0]];
     for k in (0..N - 2).rev() {
         let sum = &mut sums[(N - 1 - k) % 2];
@@ -414,11 +417,11 @@ fn series<S: pulp::Simd, const N: usize>(simd: S, terms: &[Many; TERMS], t: S::f
     simd.mul_add_f64s(odd, t, even)
 }
 
-/// The same of terms that are there once.
+/// Returns the same sum for terms that are stored once.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
 fn powers<S: pulp::Simd, const N: usize>(simd: S, terms: &[f64; TERMS], t: S::f64s, square: S::f64s) -> S::f64s {
-    // A loop, where closures of an iterator would not take on the instruction set.
+    // This is a loop: closures of an iterator would not take on the instruction set.
     let mut sums = [simd.splat_f64s(terms[N - 1]), simd.splat_f64s(terms[N - 2])];
     for k in (0..N - 2).rev() {
         let sum = &mut sums[(N - 1 - k) % 2];
@@ -428,7 +431,7 @@ fn powers<S: pulp::Simd, const N: usize>(simd: S, terms: &[f64; TERMS], t: S::f6
     simd.mul_add_f64s(odd, t, even)
 }
 
-/// One group through some blocks, on the widest instructions of the machine.
+/// The run of one group through some blocks, on the widest instructions of the machine.
 pub(super) struct Run<'a> {
     pub(super) group: &'a mut Group,
     pub(super) constants: Constants<'a>,

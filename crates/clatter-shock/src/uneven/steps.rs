@@ -1,12 +1,12 @@
-//! The steps of an uneven record, and what they do to every part.
+//! The steps of an uneven record, and their effect on every part.
 
 use super::BLOCK;
 use crate::eight::{Many, WIDTH};
 use crate::suspension::Modes;
 
-/// Terms of the series at most.
+/// The most terms of the series.
 pub(super) const TERMS: usize = 24;
-/// Steps that are taken in one leap at most, and where that is too long.
+/// Numbers of steps in one leap, the second where the first is too long.
 const LEAPS: [usize; 2] = [BLOCK, BLOCK / 4];
 /// Places and weights of eight points in (0, 1) whose weighted sum is the integral of any polynomial up to degree 15
 /// (Gauss–Legendre).
@@ -43,16 +43,16 @@ pub(super) struct Step {
     pub(super) slope: f64,
 }
 
-/// Steps that follow one another, and bounds on what they do.
+/// Steps that follow one another, and bounds on their effect.
 #[derive(Debug)]
 pub(super) struct Block<'a> {
     pub(super) steps: &'a [Step],
     pub(super) longest: f64,
-    /// The integral of the absolute acceleration, at most.
+    /// Bound on the integral of the absolute acceleration.
     pub(super) added: f64,
     pub(super) peak: f64,
     pub(super) steepest: f64,
-    /// Of each length of [`LEAPS`], and the time that the longest takes.
+    /// Leaps of each length of [`LEAPS`], and the longest time of one.
     pub(super) leaps: [(f64, Vec<Leap>); LEAPS.len()],
 }
 
@@ -78,7 +78,7 @@ impl<'a> Block<'a> {
     }
 }
 
-/// What several steps do to a part at rest, for every frequency: powers of their phase.
+/// The effect of several steps on a part at rest, for every frequency: powers of their phase.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Leap {
     pub(super) span: f64,
@@ -88,8 +88,8 @@ pub(super) struct Leap {
 }
 
 impl Leap {
-    /// The response −∫ a h dt by the series of h, each power integrated over the steps. Eight points a step leave out
-    /// less than 10⁻¹⁷ of it.
+    /// Returns the response −∫ a h dt by the series of h, each power integrated over the steps. The error of eight
+    /// points a step is less than 10⁻¹⁷ of it.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn new(series: &Series, steps: &[Step]) -> Self {
@@ -138,8 +138,8 @@ impl pulp::WithSimd for Leaps<'_> {
     }
 }
 
-/// Responses from rest by powers of τ: X₀/τ², X₁/τ³, h/τ and w of an impulse. Eight times each, as instructions of eight
-/// numbers take them.
+/// Responses from rest by powers of τ: X₀/τ², X₁/τ³, h/τ and w of an impulse. Each is stored eight times, for
+/// instructions of eight numbers.
 #[derive(Debug, Clone)]
 pub(super) struct Series {
     pub(super) x0: [Many; TERMS],
@@ -149,7 +149,7 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// X₁ = Σ aₖτᵏ solves X₁″ + 2ζX₁′ + X₁ = τ; X₀ is its derivative, h that of X₀, and w = h′ + σh.
+    /// Creates the series. X₁ = Σ aₖτᵏ solves X₁″ + 2ζX₁′ + X₁ = τ; X₀ is its derivative, h that of X₀, and w = h′ + σh.
     pub(super) fn new(modes: &Modes) -> Self {
         let none = [[0.0; WIDTH]; TERMS];
         let mut series = Self { x0: none, x1: none, h: none, w: none };

@@ -24,7 +24,7 @@ struct Four {
     dy: [f64; WIDTH],
     g: [f64; WIDTH],
     kappa: f64,
-    /// What g is multiplied by a step.
+    /// Factor of g in a step.
     decay: f64,
     /// c, or h0.
     time: f64,
@@ -37,18 +37,18 @@ pub(crate) struct Fours {
     n: u64,
     wave: bool,
     four: Four,
-    /// Whether neighboring times may differ by less than their errors.
+    /// True if neighboring times may differ by less than their errors.
     pub(crate) crowded: bool,
-    /// What x and y of a decay are multiplied by before they are added up: αλ₊, σ.
+    /// Factors of x and y of a decay before they are added up: αλ₊, σ.
     sum: [f64; 2],
     /// θ of a wave.
     theta: f64,
-    /// Of a turn by jθ of a wave: 1 − cos and sin. Of a decay: (1 − ρʲ)/(1 − ρ) and ρʲ.
+    /// Turn by jθ of a wave: 1 − cos and sin. Turn of a decay: (1 − ρʲ)/(1 − ρ) and ρʲ.
     turns: [[f64; 2]; WIDTH],
 }
 
 impl Four {
-    /// Strikes of a wave. What is carried on is held in variables, so that it need not go through memory.
+    /// Computes strikes of a wave. The state is held in variables, so that it need not go through memory.
     fn turn<const N: usize>(&mut self, approach: &mut [f64; N], times: &mut [f64; N]) {
         let Self { mut x, mut dx, mut y, mut dy, mut g, kappa, decay, time } = *self;
         for (approach, times) in approach.as_chunks_mut::<WIDTH>().0.iter_mut().zip(times.as_chunks_mut::<WIDTH>().0) {
@@ -65,7 +65,7 @@ impl Four {
         *self = Self { x, dx, y, dy, g, kappa, decay, time };
     }
 
-    /// Strikes of a decay.
+    /// Computes strikes of a decay.
     fn grow<const N: usize>(&mut self, sum: [f64; 2], approach: &mut [f64; N], times: &mut [f64; N]) {
         let Self { mut x, mut y, dy, mut g, kappa, decay, time, .. } = *self;
         for (approach, times) in approach.as_chunks_mut::<WIDTH>().0.iter_mut().zip(times.as_chunks_mut::<WIDTH>().0) {
@@ -75,7 +75,7 @@ impl Four {
                 times[i] = time * (y[i] / sum);
                 g[i] *= decay;
                 y[i] += dy[i] * x[i];
-                // Before it is subnormal, and slow, it is nothing beside y.
+                // x is set to 0 before it is subnormal, and slow; it is negligible beside y then.
                 x[i] = if x[i] > 1e-290 { x[i] * kappa } else { 0.0 };
             }
         }
@@ -91,32 +91,32 @@ impl Four {
 /// ```text
 /// κ_1 = D/(2e + T√e),  κ_2m = κ_m(4 − κ_m),  Δ_m x_n = x_{n+m} − x_n,  Δ_2m x_n = (2 − κ_m) Δ_m x_n − κ_m x_n.
 /// ```
-/// The Casoratian of this wave and that of the heights is constant, so that times are sums of what is positive:
-/// t_{n+1} − t_n = h0/(α√e x_n x_{n+1}).
+/// The Casoratian of this wave and that of the heights is constant, so that times are sums of positive terms: t_{n+1} −
+/// t_n = h0/(α√e x_n x_{n+1}).
 #[derive(Debug, Clone)]
 pub(crate) struct Sweep {
     x: [f64; WIDTH],
     dx: [f64; WIDTH],
     g: [f64; WIDTH],
     kappa: f64,
-    /// What g is multiplied by a step.
+    /// Factor of g in a step.
     decay: f64,
     /// h0/(α√e).
     unit: f64,
-    /// Of the first of the four.
+    /// Time of the first of the four.
     time: f64,
-    /// A larger x is known well enough for the time of its strike.
+    /// The x above which the time of a strike is known well enough.
     clear: f64,
 }
 
-/// How a stretch of a [`Sweep`] ends.
+/// The reason for the end of a stretch of a [`Sweep`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Then {
     /// The train goes on.
     On,
     /// The train has ended.
     End,
-    /// What comes next needs more digits.
+    /// The next strikes need more digits.
     Doubt,
 }
 
@@ -127,17 +127,17 @@ impl Sweep {
     /// A strike with a smaller x over its amplitude is left to the closed form. The time of others was off by no more
     /// than 1.6e−12.
     const CLEAR: f64 = power_of_two(-11);
-    /// What x over its amplitude is never off by.
+    /// An error that x over its amplitude never reaches.
     const ALLOWED: f64 = 1e-12;
 
-    /// Whether a sweep may be the way to go, cos² θ from 0.990025 to 0.99994: π/408 < θ < 0.1. Trains with larger θ
-    /// have 31 impacts at most.
+    /// Returns whether a sweep may do, cos² θ from 0.990025 to 0.99994: π/408 < θ < 0.1. Trains with larger θ have 31
+    /// impacts at most.
     #[inline]
     pub(crate) fn suits(bar: &Symmetric) -> bool {
         (bar.t * bar.t.abs() - 3.97993 * bar.e).abs() < 0.01983 * bar.e
     }
 
-    /// None for other trains than those of a wave of up to some hundred strikes.
+    /// Creates a sweep; `None` for other trains than those of a wave of up to some hundred strikes.
     #[inline]
     pub(crate) fn new(bar: &Symmetric, start: &Start) -> Option<Self> {
         let (e, [va, vb]) = (bar.e, start.velocity());
@@ -148,7 +148,7 @@ impl Sweep {
         let (root, beta) = (e.sqrt(), vb / va);
         let kappa = compensated(bar.wide_q(), e, e) / (2.0 * e + bar.t * root);
         let kappa_2 = kappa * (4.0 - kappa);
-        // A step of one, from which those of four follow.
+        // A step of one strike comes first; those of four follow from it.
         let (mut v, mut step) = (1.0, 1.0 - kappa + beta / root);
         let slope = step + 0.5 * kappa;
         let amplitude = 1.0 + 4.0 * slope * slope / kappa_2;
@@ -174,7 +174,7 @@ impl Sweep {
         })
     }
 
-    /// Approach velocities and times of the next four strikes, and of how many of them they hold.
+    /// Returns approach velocities and times of the next four strikes, and how many of the four are valid.
     #[inline]
     pub(crate) fn take(&mut self) -> ([[f64; WIDTH]; 2], usize, Then) {
         let Self { x, unit, time, .. } = *self;
@@ -202,7 +202,7 @@ impl Sweep {
 }
 
 impl Fours {
-    /// With index `n` as the first of the four.
+    /// Creates the four, with index `n` as the first.
     pub(crate) fn new(drive: &Drive, n: u64) -> Self {
         let h0 = drive.start.height_gap();
         let wave = matches!(drive.kind, Kind::Wave(_));
@@ -211,7 +211,8 @@ impl Fours {
         match drive.kind {
             Kind::Wave(wave) => {
                 theta = wave.theta;
-                // Of halves of the turns, by doubling and adding: sums of what is not negative, for θ < π/3.
+                // The halves of the turns come from doubling and adding: sums of terms that are not negative, for θ <
+                // π/3.
                 let (s, c) = sincos(0.5 * wave.theta);
                 let turn = |s: f64, c: f64| [2.0 * s * s, 2.0 * s * c];
                 let [v, w] = turn(s, c);
@@ -236,7 +237,7 @@ impl Fours {
         fours
     }
 
-    /// Approach velocities and times of the next strikes, four by four.
+    /// Computes approach velocities and times of the next strikes, four by four.
     pub(crate) fn take<const N: usize>(&mut self, drive: &Drive, approach: &mut [f64; N], times: &mut [f64; N]) {
         if self.wave {
             self.four.turn(approach, times);
@@ -249,7 +250,7 @@ impl Fours {
         }
     }
 
-    /// All four from the closed form at the first.
+    /// Computes all four anew from the closed form, at the index of the first.
     fn anchor(&mut self, drive: &Drive) {
         let n = to_f64(u128::from(self.n));
         match drive.kind {
@@ -263,7 +264,7 @@ impl Fours {
                 let error = if is_last { (ANGLE * share / left).min(1e-13) } else { 1e-13 };
                 let ([delta], _) = drive.remainders(&wave, [u128::from(self.n)], error);
                 let (turned, lead) = (n * wave.theta, phi + n * wave.theta);
-                // Each angle from the near end of its half turn, so that a small one is known to its last digit.
+                // Each angle counts from the near end of its half turn, so that a small one is known to its last digit.
                 (self.four.x, self.four.dx) = if lead < 1.0 { self.sines(lead, 1.0) } else { self.sines(delta, -1.0) };
                 (self.four.y, self.four.dy) =
                     if turned < 1.0 { self.sines(turned, 1.0) } else { self.sines(phi + delta, -1.0) };
@@ -282,8 +283,8 @@ impl Fours {
         }
     }
 
-    /// Sines of the angles `first` ± jθ, and what they grow by over the next 4θ. One sine and cosine, taken 2θ ahead,
-    /// give them all by turns that keep small angles exact.
+    /// Returns the sines of the angles `first` ± jθ, and their growth over the next 4θ. One sine and cosine, taken 2θ
+    /// ahead, give them all by turns that keep small angles exact.
     fn sines(&self, first: f64, sign: f64) -> ([f64; WIDTH], [f64; WIDTH]) {
         let [v2, w2] = self.turns[2];
         let (sin, cos) = sincos(first + sign * 2.0 * self.theta);

@@ -1,4 +1,4 @@
-//! The closed form against integer arithmetic, where it is hardest: next to the endless curve, in the corner
+//! Tests of the closed form against integer arithmetic in the hardest cases: next to the endless curve, in the corner
 //! (1, 1), next to ties, for starts that hardly end.
 
 use super::*;
@@ -6,10 +6,10 @@ use crate::accuracy;
 use crate::{Bar, Count, PeakImpact};
 use proptest::prelude::*;
 
-/// Bars on, next to and far from the endless curve q = 2√e/(1 + e), and in the corner (1, 1).
+/// Returns the bars on, next to and far from the endless curve q = 2√e/(1 + e), and in the corner (1, 1).
 fn bars() -> impl Strategy<Value = Symmetric> {
     let anywhere = (-0.999..1.0_f64, 0.0..1.0_f64).prop_map(|(q, e)| Bar::new(q, e).unwrap().symmetric);
-    // A relative distance of 10^-d to either side, down to neighboring floats.
+    // These lie a relative distance of 10^-d to either side of the curve, down to neighboring floats.
     let beside =
         (prop_oneof![0.0..1.0_f64, (-300.0..0.0_f64).prop_map(|x| 10f64.powf(x))], 1.0..17.0_f64, prop::bool::ANY);
     let beside = beside.prop_map(|(e, d, above)| {
@@ -41,7 +41,7 @@ fn bars() -> impl Strategy<Value = Symmetric> {
 fn starts(bar: Symmetric) -> impl Strategy<Value = Start> {
     let translation = Just(Start::default());
     let spin = (-3.0..3.0_f64).prop_map(|vb| Start::new([-1.0, vb], 1.0).unwrap());
-    // v_b a relative 10^-d beside λ₊ or T/2, where the train hardly ends.
+    // These lie a relative 10^-d beside λ₊ or T/2, where the train hardly ends.
     let edge = (0.0..17.0_f64, prop::bool::ANY, prop::bool::ANY).prop_map(move |(d, up, half)| {
         let t = bar.q * (1.0 + bar.e);
         let root = 0.5 * (t + if half { 0.0 } else { (t * t - 4.0 * bar.e).max(0.0).sqrt() });
@@ -87,7 +87,7 @@ fn drops() -> impl Strategy<Value = (Symmetric, Start)> {
     prop_oneof![3 => bars().prop_flat_map(|bar| (Just(bar), starts(bar))), 1 => off_center_drops()]
 }
 
-/// The time of strike n + 1 from integers.
+/// Returns the time of strike n + 1 from integers.
 fn exact_time(bar: &Symmetric, start: &Start, n: u128) -> f64 {
     let ((c, cx), (u, ux)) = exact(bar, start).values(n);
     let (nu, nx) = bar.exact_q().nu.to_float();
@@ -135,7 +135,7 @@ proptest! {
         }
     }
 
-    /// Of an endless train, 1000 strikes: their times against integers, at the allowed error.
+    /// Compares times of strikes with integers, at the allowed error; of an endless train, of 1000 strikes.
     #[test]
     fn strikes_and_ends_hold_the_allowed_errors((bar, start) in drops(), pick in 0.0..1.0_f64) {
         let s = bar.summary(&start);
@@ -170,7 +170,7 @@ proptest! {
         prop_assert!(s.count == Count::Endless || bar.train(&start).nth(usize::try_from(known).unwrap()).is_none(), "and no more");
     }
 
-    /// The peak and the final velocities against integers.
+    /// Compares the peak and the final velocities with integers.
     #[test]
     fn peaks_and_final_velocities_hold_the_allowed_errors((bar, start) in drops()) {
         if bar.exact_q().nu != Dyadic::from(1.0) {
@@ -198,7 +198,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
-    /// What a quotient of two angles is allowed, 24 roundings, leaves 4 to each.
+    /// The 24 roundings that a quotient of two angles is allowed leave 4 to each angle.
     #[test]
     fn an_angle_is_off_by_two_ulps_at_most(y in 0.0..1.0_f64, x in -1.0..1.0_f64, small in 0.0..20.0_f64) {
         for y in [y, y * 10f64.powf(-small)] {
@@ -210,7 +210,7 @@ proptest! {
         }
     }
 
-    /// Each way to D is as good as it says; the last is by integers.
+    /// Each way to D is as good as it claims; the last is by integers.
     #[test]
     fn a_discriminant_is_as_good_as_it_says((bar, _) in drops()) {
         if bar.t <= 0.0 || bar.e == 0.0 {
@@ -230,7 +230,7 @@ proptest! {
         prop_assert!(want.hi == 0.0 || off <= least, "compensated: {off:e}, not {least:e}");
     }
 
-    /// A count that is asked for by itself takes another way where it is a float.
+    /// A count that is computed by itself takes another way where it is a float.
     #[test]
     fn a_count_alone_is_that_of_the_end((bar, start) in drops()) {
         if bar.t > 0.0 && bar.e > 0.0 {
@@ -313,7 +313,7 @@ fn waves() -> impl Strategy<Value = (Symmetric, Start)> {
     wave.prop_map(|(x, e, beta, d, tie)| wave_of(if tie { x.floor() + 10f64.powf(-d) } else { x }, e, beta))
 }
 
-/// The bar and start for which ψ = nθ: the train ends with strike ⌈n⌉, next to a tie where n is hardly above an
+/// Returns the bar and start for which ψ = nθ: the train ends with strike ⌈n⌉, next to a tie where n is hardly above an
 /// integer.
 fn wave_of(n: f64, e: f64, beta: f64) -> (Symmetric, Start) {
     let (mut low, mut high) = (1e-5_f64, 1.5_f64);
@@ -327,7 +327,7 @@ fn wave_of(n: f64, e: f64, beta: f64) -> (Symmetric, Start) {
     (Bar::new(q.min(1.0), e).unwrap().symmetric, Start::new([-1.0, -beta], 1.0).unwrap())
 }
 
-/// Waves of 4 to 226 strikes whose last one is next to where plain steps give way to the closed form, or to a tie.
+/// Waves of 4 to 226 strikes whose last one is next to the limit of plain steps, or to a tie.
 fn hardly_clear() -> impl Strategy<Value = (Symmetric, Start)> {
     let e = prop_oneof![Just(1.0), 0.9..1.0_f64, 0.5..1.0_f64, 0.0101..0.5_f64];
     let n = prop_oneof![3..34_u32, 30..62_u32, 60..226_u32].prop_map(f64::from);
@@ -336,7 +336,7 @@ fn hardly_clear() -> impl Strategy<Value = (Symmetric, Start)> {
         .prop_map(|(n, e, beta, share)| wave_of(n + share * (n / 1024.0), e, beta))
 }
 
-/// Some strike and the first and last ones of a train, within a share of what is allowed.
+/// Checks some strike and the first and last ones of a train against a share of the allowed error.
 fn within(share: f64, bar: &Symmetric, start: &Start, at: prop::sample::Index) -> Result<(), TestCaseError> {
     let (exact, train) = (exact(bar, start), bar.train(start).take(1000).collect::<Vec<_>>());
     let n = train.len();
@@ -355,14 +355,14 @@ fn within(share: f64, bar: &Symmetric, start: &Start, at: prop::sample::Index) -
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Up to the last strike, near ties or not, and where the sweep leaves the last ones to the closed form; seen: a
-    /// sixth of what is allowed.
+    /// Strikes up to the last one are exact, near ties or not, and where the sweep leaves the last ones to the closed
+    /// form; seen: a sixth of the allowed error.
     #[test]
     fn strikes_of_waves_are_as_exact_as_allowed((bar, start) in waves(), at in any::<prop::sample::Index>()) {
         within(0.5, &bar, &start, at)?;
     }
 
-    /// As much a velocity cancels that plain steps still take, it is known; seen: a fifth of what is allowed.
+    /// A velocity that cancels as much as plain steps still take is exact; seen: a fifth of the allowed error.
     #[test]
     fn plain_steps_stop_in_time((bar, start) in hardly_clear(), at in any::<prop::sample::Index>()) {
         within(0.5, &bar, &start, at)?;
@@ -372,8 +372,8 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Next to q = e = 1 velocities rise to thousands of the first one; of the last strikes that first one counts;
-    /// seen: less than half of it.
+    /// Next to q = e = 1 velocities rise to thousands of the first one; errors of the last strikes are relative to that
+    /// first one; seen: less than half of the allowed error.
     #[test]
     fn late_strikes_are_as_exact_as_allowed(
         n in 3.0..4.3_f64,

@@ -1,4 +1,4 @@
-//! The atlas: what every direction of tilt leads to, from pure translation.
+//! The atlas: the words that every direction of tilt leads to, from pure translation.
 //!
 //! Let r = h_d/(h_b + h_d) be the direction, 0 where a and d land together, 1 where a and b do, ½ on the diagonal. After
 //! a word of corners the velocities are numbers that do not depend on r, and the intercepts are linear in it. So the time
@@ -21,24 +21,24 @@ use crate::exact::Dyadic;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Word {
-    /// Between these directions r = h_d/(h_b + h_d).
+    /// Begin of the interval of directions r = h_d/(h_b + h_d).
     pub from: f64,
-    /// End of the interval; where that of the next word begins.
+    /// End of the interval, and begin of that of the next word.
     pub to: f64,
     /// The corners in the order in which they strike.
     pub corners: Vec<Corner>,
-    /// Whether the plate has bounced clear after them; else it was followed no further.
+    /// True if the plate has bounced clear after them; else the train was followed no further.
     pub ended: bool,
     /// Largest shocks of corners a, b, c and d in their own strikes; 0 for a corner that does not strike.
     pub struck: [f64; 4],
     /// Largest shock of the center of mass.
     pub center: f64,
-    /// What no strike after the word gives a corner; 0 where it has ended.
+    /// Bound on the shock of a corner in strikes after the word; 0 where it has ended.
     pub later: f64,
 }
 
 impl Word {
-    /// Largest shock of a corner in its own strikes.
+    /// Returns the largest shock of a corner in its own strikes.
     #[must_use]
     pub fn peak(&self) -> f64 {
         self.struck.into_iter().fold(0.0, f64::max)
@@ -49,11 +49,12 @@ impl Word {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AtlasPeak {
-    /// Of a corner in its own strikes.
+    /// Largest shock of a corner in its own strikes.
     pub corner: f64,
-    /// Of the center of mass.
+    /// Largest shock of the center of mass.
     pub center: f64,
-    /// What no strike that was not followed gives a corner. Where it is not above `corner`, the worst case is proven.
+    /// Bound on the shock of a corner in strikes that were not followed. Where it is not above `corner`, the worst case
+    /// is proven.
     pub later: f64,
 }
 
@@ -64,25 +65,25 @@ pub struct Atlas {
     words: Vec<Word>,
 }
 
-/// So many words are listed at most; intervals beyond are followed no further.
+/// The largest number of words; intervals beyond are followed no further.
 const WORDS: usize = 1 << 16;
 
 impl Atlas {
-    /// The words in the order of their directions, from r = 0 to r = 1.
+    /// Returns the words in the order of their directions, from r = 0 to r = 1.
     #[must_use]
     pub fn words(&self) -> &[Word] {
         &self.words
     }
 
-    /// Largest shocks over all directions. Of a centered plate they are those of any first corner, of which each is
-    /// the mirror image of a.
+    /// Returns the largest shocks over all directions. For a centered plate they are those of any first corner, because
+    /// each corner is the mirror image of a.
     #[must_use]
     pub fn peak(&self) -> AtlasPeak {
         let most = |of: fn(&Word) -> f64| self.words.iter().map(of).fold(0.0, f64::max);
         AtlasPeak { corner: most(Word::peak), center: most(|word| word.center), later: most(|word| word.later) }
     }
 
-    /// Largest shocks of every corner in its own strikes over all directions, corner a first.
+    /// Returns the largest shocks of every corner in its own strikes over all directions, corner a first.
     #[must_use]
     pub fn shocks(&self) -> PlateShocks {
         let struck = std::array::from_fn(|j| self.words.iter().map(|word| word.struck[j]).fold(0.0, f64::max));
@@ -91,8 +92,8 @@ impl Atlas {
 }
 
 impl Plate {
-    /// The atlas of this plate, from pure translation at unit speed with corner a first, each word followed for at most
-    /// `limit` strikes.
+    /// Returns the atlas of this plate, from pure translation at unit speed with corner a first. Each word is followed
+    /// for at most `limit` strikes.
     ///
     /// # Accuracy
     /// The list of words is exact; ends of intervals are rounded to a few ε of 1, shocks to 1e−12 of the largest.
@@ -102,7 +103,7 @@ impl Plate {
     ///
     /// # Examples
     /// A uniform plate at e = 0.5 has seven words. In the middle third of the directions it rocks along its diagonal,
-    /// and there the hardest shocks are:
+    /// and the hardest shocks are there:
     /// ```
     /// let atlas = clatter::Plate::uniform(0.5)?.atlas(40)?;
     /// assert_eq!(atlas.words().len(), 7);
@@ -125,8 +126,8 @@ impl Plate {
         Ok(Atlas { plate: *self, words: words.unwrap_or_default() })
     }
 
-    /// The largest shocks over all directions of tilt and whichever corner lands first, from pure translation, each word
-    /// followed for at most `limit` strikes.
+    /// Returns the largest shocks over all directions of tilt and whichever corner strikes first, from pure
+    /// translation. Each word is followed for at most `limit` strikes.
     ///
     /// # Errors
     /// Those of [`Plate::atlas`].
@@ -136,7 +137,7 @@ impl Plate {
             let most = first.struck().into_iter().fold(0.0, f64::max);
             return Ok(PlateShocks::new(self, [most; 4], first.later()));
         }
-        // Seen in a mirror, another corner is a.
+        // In a mirror another corner is a.
         let (x, y) = (self.mirrored_x(), self.mirrored_y());
         let (mut struck, mut later) = (first.struck(), first.later());
         for (plate, names) in [(x, [1, 0, 3, 2]), (y, [3, 2, 1, 0]), (x.mirrored_y(), [2, 3, 0, 1])] {
@@ -158,8 +159,8 @@ struct Direction<T> {
 }
 
 impl<T: Number> Direction<T> {
-    /// Sign of r − s.
-    fn beside(&self, o: &Self) -> Option<Ordering> {
+    /// Returns the sign of r − s.
+    fn compare(&self, o: &Self) -> Option<Ordering> {
         self.n.times(&o.d).minus(&o.n.times(&self.d)).sign()
     }
     fn value(&self) -> f64 {
@@ -190,7 +191,7 @@ struct State<T> {
 }
 
 impl<T: Number> State<T> {
-    /// Sign of t_i − t_j as a form in r.
+    /// Returns t_i − t_j up to a positive factor, as a linear form in r.
     fn difference(&self, i: usize, j: usize) -> Line<T> {
         let of = |p: &[T; 4]| p[j].times(&self.v[i]).minus(&p[i].times(&self.v[j]));
         Line { a: of(&self.a), b: of(&self.b) }
@@ -210,7 +211,7 @@ struct Survey<'a, T> {
 }
 
 impl<'a, T: Number> Survey<'a, T> {
-    /// All words; `None` where these numbers have too few digits.
+    /// Returns all words; `None` where these numbers have too few digits.
     fn words(plate: &'a Plate, limit: usize) -> Option<Vec<Word>> {
         let corners = |x: [f64; 4]| x.map(T::exactly);
         let start = State {
@@ -227,7 +228,7 @@ impl<'a, T: Number> Survey<'a, T> {
         Some(survey.words)
     }
 
-    /// Corner j strikes next between these directions.
+    /// Follows a strike of corner j, the next one between these directions.
     fn strike(&mut self, state: &State<T>, j: usize, lo: &Direction<T>, hi: &Direction<T>) -> Option<()> {
         let shock = (-1.0 - self.plate.e) * state.v[j].over(&state.scale).hi;
         let mut struck = state.struck;
@@ -240,7 +241,7 @@ impl<'a, T: Number> Survey<'a, T> {
         done
     }
 
-    /// What may come after the word between these directions.
+    /// Follows the strikes that may come after the word between these directions.
     fn follow(&mut self, state: &State<T>, last: usize, lo: &Direction<T>, hi: &Direction<T>) -> Option<()> {
         let (mut falling, mut n) = ([0; 3], 0);
         for i in (0..4).filter(|i| *i != last) {
@@ -263,7 +264,7 @@ impl<'a, T: Number> Survey<'a, T> {
         self.strike(state, next, &from, hi)
     }
 
-    /// The corner whose line is lowest just above a direction.
+    /// Returns the corner whose line is lowest just above a direction.
     fn soonest(state: &State<T>, falling: &[usize], r: &Direction<T>) -> Option<usize> {
         let mut best = falling[0];
         for &i in &falling[1..] {
@@ -277,8 +278,8 @@ impl<'a, T: Number> Survey<'a, T> {
         Some(best)
     }
 
-    /// Where the lowest line meets the next one before `hi`, and the corner of that. One that is lower at `hi` and was not
-    /// before meets it on the way.
+    /// Returns the direction where the lowest line meets the next one before `hi`, and the corner of that. A line that
+    /// is lower at `hi` and was not before meets it on the way.
     #[expect(clippy::option_option, reason = "a doubt, none, or where and which")]
     fn overtaken(
         state: &State<T>,
@@ -293,7 +294,7 @@ impl<'a, T: Number> Survey<'a, T> {
                 continue;
             }
             let meet = Direction { n: line.a, d: T::exactly(0.0).minus(&line.b) };
-            let order = first.as_ref().map_or(Some(Ordering::Less), |(known, _)| meet.beside(known))?;
+            let order = first.as_ref().map_or(Some(Ordering::Less), |(known, _)| meet.compare(known))?;
             let sooner = match (order, &first) {
                 // Three lines in one point: the one that is lower after it.
                 (Ordering::Equal, Some((_, other))) => state.difference(i, *other).b.sign()? == Ordering::Less,

@@ -1,4 +1,4 @@
-//! Trains of a plate that never end, and what they tend to.
+//! Trains of a plate that never end, and their limits.
 //!
 //! # A word that repeats itself
 //! Let M be the product of the matrices of one round of a word of three or four corners, with eigenvalues λ₁ > λ₂ > |λ₃| and
@@ -20,23 +20,23 @@ use nalgebra::{Matrix3, Vector3};
 use super::train::Heights;
 use super::{Plate, PlateStart, PlateTrain};
 
-/// What an endless train tends to.
+/// The limit of an endless train.
 pub(super) struct Limit {
     pub(super) time: f64,
     pub(super) velocity: [f64; 4],
-    /// What no later shock of each corner exceeds; 0 for one that strikes no more.
+    /// Bound on the later shocks of each corner; 0 for one that strikes no more.
     pub(super) later: [f64; 4],
-    /// What no shock after the limit exceeds: 0 unless a corner still comes down then.
+    /// Bound on the shocks after the limit: 0 unless a corner still comes down then.
     pub(super) after: f64,
 }
 
-/// Velocities and intervals of time that decide it must differ by this share of themselves.
+/// The least relative difference of velocities and intervals of time that decides.
 const CLEAR: f64 = 1e-9;
-/// Longest word whose repetition is looked for.
+/// The longest word whose repetition is tested.
 const LONGEST: usize = 32;
 
 impl Plate {
-    /// What a train tends to, if it is proven endless after this word.
+    /// Returns the limit of a train, if it is proven endless after this word.
     pub(super) fn limit(&self, start: &PlateStart, word: &[usize], train: &PlateTrain<'_>) -> Option<Limit> {
         let n = word.len();
         let repeats = |period: usize| word[n - 3 * period..].windows(period + 1).all(|w| w[0] == w[period]);
@@ -48,8 +48,9 @@ impl Plate {
         self.endless_word(&word[n - period..], &train.velocities(), &train.heights())
     }
 
-    /// Whether a plate that is its own mirror image across the diagonal from a to c has landed on these two corners
-    /// alone. The other two then share one height, half the sum of those of a and c, and never touch before them.
+    /// Returns whether the plate is its own mirror image across the diagonal from a to c and has struck on these two
+    /// corners alone. The other two then share one height, half the sum of those of a and c, and never touch before
+    /// them.
     fn is_mirrored(&self, start: &PlateStart, word: &[usize]) -> bool {
         let diagonal = word.iter().all(|j| *j == 0 || *j == 2);
         let ([_, vb, vd], [hx, hy]) = (start.velocity, start.ordering_gaps());
@@ -59,14 +60,14 @@ impl Plate {
         }
     }
 
-    /// Whether corners i and j, of which j has just struck and i is next, alternate for ever.
+    /// Returns the limit if corners i and j alternate for ever, where j has just struck and i is next.
     ///
     /// In units of √w both obey the recurrence of an off-center bar, a_{n+1} = T a_n − e a_{n−1} with T = −(1 + e)
     /// w_i(j)/√(w_i(i) w_j(j)). It must stay negative for ever, and no other corner may reach the ground before the time
     /// that the strikes tend to, even if it fell as fast as it ever may.
     fn endless_pair(&self, [i, j]: [usize; 2], mirrored: bool, v: &[f64; 4], p: &[f64; 4]) -> Option<Limit> {
         let e = self.e;
-        // By the square roots of their weights both corners obey one recurrence.
+        // In units of the square roots of their weights both corners obey one recurrence.
         let root = [self.weight[i].sqrt(), self.weight[j].sqrt()];
         let t = -self.jump[i][j] * root[0] / root[1];
         let square = t * t - 4.0 * e;
@@ -81,10 +82,10 @@ impl Plate {
         if fast > CLEAR * v0 {
             return None;
         }
-        // With e = 0 all is over at the instant at which i strikes.
+        // With e = 0 all is over at the instant of the strike of i.
         let time = -of_p / fast;
         let now = if v[j] > 0.0 { -p[j] / v[j] } else { time };
-        // What both give in all, each a multiple of its jumps, so that both come to rest.
+        // The sums of all strikes of both, each a multiple of its jumps, bring both to rest.
         let (m, by_j, by_i) = (1.0 + e, self.jump[j][i], self.jump[i][j]);
         let d = m * m - by_j * by_i;
         if d < CLEAR * m * m && !mirrored {
@@ -110,14 +111,15 @@ impl Plate {
         Some(Limit { time, velocity, later, after })
     }
 
-    /// Corner values after a strike at corner j.
+    /// Returns the corner values after a strike at corner j.
     fn struck_once(&self, x: [f64; 4], j: usize) -> [f64; 4] {
         let mut after = std::array::from_fn(|i| x[i] - self.jump[j][i] * x[j]);
         after[j] = -self.e * x[j];
         after
     }
 
-    /// Whether this word of three or four corners, which has just ended, repeats itself for ever (see the module).
+    /// Returns the limit if this word of three or four corners, which has just ended, repeats itself for ever (see the
+    /// module).
     fn endless_word(&self, word: &[usize], v: &[f64; 4], now: &Heights) -> Option<Limit> {
         let corners = |[a, b, d]: [f64; 3]| [a, b, b + d - a, d];
         let plane = |x: &[f64; 4]| Vector3::new(x[0], x[1], x[3]);
@@ -135,7 +137,7 @@ impl Plate {
         let (xi, eta) = (inverse * plane(v), inverse * plane(&now.corners));
         let wait = -eta[0] / xi[0];
         let sigma = [0.0, eta[1] + wait * xi[1], eta[2] + wait * xi[2]];
-        // Heights must not be roundings.
+        // Heights must exceed their roundings.
         if !(wait > 0.0 && sigma[1].abs() > 1e4 * now.off) {
             return None;
         }
@@ -158,12 +160,12 @@ impl Plate {
     }
 }
 
-/// Whether a term is positive and larger than all others together, roundings put aside.
+/// Returns whether a term is positive and larger than all others together, with a margin for roundings.
 fn clearly_positive(term: f64, others: &[f64]) -> bool {
     term > others.iter().map(|x| x.abs()).sum::<f64>() * (1.0 + 1e-6)
 }
 
-/// A vector of length 1 that a singular matrix takes to 0: across its rows.
+/// Returns a vector of length 1 that a singular matrix takes to 0: it is perpendicular to its rows.
 fn null_vector(matrix: &Matrix3<f64>) -> Vector3<f64> {
     let row = |i: usize| matrix.row(i % 3).transpose();
     let across = [0, 1, 2].map(|i| row(i).cross(&row(i + 1)));

@@ -1,4 +1,4 @@
-//! Numbers that know how far off they may be, and the state of a plate after a word of corners in such numbers.
+//! Numbers that carry a bound on their error, and the state of a plate after a word of corners in such numbers.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
@@ -7,18 +7,18 @@ use super::Plate;
 use crate::dd::{Dd, ldexp, two_sum};
 use crate::exact::{Dyadic, clamp};
 
-/// A number whose sign is certain or known to be in doubt.
+/// A number whose sign is either certain or known to be in doubt.
 pub(super) trait Number: Clone {
-    /// A float without error.
+    /// Creates the number from a float, without error.
     fn exactly(x: f64) -> Self;
     fn plus(&self, o: &Self) -> Self;
     fn minus(&self, o: &Self) -> Self;
     fn times(&self, o: &Self) -> Self;
-    /// `None` where more digits are needed.
+    /// Returns the sign, or `None` where more digits are needed.
     fn sign(&self) -> Option<Ordering>;
-    /// `self/o`, rounded.
+    /// Returns `self/o`, rounded.
     fn over(&self, o: &Self) -> Dd;
-    /// What strikes do to velocities and intercepts.
+    /// Returns the maps of velocities and intercepts by strikes.
     fn strikes(plate: &Plate) -> Strikes<Self>;
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Strikes<T> {
 }
 
 impl<T: Number> Strikes<T> {
-    /// The state after a strike at corner j.
+    /// Returns the state after a strike at corner j.
     #[inline]
     pub(super) fn strike(&self, x: &[T; 4], j: usize) -> [T; 4] {
         let zero = || T::exactly(0.0);
@@ -44,13 +44,14 @@ impl<T: Number> Strikes<T> {
             self.keep.as_ref().map_or_else(|| x[i].minus(&jump), |keep| keep[j].times(&x[i]).minus(&jump))
         })
     }
-    /// By what everything is larger than it is after a strike at j.
+    /// Returns the factor by which a strike at j scales the state; `None` for numbers that are not scaled.
     pub(super) fn factor(&self, j: usize) -> Option<&T> {
         self.keep.as_ref().map(|keep| &keep[j])
     }
 }
 
-/// Which of two falling corners reaches the ground first: the sign of t_i − t_j, t = −p/v, of velocities below 0.
+/// Compares the times at which two falling corners reach the ground: the sign of t_i − t_j, t = −p/v, of velocities
+/// below 0.
 #[inline]
 pub(super) fn sooner<T: Number>(v: &[T; 4], p: &[T; 4], i: usize, j: usize) -> Option<Ordering> {
     p[j].times(&v[i]).minus(&p[i].times(&v[j])).sign()
@@ -60,7 +61,7 @@ pub(super) fn sooner<T: Number>(v: &[T; 4], p: &[T; 4], i: usize, j: usize) -> O
 pub(super) trait Digits:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Into<f64>
 {
-    /// What an operation rounds at most, over its result.
+    /// Bound on the rounding of an operation, over its result.
     const UNIT: f64;
     fn of(x: Dd) -> Self;
     fn wide(self) -> Dd;
@@ -98,7 +99,7 @@ pub(super) struct Ball<M> {
     pub(super) off: f64,
 }
 
-/// What the sums of errors are themselves rounded by, at most.
+/// Factor for the rounding of the sums of errors themselves.
 const ROUNDED: f64 = 1.0 + 1e-14;
 
 impl<M: Digits> Ball<M> {
@@ -107,7 +108,7 @@ impl<M: Digits> Ball<M> {
         let size: f64 = middle.into();
         Self { middle, off: (off + M::UNIT * size.abs()) * ROUNDED }
     }
-    /// A double-double that is itself off by no more than this.
+    /// Creates the ball of a double-double with at most this error.
     fn of(x: Dd, off: f64) -> Self {
         Self::rounded(M::of(x), off)
     }
@@ -192,7 +193,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The same sums and products in other numbers.
+    /// Computes the same sums and products in any kind of numbers.
     fn form<T: Number>(x: &[f64]) -> T {
         let terms: Vec<T> = x.iter().map(|x| T::exactly(*x)).collect();
         terms.iter().skip(1).enumerate().fold(terms[0].clone(), |sum, (k, term)| match k % 3 {
@@ -221,7 +222,7 @@ mod tests {
             }
         }
 
-        /// Numbers that cancel to nothing, and to next to nothing.
+        /// It covers numbers that cancel to 0, and to next to 0.
         #[test]
         fn no_sign_is_told_that_is_not_certain(x in 0.1..2.0_f64, y in 0.1..2.0_f64) {
             prop_assert_eq!(form::<Ball<f64>>(&[x, y]).minus(&form(&[y, x])).sign(), None);

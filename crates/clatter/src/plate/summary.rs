@@ -1,18 +1,18 @@
-//! What the train of a plate amounts to.
+//! Summaries of the train of a plate.
 
 use super::endless::Limit;
 use super::{Corner, Plate, PlateImpact, PlateShocks, PlateStart};
 
-/// How many impacts a plate has.
+/// The number of impacts of a plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum PlateCount {
-    /// Exactly so many.
+    /// The exact number of impacts.
     Finite(u64),
-    /// Proven without end: some corners strike in the same order for ever.
+    /// A train proven without end: some corners strike in the same order for ever.
     Endless,
-    /// More than were followed.
+    /// More impacts than were followed.
     MoreThan(u64),
 }
 
@@ -28,8 +28,8 @@ pub struct PlatePeak {
     pub struck: Corner,
     /// Largest shock of the center of mass, (1 + e)|v_j|/w_j(j).
     pub center: f64,
-    /// What no later strike exceeds, where the train was not followed to its end: (1 + e) √w_j(j) times the root of twice
-    /// the kinetic energy that is left, per mass. 0 after the last strike.
+    /// Bound on the shocks of later strikes, where the train was not followed to its end: (1 + e) √w_j(j) times the
+    /// root of twice the kinetic energy that is left, per mass. 0 after the last strike.
     pub later: f64,
 }
 
@@ -43,24 +43,25 @@ pub struct PlateSummary {
     /// Largest shocks.
     pub peak: PlatePeak,
     /// Velocities of the corners after the last impact, or the limit they tend to; `None` where the train was not
-    /// followed to its end. Where a corner still comes down in the limit, it strikes after the endless train, on a plate
-    /// that rests on two others: that is not followed, and bounded by [`PlatePeak::later`].
+    /// followed to its end. A corner that still comes down in the limit strikes after the endless train, on a plate
+    /// that rests on two others: that strike is not followed, and bounded by [`PlatePeak::later`].
     pub final_velocity: Option<[f64; 4]>,
     /// Largest shocks of every corner in its own strikes.
     struck: [f64; 4],
-    /// What strikes that were not followed give a corner at most, 0 where they are known to be less than `struck`.
+    /// Bound on the shock of a corner in strikes that were not followed, 0 where they are known to be less than
+    /// `struck`.
     open: f64,
 }
 
-/// Strikes after which a train is first asked whether it is endless; then at every power of two.
-const FIRST_ASKED: u64 = 8;
+/// The number of strikes after which a train is first checked for an end; later checks are at every power of two.
+const FIRST_CHECK: u64 = 8;
 
 impl Plate {
-    /// Count, peaks, final velocities and duration, following at most so many impacts.
+    /// Returns count, peaks, final velocities and duration, of at most so many impacts.
     ///
     /// # Method
-    /// The train is followed, and asked after 8, 16, 32 … strikes whether what it does has no end: two corners that
-    /// alternate as an endless bar, or a word of three or four corners that repeats itself and shrinks as it does.
+    /// The train is followed, and checked after 8, 16, 32 … strikes for having no end: two corners that alternate as an
+    /// endless bar, or a word of three or four corners that repeats itself and shrinks.
     ///
     /// # Examples
     /// The diagonal of a uniform plate is a bar with q = 5/7, endless from e = 0.17657 down:
@@ -76,7 +77,7 @@ impl Plate {
         let mut train = self.train(start);
         let mut struck = [0.0_f64; 4];
         let mut peak = PlatePeak { corner: 0.0, impact: 0, struck: Corner::A, center: 0.0, later: 0.0 };
-        let (mut word, mut duration, mut ask) = (Vec::new(), 0.0, FIRST_ASKED);
+        let (mut word, mut duration, mut next_check) = (Vec::new(), 0.0, FIRST_CHECK);
         while (word.len() as u64) < most {
             let Some(PlateImpact { number, corner, approach, time, .. }) = train.next() else { break };
             duration = time;
@@ -87,11 +88,11 @@ impl Plate {
             if shock > peak.corner {
                 (peak.corner, peak.impact, peak.struck) = (shock, number, corner);
             }
-            if number == ask {
-                ask *= 2;
+            if number == next_check {
+                next_check *= 2;
                 let limit = self.limit(start, &word, &train);
                 let less = |limit: &Limit| (0..4).all(|j| limit.later[j] <= struck[j]);
-                if let Some(limit) = limit.filter(|limit| ask > most || less(limit)) {
+                if let Some(limit) = limit.filter(|limit| next_check > most || less(limit)) {
                     peak.later = limit.later.into_iter().fold(limit.after, f64::max);
                     let duration = if start.is_flat() { 0.0 } else { limit.time };
                     let (count, final_velocity) = (PlateCount::Endless, Some(limit.velocity));
@@ -116,14 +117,14 @@ impl Plate {
         }
     }
 
-    /// The largest shocks of one drop everywhere on the plate, of at most so many impacts.
+    /// Returns the largest shocks of one drop everywhere on the plate, of at most so many impacts.
     #[must_use]
     pub fn shocks(&self, start: &PlateStart, most: u64) -> PlateShocks {
         let summary = self.summary(start, most);
         PlateShocks::new(self, summary.struck, summary.open)
     }
 
-    /// What no strike exceeds after these velocities.
+    /// Returns a bound on the shocks of strikes after these velocities.
     pub(super) fn later(&self, velocities: &[f64; 4]) -> f64 {
         (1.0 + self.e) * self.heaviest.sqrt() * self.norm(*velocities)
     }

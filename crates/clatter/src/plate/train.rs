@@ -24,23 +24,23 @@ use later::{Found, Later};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlateImpact {
-    /// From 1.
+    /// Number of the impact, from 1.
     pub number: u64,
     /// The corner that strikes.
     pub corner: Corner,
-    /// Since the first contact, in gaps over velocities.
+    /// Time since the first contact, in gaps over velocities.
     pub time: f64,
     /// Velocity of the corner just before, negative.
     pub approach: f64,
     /// Jumps of the velocities of corners a, b, c and d.
     pub delta_v: [f64; 4],
-    /// Whether another corner comes down at the very same instant. The order is then that of a tilt that differs by next
-    /// to nothing: h_d larger, or from h_b = 0 on h_b larger.
+    /// True if another corner comes down at the very same instant. The order is then that of a tilt that differs by
+    /// next to nothing: h_d larger, or from h_b = 0 on h_b larger.
     pub tie: bool,
 }
 
 impl PlateImpact {
-    /// Velocity shock at the place (x, y) in [−1, 1]²: the plane through the jumps of the corners.
+    /// Returns the velocity shock at the place (x, y) in [−1, 1]²: the plane through the jumps of the corners.
     #[must_use]
     pub fn delta_v_at(&self, [x, y]: [f64; 2]) -> f64 {
         let [a, b, c, d] = self.delta_v;
@@ -59,17 +59,17 @@ pub struct PlateTrain<'a> {
     undecided: bool,
 }
 
-/// The state in plain floats, and which corner is next.
+/// The state in plain floats, and the next corner.
 #[derive(Debug, Clone)]
 struct Steps {
     v: [f64; 4],
     p: [f64; 4],
     next: Next,
-    /// Of the next strike, and of the latest.
+    /// Times of the next strike and of the latest one.
     time: f64,
     latest: f64,
     tie: bool,
-    /// Strikes so far.
+    /// Number of strikes so far.
     strikes: f64,
     spread: Spread,
 }
@@ -81,7 +81,7 @@ enum Next {
     Doubt,
 }
 
-/// Bounds of what the values of corners are off by after some strikes.
+/// Bounds of the errors of corner values after some strikes.
 #[derive(Debug, Clone, Copy)]
 struct Spread {
     /// 2K + 1.
@@ -108,21 +108,21 @@ impl Spread {
     }
 }
 
-/// A time that may be off by more than this of itself, or of the drop's own, is worked out with more digits. Roundings
-/// hardly ever add up as they may: times that pass are off by less than 1e−10.
+/// A time whose bound of error is above this share of itself, or of the time scale of the drop, is computed with more
+/// digits. Roundings hardly ever add up to their bound: times that pass are off by less than 1e−10.
 const TIME: f64 = 1e-8;
 
-/// The larger of two numbers, neither of them NaN.
+/// Returns the larger of two numbers, neither of them NaN.
 #[inline]
 fn most(x: f64, y: f64) -> f64 {
     if x > y { x } else { y }
 }
 
-/// Which corners keep their velocity but for the jump, by the corner that strikes.
+/// Factors of the old velocities, by the corner that strikes: 0 for that corner, 1 for the others.
 const KEEP: [[f64; 4]; 4] = [[0.0, 1.0, 1.0, 1.0], [1.0, 0.0, 1.0, 1.0], [1.0, 1.0, 0.0, 1.0], [1.0, 1.0, 1.0, 0.0]];
 
 impl Steps {
-    /// A strike at corner j: what it changes, and the choice of the next.
+    /// Applies a strike at corner j, chooses the next corner, and returns the jumps of all corners.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as `next`")]
     fn strike(&mut self, plate: &Plate, j: usize) -> [f64; 4] {
@@ -138,8 +138,8 @@ impl Steps {
         delta_v
     }
 
-    /// The next corner after a strike at `last`, and whether no other may come before it. Which is next is a branch, so
-    /// that the processor goes on with the likely one while roundings are looked at.
+    /// Chooses the next corner after a strike at `last`, or a doubt where another may come before it. The choice is a
+    /// branch, so that the processor goes on with the likely one while roundings are checked.
     #[inline(always)]
     #[expect(clippy::needless_bitwise_bool, reason = "each is cheaper than a branch")]
     #[expect(clippy::inline_always, reason = "as `next`")]
@@ -162,7 +162,7 @@ impl Steps {
             return;
         }
         let end = time + off(next, time);
-        // At that time no other corner is at the ground or below, whatever the roundings.
+        // At that time no other corner is at the ground or below, even with all roundings.
         let clear =
             (0..4).fold(true, |clear, i| clear & ((p[i] + end * v[i] > dp + end * dv) | (i == next) | (i == last)));
         let exact = end - time <= TIME * most(time, self.spread.time);
@@ -171,7 +171,7 @@ impl Steps {
     }
 }
 
-/// Where the corners are at the latest strike, and by how much that may be off.
+/// Heights of the corners at the latest strike, and a bound on their error.
 pub(super) struct Heights {
     pub(super) time: f64,
     pub(super) corners: [f64; 4],
@@ -179,25 +179,25 @@ pub(super) struct Heights {
 }
 
 impl PlateTrain<'_> {
-    /// Whether the train was given up: double-double numbers leave a doubt about the next corner, and whole ones have got
-    /// too long, after some 1000 strikes.
+    /// Returns whether the train was given up: double-double numbers leave a doubt about the next corner, and whole
+    /// ones have got too long, after some 1000 strikes.
     #[must_use]
     pub fn undecided(&self) -> bool {
         self.undecided
     }
 
-    /// Velocities of the corners after the impacts so far.
+    /// Returns the velocities of the corners after the impacts so far.
     #[must_use]
     pub fn velocities(&self) -> [f64; 4] {
         self.later.as_ref().map_or(self.steps.v, |later| later.v.map(|ball| ball.middle.hi))
     }
 
-    /// Heights at time 0 of the lines along which the corners now move.
+    /// Returns the heights, extrapolated to time 0, of the lines along which the corners now move.
     pub(super) fn intercepts(&self) -> [f64; 4] {
         self.later.as_ref().map_or(self.steps.p, |later| later.p.map(|ball| ball.middle.hi))
     }
 
-    /// Heights at the latest strike.
+    /// Returns the heights at the latest strike.
     pub(super) fn heights(&self) -> Heights {
         let largest = |p: &[f64; 4]| p.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
         let Some(later) = &self.later else {
@@ -215,7 +215,7 @@ impl PlateTrain<'_> {
         Heights { time: time.hi, corners: heights, off: 1e-27 * largest(&p.map(|p| p.hi)) }
     }
 
-    /// Whether the plate has bounced clear: no impact is left.
+    /// Returns whether the plate has bounced clear: no impact is left.
     pub(super) fn ended(&self) -> bool {
         let mut ahead = self.clone();
         ahead.next().is_none() && !ahead.undecided
@@ -281,19 +281,19 @@ impl Iterator for PlateTrain<'_> {
 }
 
 impl Plate {
-    /// The impacts of one drop, corner a first, by themselves.
+    /// Returns the impacts of one drop, corner a first, by themselves.
     ///
     /// # Method
-    /// See the module: no corner is taken to be next while roundings leave a doubt. Ties are told and settled by the
-    /// limit of a tilt that differs by next to nothing; a flat drop is the limit of a vanishing tilt along the diagonal,
-    /// strike by strike at time 0.
+    /// As the module says, no corner counts as the next while roundings leave a doubt. Ties are reported, and settled
+    /// by the limit of a tilt that differs by next to nothing; a flat drop is the limit of a vanishing tilt along the
+    /// diagonal, strike by strike at time 0.
     ///
     /// # Accuracy
-    /// The order is exact. Velocities to 1e−11 of the largest at the start, times to 1e−10 of the larger of themselves
-    /// and the time in which the gaps close (1e−8 proven).
+    /// The order is exact. Velocities are exact to 1e−11 of the largest at the start, times to 1e−10 of the larger of
+    /// themselves and the time in which the gaps close (1e−8 proven).
     ///
     /// # Examples
-    /// A uniform plate that lands with b twice as high as d:
+    /// A uniform plate strikes with b twice as high as d:
     /// ```
     /// use clatter::{Plate, PlateStart};
     /// let plate = Plate::uniform(0.5)?;

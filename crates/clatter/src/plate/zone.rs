@@ -26,13 +26,13 @@ pub struct PlateShocks {
     later: f64,
 }
 
-/// Where on the plate no shock exceeds a threshold.
+/// The part of the plate where no shock exceeds a threshold.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlateZone {
     /// Threshold of velocity shock, in v0.
     pub threshold: f64,
-    /// What the polygon means for the plate.
+    /// The share of the plate that the polygon covers.
     pub extent: Extent,
     /// Corners of the safe zone in half-lengths and half-widths from the middle, counterclockwise; none where nothing is
     /// safe.
@@ -46,32 +46,34 @@ impl PlateShocks {
         Self { plate: *plate, struck, later }
     }
 
-    /// Largest shocks of corners a, b, c and d in their own strikes, S_j; 0 for a corner that never strikes.
+    /// Returns the largest shocks of corners a, b, c and d in their own strikes, S_j; 0 for a corner that never
+    /// strikes.
     #[must_use]
     pub fn struck(&self) -> [f64; 4] {
         self.struck
     }
 
-    /// What strikes that were not followed give a corner at most; 0 where all were followed, or are known to be less.
+    /// Returns a bound on the shock of a corner in strikes that were not followed; 0 where all were followed, or are
+    /// known to be less.
     #[must_use]
     pub fn later(&self) -> f64 {
         self.later
     }
 
-    /// Largest velocity shock at the place (x, y) in [−1, 1]² (Eq. 4).
+    /// Returns the largest velocity shock at the place (x, y) in [−1, 1]² (Eq. 4).
     #[must_use]
     pub fn at(&self, place: [f64; 2]) -> f64 {
         let of = |corner: Corner| self.plate.share(corner, place).abs() * self.struck[corner as usize];
         Corner::ALL.map(of).into_iter().fold(0.0, f64::max)
     }
 
-    /// The polygon where no shock exceeds `threshold` (Eq. 5), and its share of the plate.
+    /// Returns the polygon where no shock exceeds `threshold` (Eq. 5), and its share of the plate.
     ///
     /// # Accuracy
-    /// Corners of the polygon to some ε of where the lines of two strips meet; a threshold of NaN has no zone.
+    /// Corners of the polygon are exact to some ε of the crossing of two lines; a threshold of NaN has no zone.
     ///
     /// # Examples
-    /// Where a bar has no safe zone for half the drop speed, the plate that it stands for has one:
+    /// A plate may have a safe zone for half the drop speed where the bar that stands for it has none:
     /// ```
     /// use clatter::{Bar, Extent, Plate, Start};
     /// let plate = Plate::uniform(0.3)?.worst(40)?;
@@ -104,7 +106,7 @@ impl PlateShocks {
     }
 }
 
-/// What of a convex polygon is on the side where a linear form is not negative.
+/// Returns the part of a convex polygon on the side where a linear form is not negative.
 fn clipped(polygon: &[[f64; 2]], form: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
     let mut rest = Vec::with_capacity(polygon.len() + 1);
     for (i, &to) in polygon.iter().enumerate() {
@@ -121,7 +123,7 @@ fn clipped(polygon: &[[f64; 2]], form: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]
     rest
 }
 
-/// Area of a polygon whose corners go around counterclockwise.
+/// Returns the area of a polygon whose corners go around counterclockwise.
 fn area(polygon: &[[f64; 2]]) -> f64 {
     let Some(&[x0, y0]) = polygon.first() else { return 0.0 };
     let fan = polygon.windows(2).map(|w| {

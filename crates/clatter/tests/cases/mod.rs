@@ -20,7 +20,7 @@ pub(crate) struct Case {
     pub(crate) approach: Vec<String>,
     pub(crate) times: Vec<String>,
     pub(crate) peak_end_dv: String,
-    /// From 1, or a word where it is a limit.
+    /// Number of the impact of the peak, from 1, or a word where it is a limit.
     pub(crate) peak_index: Value,
     pub(crate) duration: String,
     #[serde(rename = "final")]
@@ -42,7 +42,7 @@ enum Final {
 }
 
 impl Case {
-    /// Number of impacts, `None` if they never end.
+    /// Returns the number of impacts, `None` if they never end.
     pub(crate) fn count(&self) -> Option<u64> {
         match &self.impacts {
             Impacts::Finite(n) => Some(*n),
@@ -53,17 +53,17 @@ impl Case {
         }
     }
 
-    /// Whether it is held to what is promised up to 10⁴ impacts.
+    /// Returns whether the case is held to the errors that are promised up to 10⁴ impacts.
     pub(crate) fn is_short(&self) -> bool {
         self.count().is_none_or(|n| n <= SHORT)
     }
 
-    /// Whether the start is within 1e−9 of the edge of endless.
+    /// Returns whether the start is within 1e−9 of the edge of endless.
     pub(crate) fn is_at_the_edge(&self) -> bool {
         self.name.starts_with("spun-out")
     }
 
-    /// Final velocities of both ends, `None` where they do not settle.
+    /// Returns the final velocities of both ends, `None` where they do not settle.
     pub(crate) fn last(&self) -> Option<[f64; 2]> {
         match &self.last {
             Final::Settled([a, b]) => Some([decimal(a), decimal(b)]),
@@ -75,7 +75,7 @@ impl Case {
     }
 }
 
-/// All of them.
+/// Returns all of them.
 pub(crate) fn cases() -> Vec<Case> {
     #[derive(Deserialize)]
     struct Oracle {
@@ -86,7 +86,7 @@ pub(crate) fn cases() -> Vec<Case> {
     cases
 }
 
-/// Read to the nearest float; out of range becomes 0 or infinite.
+/// Reads the nearest float; out of range becomes 0 or infinite.
 pub(crate) fn decimal(text: &str) -> f64 {
     text.parse().expect("a decimal number")
 }

@@ -10,7 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Of the balls; the ground is as much lower.
+/// Radius of the balls; the ground is as much lower.
 const RADIUS_M: f64 = 1e-3;
 /// Changes of velocity below this share of the speed are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -21,7 +21,7 @@ struct Input {
     drops: Vec<Drop>,
     /// Starts, in steps of travel above the first touch.
     lifted_steps: Vec<f64>,
-    /// How long the first start is run again for its least time on the processor.
+    /// Time for which the first start is run again for its least time on the processor.
     timed_s: f64,
 }
 
@@ -56,7 +56,7 @@ struct Answer {
     peaks_m_s: Vec<f64>,
 }
 
-/// The world, its body and the shapes at the corners, or the one of a cuboid.
+/// Returns the world, its body and the shapes at the corners, or the one of a cuboid.
 fn world(
     setting: &Setting,
     drop: &Drop,

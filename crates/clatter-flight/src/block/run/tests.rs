@@ -1,24 +1,24 @@
-//! What is said of a box that comes to rest, beside what it does then.
+//! Tests of boxes that come to rest: their later motion keeps the stated bounds.
 
 use super::*;
 use crate::ContactLaw;
 
 const GRAVITY: f64 = 9.81;
 
-/// Evenly spread mass.
+/// Returns a block of evenly spread mass.
 fn block(size: [f64; 3]) -> Block {
     let [x, y, z] = size.map(|side| side * side / 12.0);
     Block::new(size, [0.0; 3], [y + z, x + z, x + y].map(f64::sqrt)).unwrap()
 }
 
-/// The fastest corner, up or down.
+/// Returns the speed of the fastest corner, up or down.
 fn fastest(run: &Run<'_>) -> f64 {
     let speed = |corner: [f64; 3]| System::place(&run.y, corner).1.abs();
     run.system.corners.map(speed).into_iter().fold(0.0, f64::max)
 }
 
-/// Followed on after it was said to be at rest, no corner is ever faster than a shock of the bound makes it. A sheet that is set on its
-/// long edge stands for a while, and falls over.
+/// A box that is followed on after its rest never has a corner faster than a shock of the bound makes it. A sheet that
+/// is set on its long edge stands for a while, and falls over.
 #[test]
 fn nothing_after_rest_passes_its_bound() {
     let handheld = ([0.15, 0.07, 0.014], 0.3);
@@ -46,7 +46,7 @@ fn nothing_after_rest_passes_its_bound() {
         let until = run.now + 0.2;
         while run.now < until {
             run.step(&mut |_| ());
-            // A shock of the bound stops what comes at this speed and gives back the restitution of it.
+            // A shock of the bound stops a corner of this speed and gives back its restitution.
             let most = bound / (1.0 + run.restitution);
             assert!(fastest(&run) <= most * (1.0 + 1e-6), "{n}: {} m/s at {} s, not {most}", fastest(&run), run.now);
         }
@@ -55,7 +55,7 @@ fn nothing_after_rest_passes_its_bound() {
     assert!(rested > 30, "{rested} of 40 came to rest");
 }
 
-/// What a pressed corner is said to part at is where it parts, also in the dent of an earlier press.
+/// A pressed corner parts at the predicted height, also in the dent of an earlier press.
 #[test]
 fn dents_add_up() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
@@ -63,7 +63,7 @@ fn dents_add_up() {
     let mut run = Run::new(&drop, &contacts);
     run.first_touches();
     let i = run.strikes[0].corner;
-    // Two presses by 10 µm, of which a quarter springs back.
+    // These are two presses by 10 µm, of which a quarter springs back.
     for dent in [-7.5e-6, -15e-6] {
         run.system.holds[i].hold = Hold::Unloads(1e-5);
         assert!((run.system.dent(i, &run.y) - dent).abs() < 1e-15);
@@ -72,7 +72,7 @@ fn dents_add_up() {
     }
 }
 
-/// Each step may be off by little: their sum ends the flight.
+/// Each step may have a small error: their sum ends the flight.
 #[test]
 fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
@@ -84,7 +84,8 @@ fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
     }
 }
 
-/// Without gravity a box that rises is left once its center of mass is higher than it reaches: before, a corner may come down again.
+/// Without gravity a box that rises is left once its center of mass is higher than its reach: before, a corner may come
+/// down again.
 #[test]
 fn without_gravity_it_is_clear_where_no_corner_reaches_the_ground() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, 0.0).unwrap();
@@ -97,7 +98,7 @@ fn without_gravity_it_is_clear_where_no_corner_reaches_the_ground() {
     }
 }
 
-/// A box that spins lands with a corner faster than its center of mass, by no more than is reckoned with.
+/// A box that spins lands with a corner faster than its center of mass, within the bound of the engine.
 #[test]
 fn no_corner_of_a_spinning_box_is_faster_than_reckoned_with() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();

@@ -1,11 +1,11 @@
-//! What the ground may not do to the energy of a body.
+//! Tests that the ground does not change the energy of a body without reason.
 
 use super::super::planar::Planar;
 use super::*;
 use crate::ContactLaw;
 use crate::{Profile, Scene};
 
-/// A flight whose end a has just touched, and the phase in which it presses.
+/// Returns a flight whose end a has just touched, and the phase in which it presses.
 fn pressing<'a>(scene: &Scene<2>, contacts: &'a [Contact; 2]) -> (Run<'a, Planar<2>, 2>, Phase<Planar<2>, 2>, f64) {
     let log = Log::new(f64::INFINITY, 100_000);
     let mut run = Run::new(Planar::start(scene), log, contacts, 1e-4);
@@ -18,12 +18,13 @@ fn scene() -> Scene<2> {
     Scene::new(Profile::new(0.15, 0.045).unwrap(), 0.3, 4.0, 3.0, 9.81).unwrap()
 }
 
-/// A phase whose springs are said to be half as stiff again as those that the motion is of gives the body energy that nothing put in.
+/// A phase whose springs are claimed to be half as stiff again as those of its motion gives the body energy from
+/// nowhere.
 #[test]
 fn a_phase_that_makes_energy_is_no_motion() {
     let contacts = [Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap(); 2];
     let (mut run, phase, dt) = pressing(&scene(), &contacts);
-    // As the spring is pressed.
+    // The spring is still pressed then.
     let dt = 0.5 * dt;
     run.advance(&phase, dt).unwrap();
     assert!(run.misfit < 1e-6 * run.opened, "a sound phase keeps it: {}", run.misfit / run.opened);
@@ -35,7 +36,7 @@ fn a_phase_that_makes_energy_is_no_motion() {
     assert!(share > 0.01 && share < 1.0, "{share}");
 }
 
-/// Each of many phases may be off by little: their sum ends the flight.
+/// Each of many phases may have a small error: their sum ends the flight.
 #[test]
 fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
     let contacts = [Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap(); 2];

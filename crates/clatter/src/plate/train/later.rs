@@ -36,13 +36,13 @@ pub(super) struct Exact {
     done: usize,
 }
 
-/// What comes next, as far as it is known: none where the train has ended.
+/// The next strike, as far as it is known: no corner where the train has ended.
 pub(super) struct Found {
     pub(super) corner: Option<usize>,
     pub(super) tie: bool,
 }
 
-/// Corner values of a start, with c from the plane of the others.
+/// Returns the corner values of a start, with c from the plane of the others.
 fn corners<T: Number>([a, b, d]: [f64; 3]) -> [T; 4] {
     let [a, b, d] = [a, b, d].map(T::exactly);
     let c = b.plus(&d).minus(&a);
@@ -62,7 +62,7 @@ impl Exact {
         }
     }
 
-    /// On to the end of a word; whether that takes no more digits than are allowed.
+    /// Follows the strikes up to the end of a word, and returns whether that took no more digits than are allowed.
     pub(super) fn follow(&mut self, word: &[u8]) -> bool {
         for &j in &word[self.done..] {
             if self.v.iter().any(|v| v.bits() > DIGITS) {
@@ -108,7 +108,7 @@ impl Exact {
         found
     }
 
-    /// The values of corners, each to the digits of a double-double.
+    /// Returns the values of corners, each to the digits of a double-double.
     fn rounded(&self, x: &[Dyadic; 4]) -> [Ball<Dd>; 4] {
         std::array::from_fn(|i| {
             let middle = x[i].over(&self.scale);
@@ -134,7 +134,7 @@ impl Later {
         self.word.last().map(|j| usize::from(*j))
     }
 
-    /// The next corner without a doubt; `None` where double-double numbers leave one.
+    /// Returns the next corner if double-double numbers leave no doubt, else `None`.
     fn clear(&self) -> Option<Found> {
         let (mut found, last) = (Found { corner: None, tie: false }, self.last());
         for i in (0..4).filter(|i| Some(*i) != last) {
@@ -160,7 +160,7 @@ impl Later {
         -self.p[j].over(&self.v[j]).hi
     }
 
-    /// The next corner, at last by whole numbers; `None` where these are too long.
+    /// Returns the next corner, if need be by whole numbers; `None` where these are too long.
     pub(super) fn next(&mut self, plate: &Plate, start: &PlateStart) -> Option<Found> {
         if self.word.is_empty() {
             return Some(Found { corner: Some(0), tie: false });
@@ -172,7 +172,7 @@ impl Later {
         if !exact.follow(&self.word) {
             return None;
         }
-        // From here on with all digits again.
+        // The double-double numbers begin again from all digits.
         (self.v, self.p) = (exact.rounded(&exact.v), exact.rounded(&exact.p));
         let last = self.word.last().map(|j| usize::from(*j));
         let found = exact.next(last);
@@ -190,13 +190,13 @@ impl Later {
         self.word.push(j as u8);
     }
 
-    /// Whether whole numbers were needed.
+    /// Returns whether whole numbers were needed.
     #[cfg(test)]
     pub(super) fn is_exact(&self) -> bool {
         self.exact.is_some()
     }
 
-    /// How many corners may come down, the one that has just struck left out.
+    /// Returns the number of corners that may come down, without the one that has just struck.
     pub(super) fn falling(&self) -> usize {
         (0..4).filter(|i| Some(*i) != self.last() && self.v[*i].middle.hi < 0.0).count()
     }

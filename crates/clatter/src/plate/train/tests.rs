@@ -60,7 +60,7 @@ proptest! {
     }
 }
 
-/// So many digits that no more are allowed: the train is given up, and says so.
+/// A train that needs more digits than allowed is given up, and reports it.
 #[test]
 fn a_train_of_too_many_digits_is_given_up() {
     let plate = Plate::off_center([0.3, 0.8], [0.1, -0.1], 1e-300).unwrap();

@@ -1,4 +1,4 @@
-//! How errors, counts and digits are told on the page.
+//! Formats of errors, counts and digits on the page.
 
 use clatter::accuracy::{DURATION_LONG, NEAR_ENDLESS};
 use clatter_figures::raised;
@@ -8,10 +8,10 @@ use super::big::Big;
 use super::digits;
 use super::miscount;
 use super::part::Cell;
-use super::train::{Case, Found, Judged, Way};
+use super::train::{Case, Comparison, Found, Way};
 use crate::files::decimals;
 
-/// A number with one digit and its power of ten, rounded by `round`.
+/// Returns a number with one digit and its power of ten, rounded by `round`.
 fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> String {
     let mut exponent = value.abs().log10().floor();
     // Read back from its decimals, so that 1e−10 is 1 and not 1.000…1.
@@ -29,12 +29,12 @@ fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> String {
     if (first - 1.0).abs() < 0.5 { power } else { format!("{first}·{power}") }
 }
 
-/// A number as one digit and a power of ten.
+/// Returns a number as one digit and a power of ten.
 pub(super) fn power(value: f64) -> String {
     one_digit(value, f64::round)
 }
 
-/// An error from above: `ε` for a rounding or less, else one digit that it stays below.
+/// Returns an upper bound of an error as text: `ε` for a rounding or less, else one digit and a power of ten.
 pub(super) fn upper(error: f64) -> String {
     match error {
         x if !x.is_finite() => "∞".into(),
@@ -43,7 +43,7 @@ pub(super) fn upper(error: f64) -> String {
     }
 }
 
-/// What an error looks like on the page: within what is allowed, or not; nothing promised.
+/// Returns the state of an error on the page: within the allowed one, or beyond; free where nothing is promised.
 fn state(allowed: Option<f64>, error: f64) -> &'static str {
     match allowed {
         None => "free",
@@ -52,7 +52,7 @@ fn state(allowed: Option<f64>, error: f64) -> &'static str {
     }
 }
 
-pub(super) fn judged(j: &Judged) -> Value {
+pub(super) fn error_cell(j: &Comparison) -> Value {
     let Some(error) = j.error else { return Value::Null };
     let mark = match j.allowed {
         Some(DURATION_LONG) => "long",
@@ -85,7 +85,7 @@ pub(super) fn count(found: Found) -> String {
     }
 }
 
-/// What is not pure translation from h0.
+/// Returns the start, unless it is pure translation from h0.
 pub(super) fn start(case: &Case) -> String {
     let [va, vb] = case.velocity;
     #[expect(clippy::float_cmp, reason = "the default, to the bit")]
@@ -98,14 +98,14 @@ pub(super) fn start(case: &Case) -> String {
 }
 
 pub(super) fn pair(cell: &Cell) -> Value {
-    let told = |error: f64| json!({ "shown": upper(error), "state": state(Some(cell.allowed), error) });
-    json!({ "ours": told(cell.ours), "plain": cell.plain.map(told) })
+    let shown = |error: f64| json!({ "shown": upper(error), "state": state(Some(cell.allowed), error) });
+    json!({ "ours": shown(cell.ours), "plain": cell.plain.map(shown) })
 }
 
-/// Digits that are shown of a number.
+/// Number of digits that are shown of a number.
 const DIGITS: u32 = 16;
 
-/// A value as its digits: those that it shares with the exact one, the others, the power of ten.
+/// Returns a value as its digits: those that it shares with the exact one, the others, the power of ten.
 pub(super) fn written(exact: &digits::Value, value: &digits::Value) -> Value {
     let digits = |value: &digits::Value| match value {
         digits::Value::Number(x) => Ok(number(x)),
@@ -126,7 +126,7 @@ pub(super) fn written(exact: &digits::Value, value: &digits::Value) -> Value {
     }
 }
 
-/// Sign and digits with a point after the first, and the power of ten if it is not 0.
+/// Returns the sign and digits with a point after the first, and the power of ten if it is not 0.
 fn number(x: &Big) -> (String, String) {
     let (digits, power) = x.decimal(DIGITS);
     let (first, rest) = digits.split_at(1);
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn errors_are_told_from_above() {
-        let told = [0.0, 2.2e-16, 3.1e-16, 1e-10, 9.5e-13, 0.031, 0.95, 3.2, 4567.0, f64::NAN].map(upper);
-        assert_eq!(told, ["ε", "ε", "4·10⁻¹⁶", "10⁻¹⁰", "10⁻¹²", "0.04", "1", "4", "5·10³", "∞"]);
+        let shown = [0.0, 2.2e-16, 3.1e-16, 1e-10, 9.5e-13, 0.031, 0.95, 3.2, 4567.0, f64::NAN].map(upper);
+        assert_eq!(shown, ["ε", "ε", "4·10⁻¹⁶", "10⁻¹⁰", "10⁻¹²", "0.04", "1", "4", "5·10³", "∞"]);
     }
 }

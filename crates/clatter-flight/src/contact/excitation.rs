@@ -1,4 +1,4 @@
-//! What a place of the body feels in a flight with contacts.
+//! The excitation of a place on the body in a flight with contacts.
 
 use clatter::{Excitation, Section, Sine};
 
@@ -7,37 +7,38 @@ use super::phase::Phase;
 use super::{Level, Phases, Planar, Pose};
 use crate::motion::{Course, FeetMotion, PlateMotion};
 
-/// Over a contact, what is so short that nothing is spread over it.
+/// Share of a contact time below which a phase is too short to spread an error over it.
 const SHORT: f64 = 0.1;
-/// Straight lines for one phase at most.
+/// The most straight lines for one phase.
 const MOST_LINES: f64 = 1e5;
 
-/// How closely straight lines follow damped vibrations.
+/// Accuracy of straight lines through damped vibrations.
 struct Lines {
-    /// What each may miss, over `most`.
+    /// Largest error of each line, over `most`.
     straight: f64,
     /// Largest acceleration so far.
     most: f64,
 }
 
 impl<const N: usize, P: Pose<N>> Phases<N, P> {
-    /// What a place feels, in m from the center of mass: of a body seen from the side x and z, of a plate x and y.
+    /// Returns the excitation of a place, in m from the center of mass: for a body seen from the side x and z, for a
+    /// plate x and y.
     pub(crate) fn felt(&self, place: [f64; 2]) -> Excitation {
         let velocity = |pose: &P| pose.velocity_of(place);
-        self.sections(velocity, self.end.gravity(), |phase, span, lines, felt| {
+        self.sections(velocity, self.end.gravity(), |phase, span, lines, excitation| {
             let section = Section::shock(span[0], span[1], 0.0);
             if phase.is_free() {
-                let (turns, changed) = phase.start.flying_felt(place, section.length);
-                felt.push(Section { sines: &[turns], free: true, ..section });
+                let (turns, changed) = phase.start.flying_excitation(place, section.length);
+                excitation.push(Section { sines: &[turns], free: true, ..section });
                 return changed;
             }
             let of = phase.start.couplings_of(&phase.arms, place);
             let steady = phase.start.turning(&phase.arms, place) + phase.steady(&of);
-            phase.sum_of_modes(&phase.felt_by(&of), steady, section, lines, felt)
+            phase.sum_of_modes(&phase.by_modes(&of), steady, section, lines, excitation)
         })
     }
-    /// What an angular velocity goes through, in rad where [`felt`](Self::felt) has m, by what a force of 1 over the mass at each
-    /// point does to it.
+    /// Returns the angular acceleration, in rad where [`felt`](Self::felt) has m, from the effect on it of a force of 1
+    /// over the mass at each point.
     fn turned_by(&self, spin: impl Fn(&P) -> f64, of: impl Fn(&Phase<P, N>) -> [f64; N]) -> Excitation {
         self.sections(spin, 0.0, |phase, span, lines, turned| {
             let section = Section::shock(span[0], span[1], 0.0);
@@ -46,11 +47,12 @@ impl<const N: usize, P: Pose<N>> Phases<N, P> {
                 return 0.0;
             }
             let of = of(phase);
-            phase.sum_of_modes(&phase.felt_by(&of), phase.steady(&of), section, lines, turned)
+            phase.sum_of_modes(&phase.by_modes(&of), phase.steady(&of), section, lines, turned)
         })
     }
-    /// Of every phase what `add` appends, which returns what that changes `velocity` by, besides gravity. What is missing to the
-    /// motion is spread over the phase, or over the next one that is not far shorter than a contact.
+    /// Returns the sections that `add` appends for every phase; `add` returns their change of `velocity`, gravity
+    /// aside. The difference to the motion is spread over the phase, or over the next one that is not far shorter than
+    /// a contact.
     fn sections(
         &self,
         velocity: impl Fn(&P) -> f64,
@@ -76,27 +78,28 @@ impl<const N: usize, P: Pose<N>> Phases<N, P> {
 }
 
 impl<const N: usize> Phases<N, Planar<N>> {
-    /// The angular acceleration of the body, in rad where [`felt`](Self::felt) has m.
+    /// Returns the angular acceleration of the body, in rad where [`felt`](Self::felt) has m.
     pub(crate) fn turned(&self) -> Excitation {
         self.turned_by(|pose| pose.spin, |phase| phase.start.turned_by(&phase.arms))
     }
 }
 
 impl<const N: usize> Phases<N, Level<N>> {
-    /// The acceleration of the slope along a direction.
+    /// Returns the acceleration of the slope along a direction.
     fn turned_in(&self, direction: [f64; 2]) -> Excitation {
         self.turned_by(|pose| pose.rate_along(direction), |phase| phase.start.slope_by(direction))
     }
 }
 
 impl<const N: usize> crate::Motion<N> {
-    /// What a place x, z feels of contacts that take time, in m from the center of mass in axes of the body: its acceleration above free
-    /// fall. None of instant impacts.
+    /// Returns the excitation of a place x, z by contacts that take time, in m from the center of mass in axes of the
+    /// body: its acceleration above free fall. `None` for instant impacts.
     #[must_use]
     pub fn felt_at(&self, place: [f64; 2]) -> Option<Excitation> {
         self.phases().map(|phases| phases.felt(place))
     }
-    /// The angular acceleration of the body, in rad where [`felt_at`](Self::felt_at) has m. None of instant impacts.
+    /// Returns the angular acceleration of the body, in rad where [`felt_at`](Self::felt_at) has m. `None` for instant
+    /// impacts.
     #[must_use]
     pub fn turned_by_contacts(&self) -> Option<Excitation> {
         self.phases().map(Phases::turned)
@@ -104,18 +107,18 @@ impl<const N: usize> crate::Motion<N> {
 }
 
 impl FeetMotion {
-    /// What a place x, y feels, in m from the center of mass: its acceleration above free fall.
+    /// Returns the excitation of a place x, y, in m from the center of mass: its acceleration above free fall.
     ///
     /// # Panics
-    /// Never: it is a motion of contacts that take time.
+    /// It never panics: the motion is one of contacts that take time.
     #[must_use]
     pub fn felt(&self, place: [f64; 2]) -> Excitation {
         self.by_contacts().felt(place)
     }
-    /// The acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
+    /// Returns the acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
     ///
     /// # Panics
-    /// Never: it is a motion of contacts that take time.
+    /// It never panics: the motion is one of contacts that take time.
     #[must_use]
     pub fn turned(&self, direction: [f64; 2]) -> Excitation {
         self.by_contacts().turned_in(direction)
@@ -126,37 +129,37 @@ impl FeetMotion {
 }
 
 impl PlateMotion {
-    /// What a place x, y feels, in m from the center of mass: its acceleration above free fall, as [`Motion::felt`](crate::Motion::felt).
-    /// Of instant impacts exact, corners that lie included.
+    /// Returns the excitation of a place x, y, in m from the center of mass: its acceleration above free fall, as
+    /// [`Motion::felt`](crate::Motion::felt). For instant impacts it is exact, corners that lie included.
     #[must_use]
     pub fn felt(&self, place: [f64; 2]) -> Excitation {
         match &self.course {
-            Course::Impacts(falls) => falls.felt(self, falls.place(place), self.gravity_m_s2()),
+            Course::Impacts(falls) => falls.excitation(self, falls.place(place), self.gravity_m_s2()),
             Course::Contacts(phases) => phases.felt(place),
         }
     }
-    /// The acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
+    /// Returns the acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
     #[must_use]
     pub fn turned(&self, direction: [f64; 2]) -> Excitation {
         match &self.course {
-            Course::Impacts(falls) => falls.felt(self, falls.slope(direction), 0.0),
+            Course::Impacts(falls) => falls.excitation(self, falls.slope(direction), 0.0),
             Course::Contacts(phases) => phases.turned_in(direction),
         }
     }
 }
 
 impl<P: Pose<N>, const N: usize> Phase<P, N> {
-    /// Appends a steady part and what each mode's press adds to it; returns its integral.
+    /// Appends a steady part and the part of each mode, and returns their integral.
     fn sum_of_modes(
         &self,
         by_mode: &[f64; N],
         mut steady: f64,
         section: Section<'_>,
         lines: &mut Lines,
-        felt: &mut Excitation,
+        excitation: &mut Excitation,
     ) -> f64 {
         if self.delay > 0.0 && !self.modes().is_empty() {
-            return self.straight_lines(by_mode, steady, section, lines, felt);
+            return self.straight_lines(by_mode, steady, section, lines, excitation);
         }
         let mut sines = [Sine::default(); N];
         for (m, mode) in self.modes().iter().enumerate() {
@@ -165,23 +168,23 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             sines[m] = Sine { amplitude: by_mode[m] * amplitude, rate, phase };
         }
         let section = Section { acceleration: [steady; 2], sines: &sines, ..section };
-        felt.push(section);
+        excitation.push(section);
         section.velocity_after(section.length)
     }
-    /// A damped vibration as straight lines.
+    /// Appends a damped vibration as straight lines, and returns their integral.
     fn straight_lines(
         &self,
         by_mode: &[f64; N],
         steady: f64,
         whole: Section<'_>,
         lines: &mut Lines,
-        felt: &mut Excitation,
+        excitation: &mut Excitation,
     ) -> f64 {
         let at = |motions: &[Motion; N]| {
             let press = self.modes().iter().zip(motions).zip(by_mode).map(|((mode, m), by)| by * mode.press(m));
             steady + press.sum::<f64>()
         };
-        // A bound of the bend from a motion on.
+        // This bounds the bend from a motion on.
         let bends = |motions: &[Motion; N]| {
             let one = |((mode, motion), by): ((&Mode, &Motion), &f64)| {
                 let ([_, second, _, fourth], root) = (mode.bounds_from(motion), mode.lambda().sqrt());
@@ -195,14 +198,14 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         let (mut bend, mut begin) = (bends(&motions), at(&motions));
         let least = whole.length / MOST_LINES;
         while t < whole.length || t == 0.0 {
-            // A straight line over h misses h²/8 of the bend; nothing bends where both sides press alike.
+            // The error of a straight line over h is h²/8 of the bend; the bend is 0 where both sides press alike.
             let most = (8.0 * lines.straight * lines.most / bend).sqrt().max(least);
             let step = if bend > 0.0 { most } else { whole.length };
             let then = if t + step < whole.length { t + step } else { whole.length };
             motions = if then < whole.length { self.motions(then) } else { last };
             let end = at(&motions);
             let line = Section::shock(whole.from + t, then - t, 0.0);
-            felt.push(Section { acceleration: [begin, end], ..line });
+            excitation.push(Section { acceleration: [begin, end], ..line });
             sum += 0.5 * (begin + end) * (then - t);
             if then >= whole.length {
                 break;
