@@ -15,6 +15,7 @@
 //! The drops of [`mod@drop`], [`plate`] and [`block`] are in SI units; [`rule`] has the same part at all natural frequencies.
 
 pub mod block;
+pub mod case;
 pub mod drop;
 mod limits;
 mod peaks;
@@ -31,7 +32,7 @@ use serde::Serialize;
 
 use crate::error::within_periods;
 use crate::{Error, Json, on_body};
-pub use limits::{Limit, Position};
+pub use limits::{AtPlace, Limit, Position};
 pub use peaks::{
     AllPeaks, Equivalent, Extreme, Extremes, Factors, HalfSine, Largest, LargestValues, NOTHING_FELT, Peaks,
     ServiceCondition,

@@ -140,7 +140,7 @@ fn the_end_that_strikes_first_only_names_the_ends() {
         let mut question = respond::drop::Question::new(scene(), clatter_assess::Model::FiniteTilt, at);
         question.first = first;
         let answer = respond::drop::answer(&question).expect("an answer");
-        (answer.first, answer.at.0, answer.velocity_change_m_s.0)
+        (answer.first, answer.at.0, answer.place.velocity_change_m_s.0)
     };
     let (a, b) = (of(clatter::End::A, 0.7), of(clatter::End::B, -0.7));
     assert_eq!((a.0, a.1, b.0, b.1, a.2), ("a", 0.7, "b", -0.7, b.2));

@@ -111,7 +111,7 @@ pub fn answer(drop: &Drop, part: &Part, limit: &Limit, model: Model, tolerance: 
     if !(1e-6..=0.5).contains(&tolerance) {
         return Err(Error::Tolerance(tolerance));
     }
-    check_drop(drop, part.at_m())?;
+    check_drop(drop, &part.place)?;
     limit.check()?;
     if part.suspension.is_none() && limit.kind.needs_suspension() {
         return Err(DataFault::Hard { field: limit.kind.key() }.into());
@@ -239,7 +239,7 @@ pub fn respond(
     model: Model,
     tolerance: f64,
 ) -> Result<Response, Error> {
-    check_drop(drop, place.at_m())?;
+    check_drop(drop, &place.place)?;
     let followed = follow(drop, model, tolerance, Until::Over)?;
     let pulses = PlaceHistory::new(&followed, place.place)?.pulses;
     // What comes after a motion that was left early is no ring-down.

@@ -53,6 +53,7 @@
 mod assess;
 mod attitude;
 mod bound;
+mod case;
 mod check;
 mod component;
 mod data_fault;
@@ -84,6 +85,7 @@ mod verdict;
 mod visible;
 
 pub use attitude::Attitude;
+pub use case::{Case, Swings};
 pub use clatter_flight::{Axis, Body, ContactLaw, Drop, Feet, OwnContact, OwnContacts, Place, Side};
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
 pub use component::{Component, Damping, Inside, Limits, Mount};

@@ -1,12 +1,14 @@
 //! Models of a drop, and the one way to follow it.
 
-use clatter_flight::{Contact, Drop, Followed, Model as Physics, Until};
-use serde::Serialize;
+use std::f64::consts::FRAC_PI_2;
+
+use clatter_flight::{Contact, Drop, Followed, Model as Physics, Place, Until};
+use serde::{Deserialize, Serialize};
 
 use crate::Error;
 
 /// How a drop is answered: from the least physics to the most.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Model {
     /// In closed form, small tilt and no gravity: the whole clatter as one change of velocity. A part that is slow beside it
@@ -81,13 +83,25 @@ pub(crate) fn follow(drop: &Drop, model: Model, tolerance: f64, until: Until) ->
 ///
 /// # Errors
 /// [`Error::Setting`].
-pub(crate) fn check_drop(drop: &Drop, [position_m, across_m]: [f64; 2]) -> Result<(), Error> {
+pub(crate) fn check_drop(drop: &Drop, place: &Place) -> Result<(), Error> {
+    let [position_m, across_m, height_m] = place.at_m;
     if let Some(value) = drop.contact_time_s.filter(|time| !(1e-12..=1e3).contains(time)) {
         return Err(Error::Setting { name: "contact time in s", value, allowed: "in [1e-12, 1000]" });
     }
     if drop.is_flat && drop.spin_rad_s != 0.0 {
         let (name, allowed) = ("spin in rad/s", "0 of a flat drop by instant impacts: its ends do not land as one");
         return Err(Error::Setting { name, value: drop.spin_rad_s, allowed });
+    }
+    if !(0.0..=FRAC_PI_2).contains(&drop.tilt_rad) {
+        return Err(Error::Setting { name: "tilt in rad", value: drop.tilt_rad, allowed: "in [0, pi/2]" });
+    }
+    for (name, value) in drop.body.feet.iter().flat_map(|feet| {
+        let [x, y] = feet.inset_m;
+        [("inset of the feet in m", x), ("inset of the feet in m", y), ("height of the feet in m", feet.height_m)]
+    }) {
+        if !(0.0..=1e30).contains(&value) {
+            return Err(Error::Setting { name, value, allowed: "0 or more" });
+        }
     }
     // Places are rounded as they are converted.
     let [most, most_across] = drop.sides_m().map(|side_m| 0.5 * side_m * (1.0 + 1e-9));
@@ -99,6 +113,11 @@ pub(crate) fn check_drop(drop: &Drop, [position_m, across_m]: [f64; 2]) -> Resul
         let (name, allowed) = ("place of the part across the product in m", "up to half of the width on both sides");
         return Err(Error::Setting { name, value: across_m, allowed });
     }
+    let most_high = drop.body.faces_m().map_or(f64::INFINITY, |[.., [low, high]]| 0.5 * (low + high) * (1.0 + 1e-9));
+    if height_m.is_nan() || height_m.abs() > most_high {
+        let (name, allowed) = ("height of the part in m", "up to half of the thickness on both sides");
+        return Err(Error::Setting { name, value: height_m, allowed });
+    }
     Ok(())
 }
 
@@ -106,7 +125,7 @@ pub(crate) fn check_drop(drop: &Drop, [position_m, across_m]: [f64; 2]) -> Resul
 mod tests {
     use std::f64::consts::TAU;
 
-    use clatter_flight::{Axis, Body, Place, Side, Stop};
+    use clatter_flight::{Axis, Body, Side, Stop};
 
     use super::*;
     use crate::shock::{largest, largest_turn, shocks_of_turning};

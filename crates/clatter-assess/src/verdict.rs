@@ -6,6 +6,7 @@ use clatter::End;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
+use crate::Case;
 use crate::inputs::{INPUTS, Input, Optional, Row, optional_inputs};
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
 use crate::{Axis, Component, Drop, DropName, DropRanges, Landing, LimitKind, Model, Part, Product, ProductFile, Unit};
@@ -429,6 +430,7 @@ impl Serialize for WorstCase {
         }
         map.serialize_entry("impact", &self.impact)?;
         map.serialize_entry("time_s", &self.time_s)?;
+        map.serialize_entry("drop", &Case::of(self))?;
         map.serialize_entry("command", &self.command())?;
         map.end()
     }

@@ -234,14 +234,19 @@ struct Named<'a> {
     answer: &'a Answer<'a>,
 }
 
-/// A product file, of a size that product files have; what is odd in it is told. No file of the command is to be a record that it names.
-pub(crate) fn read(path: &Path, files: &Files<'_>, streams: &mut Streams<'_>) -> Result<ProductFile, Failure> {
+/// Reads the text of a file, up to the size that product files have.
+pub(crate) fn text(path: &Path) -> Result<String, Failure> {
     let unreadable = |reason: io::Error| Failure::Unreadable { path: path.to_owned(), reason };
     let mut bytes = Vec::new();
     let file = input::open(path).map_err(unreadable)?;
     file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    let text = String::from_utf8(bytes)
-        .map_err(|_| unreadable(io::Error::new(io::ErrorKind::InvalidData, "it is not text in UTF-8")))?;
+    String::from_utf8(bytes)
+        .map_err(|_| unreadable(io::Error::new(io::ErrorKind::InvalidData, "it is not text in UTF-8")))
+}
+
+/// A product file, of a size that product files have; what is odd in it is told. No file of the command is to be a record that it names.
+pub(crate) fn read(path: &Path, files: &Files<'_>, streams: &mut Streams<'_>) -> Result<ProductFile, Failure> {
+    let text = text(path)?;
     let (file, odd) =
         ProductFile::read_warned(&text, &input::name(path)).map_err(|faults| Failure::Product(faults.to_string()))?;
     if !odd.warnings().is_empty() {

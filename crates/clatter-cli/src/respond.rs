@@ -1,6 +1,7 @@
 //! `clatter respond`: what one clatter does to one component.
 
 mod block;
+mod case;
 mod drop;
 mod limits;
 mod peaks;
@@ -104,7 +105,7 @@ pub(crate) struct Args {
     at: Option<PerAxis<Place>>,
     /// Natural angular frequency of the component (2π times its frequency), in v0/h0; in rad/s with --model or a file;
     /// with --model alone it may be left out
-    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::omega, required_unless_present_any = ["model", "product", "frequency"])]
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::omega, required_unless_present_any = ["model", "product", "frequency", "case"])]
     omega: Option<f64>,
     /// Instead of --omega, with --model or a file: natural frequency of the component, such as 180Hz
     #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true, value_parser = quantities::frequency, conflicts_with = "omega")]
@@ -155,6 +156,9 @@ pub(crate) struct Args {
     /// With --model: how exact the answer is for the model, as a share of it: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance, requires = "followed")]
     tolerance: f64,
+    /// One drop with its part as JSON, as `clatter assess` writes it (`worst_case.drop`): a file, or - for standard input
+    #[arg(long = "drop", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER, conflicts_with_all = ["shocks_file", "pulses_file", "output", "omega", "frequency"])]
+    case: Option<PathBuf>,
     /// Velocity shocks instead of a clatter: a table with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER)]
     shocks_file: Option<PathBuf>,
@@ -178,7 +182,7 @@ pub(crate) struct Args {
 }
 
 /// What stands in place of a clatter, and what says a clatter.
-const GIVEN: [&str; 3] = ["shocks_file", "pulses_file", "followed"];
+const GIVEN: [&str; 4] = ["shocks_file", "pulses_file", "followed", "case"];
 const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
@@ -275,6 +279,7 @@ impl Args {
                 .shocks_file
                 .iter()
                 .chain(&self.pulses_file)
+                .chain(&self.case)
                 .chain(&self.drop.product)
                 .map(AsRef::as_ref)
                 .collect(),
@@ -287,6 +292,9 @@ impl Args {
             return Err(Failure::Usage(
                 "-o writes the rule over W h0/v0 of a bar from --q and --e: --output cannot be used with --model or --product",
             ));
+        }
+        if let Some(path) = &self.case {
+            return self.case(path, streams);
         }
         if self.drop.is_block() {
             return self.block(streams);

@@ -110,6 +110,10 @@ fn the_printed_command_repeats_the_demand() {
             let again = demand(limit, &shell(&format!("{command} --format=json")));
             let told = limit["demand"].as_f64().unwrap();
             assert!((again / told - 1.0).abs() < 1e-9, "{name}{model}: {again}, not {limit}");
+            // The same drop as data.
+            let data = &limit["worst_case"]["drop"];
+            let again = demand(limit, &shell(&format!("printf %s '{data}' | clatter respond --drop=- --format=json")));
+            assert!((again / told - 1.0).abs() < 1e-9, "{name}{model}: {again} by data, not {limit}");
             count += 1;
             boxes += usize::from(command.contains("--thickness-m"));
             rigid += usize::from(
@@ -121,6 +125,38 @@ fn the_printed_command_repeats_the_demand() {
         count >= 60 && boxes >= 23 && rigid >= 3,
         "{count} limits, {boxes} of boxes, {rigid} of them accelerations of rigid parts by instant impacts"
     );
+}
+
+/// A drop as data that is none is refused by one message that names the place.
+#[test]
+fn a_drop_that_is_none_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("hard.toml");
+    std::fs::write(&path, BAR).unwrap();
+    let assessment = shell(&format!("clatter assess {} --format=json", path.display()));
+    let drop = &assessment["components"][0]["limits"][0]["worst_case"]["drop"];
+    let mut cases = vec![("".to_owned(), "EOF"), ("[1, 2]".to_owned(), "invalid type")];
+    let mut with = |change: &dyn Fn(&mut Value), said: &'static str| {
+        let mut changed = drop.clone();
+        change(&mut changed);
+        cases.push((changed.to_string(), said));
+    };
+    with(&|drop| drop["drop"]["speed"] = 3.0.into(), "unknown field `speed`");
+    with(&|drop| drop["drop"]["speed_m_s"] = Value::Null, "invalid type: null");
+    with(&|drop| drop["drop"]["speed_m_s"] = (-3.0).into(), "speed in m/s = -3.0");
+    with(&|drop| drop["drop"]["restitution"] = 1.5.into(), "1.5 is not in [0, 1]");
+    with(&|drop| drop["drop"]["contact_time_s"] = 0.0.into(), "contact time in s is 0.0");
+    with(&|drop| drop["drop"]["body"]["length"]["ends_m"][0] = (-1.0).into(), "arm of end a in m = -1.0");
+    with(&|drop| drop["place"]["at_m"][0] = 9.0.into(), "position of the part in m is 9.0");
+    with(&|drop| drop["tolerance"] = 7.0.into(), "the tolerance is 7.0");
+    for (text, said) in cases {
+        let path = dir.path().join("drop.json");
+        std::fs::write(&path, &text).unwrap();
+        let done = Command::new(BINARY).args(["respond", "--drop"]).arg(&path).output().unwrap();
+        let error = String::from_utf8(done.stderr).unwrap();
+        assert!(done.status.code() == Some(2) && error.contains(said), "{text}: {error}");
+        assert!(done.stdout.is_empty() && error.lines().count() == 1, "{error}");
+    }
 }
 
 /// The short command of the table, run by a shell, tells the demand of each limit once more.

@@ -1,12 +1,14 @@
 //! A rigid body: its sides, its mass and what it lands on.
 
 use clatter::Error;
+use serde::{Deserialize, Serialize};
 
 use crate::block::Block;
 use crate::profile::Profile;
 
 /// One side of a body, with the mass along it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Side {
     /// Distances of both ends from the center of mass, the one in the negative direction first.
     pub ends_m: [f64; 2],
@@ -33,7 +35,8 @@ impl Side {
 }
 
 /// Feet or bumpers inside the edges: they touch the ground first, and the product goes on beyond them.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Feet {
     /// How far inside the edges, along the length and along the width; 0 across a bar.
     pub inset_m: [f64; 2],
@@ -44,7 +47,8 @@ pub struct Feet {
 /// A rigid body that falls: a bar has a length, a plate a width too, a box a thickness.
 ///
 /// On feet the sides are those between the feet, and the body goes on beyond them.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Body {
     /// From end a to end b.
     pub length: Side,

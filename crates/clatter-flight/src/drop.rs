@@ -5,6 +5,7 @@ mod levers;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use clatter::End;
+use serde::{Deserialize, Serialize};
 
 use crate::block::{Block, BlockDrop};
 use crate::body::{Body, Feet, Side};
@@ -29,7 +30,8 @@ pub use levers::Levers;
 /// assert!((drop.gap_m() - 0.15 * 5_f64.to_radians().sin()).abs() < 1e-15);
 /// # Ok::<(), clatter_flight::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Drop {
     /// What falls.
     pub body: Body,

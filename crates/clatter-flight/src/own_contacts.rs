@@ -1,11 +1,13 @@
 //! Contacts of their own: feet, ends or corners that the ground answers otherwise than the others.
 
 use clatter::Error;
+use serde::{Deserialize, Serialize};
 
 use crate::{Contact, ContactLaw};
 
 /// A contact of its own; what is not given is that of the product.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct OwnContact {
     /// Coefficient of restitution.
     pub restitution: Option<f64>,
@@ -20,7 +22,7 @@ impl OwnContact {
 
 /// Which of the ends a and b of a bar, or of the corners a to d of a plate, have a contact of their own: a (−, −), b (+, −), c (+, +) and
 /// d (−, +); of a box both corners, of the bottom and of the top, that are seen there from above.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct OwnContacts(pub [OwnContact; 4]);
 
 /// The names of ends and corners.

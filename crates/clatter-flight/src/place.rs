@@ -1,10 +1,10 @@
 //! Places on a body.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The axis of a box along which a part moves and is shaken. A product file that names none means the magnitude of a part that is
 /// mounted rigidly in a box, and the thickness else.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// Along the length.
@@ -32,7 +32,8 @@ impl Axis {
 }
 
 /// A place on a body, and the axis along which a part there moves.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Place {
     /// From the middle of the body: along it towards end b, across it, and in its thickness; what a body does not have is 0.
     pub at_m: [f64; 3],

@@ -9,17 +9,17 @@
 //! let drop = BlockDrop::tilted(handheld, 0.7, 0.0, 4.43, 9.806_65)?;
 //! let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 5e-4)?;
 //! let answer = block::answer(&block::Question::new(drop, contact, [0.0; 3], Axis::Any))?;
-//! assert!(answer.acceleration.value_m_s2.0 > 1000.0);
+//! assert!(answer.place.acceleration_m_s2.is_some_and(|most| most.0 > 1000.0));
 //! # Ok::<(), clatter_answer::Error>(())
 //! ```
 
-use clatter_assess::{Axis, Drop, LimitKind, Model, Part, Place};
+use clatter_assess::{Axis, Drop, Model, Part, Place};
 use clatter_flight::{BlockDrop, Contact};
 use clatter_shock::Suspension;
 use serde::Serialize;
 
-use super::limits::{OneDrop, unlimited, value};
-use super::{ContactAt, LargestValues, Limit, Peaks, Position, contacts, swings};
+use super::limits::OneDrop;
+use super::{AtPlace, ContactAt, Position, contacts};
 use crate::simulate::block::DropAnswer;
 use crate::{Error, Json};
 
@@ -72,28 +72,17 @@ pub struct Answer {
     pub at_m: [Json; 3],
     /// `x`, `y`, `z` or `any`.
     pub axis: &'static str,
-    /// The limits that were given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limits: Option<Vec<Limit>>,
-    /// The part and its peaks.
+    /// The largest acceleration that is felt there, and when.
+    pub acceleration: Acceleration,
+    /// The part and its place.
     #[serde(flatten)]
-    pub part: Option<Peaks>,
-    /// Largest change of velocity of one shock at the place.
-    pub velocity_change_m_s: Json,
-    /// Largest felt there.
-    pub acceleration_m_s2: Json,
-    /// The same, and when.
-    pub acceleration: Felt,
-    /// Largest of one shock, about any axis.
-    pub angular_velocity_change_rad_s: Json,
-    /// When the largest values come.
-    pub answers: LargestValues,
+    pub place: AtPlace,
 }
 
 /// A largest acceleration, and when.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
-pub struct Felt {
+pub struct Acceleration {
     /// In size.
     pub value_m_s2: Json,
     /// Since the first touch.
@@ -113,30 +102,14 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
             return Err(Error::Quantity { name, value, allowed });
         }
     }
-    swings(suspension.as_ref())?;
     if let (Some(part), Axis::Any) = (suspension, axis) {
         let (name, allowed) = ("natural frequency in rad/s", "that of a part that swings: it does so along one axis");
         return Err(Error::Quantity { name, value: part.omega(), allowed });
     }
-    let asked = OneDrop { drop: *drop, model: Model::Compliant, tolerance };
-    let place = Part::at(Place { at_m, axis }, None);
-    // A drop that is not answered here is answered nowhere.
-    asked.answer(&unlimited(LimitKind::VelocityChange), &place)?;
-    let of_limits = |limits: &Vec<_>| asked.limits(limits, &[(place, Position::All(at_m.map(Json)))], suspension);
-    let limits = limits.as_ref().map(of_limits).transpose()?;
-    let largest = |kind, part| asked.largest(kind, &place, part);
-    let answers = LargestValues {
-        velocity_change: largest(LimitKind::VelocityChange, None)?,
-        acceleration: largest(LimitKind::Acceleration, None)?,
-        angular_velocity_change: largest(LimitKind::AngularVelocityChange, None)?,
-        part_acceleration: suspension.map_or(Ok(None), |_| largest(LimitKind::Acceleration, suspension))?,
-        part_displacement: suspension.map_or(Ok(None), |_| largest(LimitKind::RattleSpace, suspension))?,
-    };
-    let of_part = |part: Suspension| {
-        let response = clatter_assess::respond(drop, &place, &part, Model::Compliant, tolerance)?;
-        Ok::<_, Error>(Peaks::new(&part, &response, |_| None))
-    };
-    let acceleration_m_s2 = value(answers.acceleration);
+    let limits = limits.as_deref();
+    let asked = OneDrop { drop: *drop, model: Model::Compliant, tolerance, suspension, limits, shock_table: None };
+    let part = Part::at(Place { at_m, axis }, None);
+    let place = asked.at(&part, &[(part, Position::All(at_m.map(Json)))])?;
     Ok(Answer {
         drop: DropAnswer::new(block, contact),
         contact_law: contact.law().name(),
@@ -144,16 +117,11 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         tolerance: Json(tolerance),
         at_m: at_m.map(Json),
         axis: axis.name(),
-        limits,
-        part: suspension.map(of_part).transpose()?,
-        velocity_change_m_s: value(answers.velocity_change),
-        acceleration_m_s2,
-        acceleration: Felt {
-            value_m_s2: acceleration_m_s2,
-            time_s: answers.acceleration.map_or(Json(0.0), |largest| largest.time_s),
+        acceleration: Acceleration {
+            value_m_s2: place.acceleration_m_s2.unwrap_or(Json(0.0)),
+            time_s: place.answers.acceleration.map_or(Json(0.0), |largest| largest.time_s),
         },
-        angular_velocity_change_rad_s: value(answers.angular_velocity_change),
-        answers,
+        place,
     })
 }
 
@@ -173,7 +141,7 @@ mod tests {
         let part = Suspension::from_hz(2.0, DampingRatio::new(0.0).unwrap()).unwrap();
         let question = Question::new(drop, contact, [0.0; 3], Axis::Z);
         let question = Question { suspension: Some(part), ..question };
-        let swings = answer(&question).unwrap().part.unwrap().omega_peak_relative_displacement.0;
+        let swings = answer(&question).unwrap().place.part.unwrap().omega_peak_relative_displacement.0;
         let weight = 2.0 * 9.81 / part.omega();
         assert!((swings - weight).abs() < 1.1 * 0.05, "{swings}, not {weight}");
     }

@@ -8,18 +8,18 @@
 //! let scene = Scene::new(Profile::new(0.14, 0.0404)?, 0.3, 4.43, 5.0, 9.806_65)?;
 //! let answer = drop::answer(&drop::Question::new(scene, Model::FiniteTilt, 1.0))?;
 //! // Without clatter it would be (1 + e) v, everywhere.
-//! assert!(answer.velocity_change_m_s.0 > 1.3 * 4.43);
+//! assert!(answer.place.velocity_change_m_s.0 > 1.3 * 4.43);
 //! # Ok::<(), clatter_answer::Error>(())
 //! ```
 
 use clatter::End;
-use clatter_assess::{Body, Drop, Feet, LimitKind, Model, OwnContacts, Part};
+use clatter_assess::{Body, Drop, Feet, Model, OwnContacts, Part};
 use clatter_flight::{ContactLaw, Scene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
-use super::limits::{OneDrop, unlimited, value};
-use super::{ContactAt, Equivalent, Factors, LargestValues, Limit, Peaks, Position, contacts, swings};
+use super::limits::OneDrop;
+use super::{AtPlace, ContactAt, Position, contacts};
 use crate::{Error, Json, letter, on_body_beyond};
 
 /// A drop of a bar and a part of it.
@@ -142,32 +142,9 @@ pub struct Answer {
     pub tolerance: Json,
     /// The place that is answered.
     pub at: Json,
-    /// The limits that were given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limits: Option<Vec<Limit>>,
-    /// The part and its peaks.
+    /// The part and its place.
     #[serde(flatten)]
-    pub part: Option<Peaks>,
-    /// Largest change of velocity of one shock at the place.
-    pub velocity_change_m_s: Json,
-    /// Largest felt there; null without a contact time.
-    pub acceleration_m_s2: Option<Json>,
-    /// Largest of one shock.
-    pub angular_velocity_change_rad_s: Json,
-    /// When the largest values come.
-    pub answers: LargestValues,
-    /// What (1 + e) v at once would do to the part, as without clatter.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub clatter_free: Option<Factors>,
-    /// What 2 v would do, as standards assume.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub standard: Option<Factors>,
-    /// Peak acceleration over that of the standards' shock.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gain: Option<Json>,
-    /// Where a shock table was given.
-    #[serde(flatten)]
-    pub equivalent: Option<Equivalent>,
+    pub place: AtPlace,
 }
 
 /// Follows one drop until nothing later counts.
@@ -177,36 +154,14 @@ pub struct Answer {
 pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { scene, model, first, ref at, suspension, tolerance, .. } = *question;
     on_body_beyond(at.iter().copied(), scene.body().length_m(), question.feet.map(|feet| feet.inset_m[0]))?;
-    let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
     let (body, side) = (scene.body(), if first == End::A { 1.0 } else { -1.0 });
     let half_m = 0.5 * body.length_m();
-    let asked = OneDrop { drop: question.drop(), model, tolerance };
-    // The end that touches first feels every drop: where not even that is answered, none is.
-    asked.answer(&unlimited(LimitKind::VelocityChange), &Part::new(-half_m, None))?;
-    swings(suspension.as_ref())?;
+    let limits = question.limits.as_deref();
+    let asked =
+        OneDrop { drop: question.drop(), model, tolerance, suspension, limits, shock_table: question.shock_table };
     let place = |at: &f64| (Part::new(side * at * half_m, None), Position::Along(Json(at * half_m)));
     let places: Vec<_> = at.iter().map(place).collect();
-    let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, suspension)).transpose()?;
-    let tightest = limits.as_ref().and_then(|limits| Limit::tightest(limits));
-    let at = tightest.map_or(at_first, |limit| at[limit.place]);
-    let place = Part::new(side * at * half_m, None);
-    let largest = |kind, part| asked.largest(kind, &place, part);
-    let velocity_change = largest(LimitKind::VelocityChange, None)?;
-    let acceleration = question.contact_time_s.map_or(Ok(None), |_| largest(LimitKind::Acceleration, None))?;
-    let angular_velocity_change = largest(LimitKind::AngularVelocityChange, None)?;
-    let of_part = |part: Suspension| {
-        let response = clatter_assess::respond(&asked.drop, &place, &part, model, tolerance)?;
-        let equivalent = question.shock_table.map(|table| Equivalent::new(&table, &part, &response)).transpose()?;
-        let values = [largest(LimitKind::Acceleration, suspension)?, largest(LimitKind::RattleSpace, suspension)?];
-        let at_once = Factors::at_once(part.damping(), scene.e(), scene.speed_m_s());
-        Ok::<_, Error>((Peaks::new(&part, &response, |_| None), at_once, values, equivalent))
-    };
-    let (part, at_once, [part_acceleration, part_displacement], equivalent) =
-        match suspension.map(of_part).transpose()? {
-            Some((part, at_once, values, equivalent)) => (Some(part), Some(at_once), values, equivalent),
-            None => (None, None, [None; 2], None),
-        };
-    let [clatter_free, standard] = [0, 1].map(|i| at_once.map(|at_once| at_once[i]));
+    let place = asked.at(&Part::new(-half_m, None), &places)?;
     let inertia_ratios = body.inertia_ratios().map(Json);
     Ok(Answer {
         model: model.name(),
@@ -229,22 +184,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
             question.contact_time_s,
         ),
         tolerance: Json(tolerance),
-        at: Json(at),
-        limits,
-        velocity_change_m_s: value(velocity_change),
-        acceleration_m_s2: question.contact_time_s.map(|_| value(acceleration)),
-        angular_velocity_change_rad_s: value(angular_velocity_change),
-        answers: LargestValues {
-            velocity_change,
-            acceleration,
-            angular_velocity_change,
-            part_acceleration,
-            part_displacement,
-        },
-        clatter_free,
-        standard,
-        gain: part.zip(standard).map(|(part, standard)| part.gain(&standard)),
-        part,
-        equivalent,
+        at: Json(at[place.index]),
+        place,
     })
 }

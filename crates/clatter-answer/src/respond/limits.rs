@@ -1,10 +1,10 @@
-//! What a drop asks of the limits of a part and at its place, of a bar as of a plate.
+//! The answer of one drop of any body: what it does to a part and at its place, and what it asks of its limits.
 
 use clatter_assess::{Drop, LimitKind, Model, Part, Unit};
-use clatter_shock::Suspension;
+use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
-use super::Largest;
+use super::{Equivalent, Factors, Largest, LargestValues, Peaks, swings};
 use crate::{Error, Json};
 
 /// One limit of a part in one drop; null where nothing is felt, or where it is not known.
@@ -52,31 +52,72 @@ impl Limit {
         self.share.map_or(-1.0, |share| share.0)
     }
     /// The one that leaves least, of those that are known.
-    pub(super) fn tightest(limits: &[Self]) -> Option<&Self> {
+    fn tightest(limits: &[Self]) -> Option<&Self> {
         let known = limits.iter().filter(|limit| limit.share.is_some());
         known.max_by(|a, b| a.of_allowed().total_cmp(&b.of_allowed()))
     }
 }
 
-/// A drop that is asked about.
-pub(super) struct OneDrop {
+/// A drop that is asked about, with a part.
+pub(super) struct OneDrop<'a> {
     pub(super) drop: Drop,
     pub(super) model: Model,
     pub(super) tolerance: f64,
+    /// The part; none that is mounted rigidly.
+    pub(super) suspension: Option<Suspension>,
+    /// Limits that are held against the drop.
+    pub(super) limits: Option<&'a [clatter_assess::Limit]>,
+    /// A table whose half-sine is to do the same to the part.
+    pub(super) shock_table: Option<ShockTable>,
+}
+
+/// What a drop does to a part and at its place: the same of every body.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct AtPlace {
+    /// Which of the places is answered.
+    #[serde(skip)]
+    pub index: usize,
+    /// The limits that were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<Vec<Limit>>,
+    /// The part and its peaks.
+    #[serde(flatten)]
+    pub part: Option<Peaks>,
+    /// Largest change of velocity of one shock at the place.
+    pub velocity_change_m_s: Json,
+    /// Largest acceleration that is felt there; null without a contact time.
+    pub acceleration_m_s2: Option<Json>,
+    /// Largest change of angular velocity of one shock, about any axis.
+    pub angular_velocity_change_rad_s: Json,
+    /// When the largest values come.
+    pub answers: LargestValues,
+    /// What (1 + e) v at once would do to the part, as without clatter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clatter_free: Option<Factors>,
+    /// What 2 v would do, as standards assume.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub standard: Option<Factors>,
+    /// Peak acceleration over that of the standards' shock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gain: Option<Json>,
+    /// Where a shock table was given.
+    #[serde(flatten)]
+    pub equivalent: Option<Equivalent>,
 }
 
 /// Nothing is allowed or forbidden by this: the value alone counts.
-pub(super) fn unlimited(kind: LimitKind) -> clatter_assess::Limit {
+fn unlimited(kind: LimitKind) -> clatter_assess::Limit {
     clatter_assess::Limit::new(kind, 1.0)
 }
 
 /// What is not felt is 0.
-pub(super) fn value(largest: Option<Largest>) -> Json {
+fn value(largest: Option<Largest>) -> Json {
     largest.map_or(Json(0.0), |largest| largest.value)
 }
 
-impl OneDrop {
-    pub(super) fn answer(
+impl OneDrop<'_> {
+    fn answer(
         &self,
         limit: &clatter_assess::Limit,
         part: &Part,
@@ -98,28 +139,63 @@ impl OneDrop {
         }
     }
 
+    /// Follows the drop until nothing later counts, and answers the one of these places, told as they are on the product, that asks most
+    /// of a limit, else the first. Where not even the place that feels every drop is answered, none is.
+    pub(super) fn at(&self, feels_all: &Part, places: &[(Part, Position)]) -> Result<AtPlace, Error> {
+        self.answer(&unlimited(LimitKind::VelocityChange), feels_all)?;
+        swings(self.suspension.as_ref())?;
+        let limits = self.limits.map(|limits| self.limits(limits, places)).transpose()?;
+        let index = limits.as_ref().and_then(|limits| Limit::tightest(limits)).map_or(0, |limit| limit.place);
+        let Some((place, _)) = places.get(index) else {
+            return Err(clatter_shock::Error::Empty("the list of places").into());
+        };
+        let largest = |kind, part| self.largest(kind, place, part);
+        let of_part = |kind| self.suspension.map_or(Ok(None), |_| largest(kind, self.suspension));
+        let contact_time_s = self.drop.contact_time_s;
+        let answers = LargestValues {
+            velocity_change: largest(LimitKind::VelocityChange, None)?,
+            acceleration: contact_time_s.map_or(Ok(None), |_| largest(LimitKind::Acceleration, None))?,
+            angular_velocity_change: largest(LimitKind::AngularVelocityChange, None)?,
+            part_acceleration: of_part(LimitKind::Acceleration)?,
+            part_displacement: of_part(LimitKind::RattleSpace)?,
+        };
+        let response = |part| {
+            clatter_assess::respond(&self.drop, place, &part, self.model, self.tolerance).map(|found| (part, found))
+        };
+        let response = self.suspension.map(response).transpose()?;
+        let part = response.as_ref().map(|(part, response)| Peaks::new(part, response, |_| None));
+        let at_once =
+            self.suspension.map(|of| Factors::at_once(of.damping(), self.drop.restitution, self.drop.speed_m_s));
+        let equivalent = response.as_ref().zip(self.shock_table);
+        let equivalent =
+            equivalent.map(|((part, response), table)| Equivalent::new(&table, part, response)).transpose()?;
+        Ok(AtPlace {
+            index,
+            limits,
+            velocity_change_m_s: value(answers.velocity_change),
+            acceleration_m_s2: contact_time_s.map(|_| value(answers.acceleration)),
+            angular_velocity_change_rad_s: value(answers.angular_velocity_change),
+            answers,
+            clatter_free: at_once.map(|[flat, _]| flat),
+            standard: at_once.map(|[_, standard]| standard),
+            gain: part.zip(at_once).map(|(part, [_, standard])| part.gain(&standard)),
+            part,
+            equivalent,
+        })
+    }
+
     /// The largest value of a quantity at a place.
-    pub(super) fn largest(
-        &self,
-        kind: LimitKind,
-        place: &Part,
-        part: Option<Suspension>,
-    ) -> Result<Option<Largest>, Error> {
+    fn largest(&self, kind: LimitKind, place: &Part, part: Option<Suspension>) -> Result<Option<Largest>, Error> {
         Ok(self.felt(&unlimited(kind), place, part)?.map(Largest::from))
     }
 
     /// Every limit at the worst of these places, which are told as they are on the product.
-    pub(super) fn limits(
-        &self,
-        limits: &[clatter_assess::Limit],
-        places: &[(Part, Position)],
-        part: Option<Suspension>,
-    ) -> Result<Vec<Limit>, Error> {
+    fn limits(&self, limits: &[clatter_assess::Limit], places: &[(Part, Position)]) -> Result<Vec<Limit>, Error> {
         let mut found = Vec::with_capacity(limits.len());
         for limit in limits {
             let mut worst: Option<Limit> = None;
             for (place, (at, position_m)) in places.iter().enumerate() {
-                let answer = self.felt(limit, at, part)?;
+                let answer = self.felt(limit, at, self.suspension)?;
                 let one = Limit {
                     limit: limit.kind,
                     unit: answer.map_or(limit.kind.unit(), |answer| answer.unit),

@@ -8,18 +8,18 @@
 //! let scene = PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?;
 //! let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 4e-4)?;
 //! let answer = plate::answer(&plate::Question::new(scene, contact, [0.0, 0.0]))?;
-//! assert!(answer.velocity_change_m_s.0 > 0.0 && answer.acceleration_m_s2.0 > 0.0);
+//! assert!(answer.place.velocity_change_m_s.0 > 0.0);
 //! # Ok::<(), clatter_answer::Error>(())
 //! ```
 
 use clatter::Corner;
-use clatter_assess::{Body, Drop, Feet, LimitKind, Model, OwnContacts, Part, Place};
+use clatter_assess::{Body, Drop, Feet, Model, OwnContacts, Part, Place};
 use clatter_flight::{Contact, PlateScene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
-use super::limits::{OneDrop, unlimited, value};
-use super::{ContactAt, Equivalent, Factors, LargestValues, Limit, Peaks, Position, contacts, swings};
+use super::limits::OneDrop;
+use super::{AtPlace, ContactAt, Position, contacts};
 use crate::simulate::plate::told;
 use crate::{Error, Json, on_body_beyond};
 
@@ -132,29 +132,9 @@ pub struct Answer {
     pub tolerance: Json,
     /// The place that is answered.
     pub at: [Json; 2],
-    /// The limits that were given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limits: Option<Vec<Limit>>,
-    /// The part and its peaks.
+    /// The part and its place.
     #[serde(flatten)]
-    pub part: Option<Peaks>,
-    /// Largest change of velocity of one shock at the place.
-    pub velocity_change_m_s: Json,
-    /// Largest felt there.
-    pub acceleration_m_s2: Json,
-    /// Largest of one shock, about any axis in the plane.
-    pub angular_velocity_change_rad_s: Json,
-    /// When the largest values come.
-    pub answers: LargestValues,
-    /// What (1 + e) v at once would do to the part, as without clatter.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub clatter_free: Option<Factors>,
-    /// What 2 v would do, as standards assume.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub standard: Option<Factors>,
-    /// Where a shock table was given.
-    #[serde(flatten)]
-    pub equivalent: Option<Equivalent>,
+    pub place: AtPlace,
 }
 
 /// Follows one drop until nothing later counts.
@@ -167,43 +147,26 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         let inset_m = question.feet.map(|feet| feet.inset_m[side]);
         on_body_beyond(at.iter().map(|place| place[side]), length_m, inset_m)?;
     }
-    let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
     let drop = Drop::of_plate(scene, contact)?;
     let body = Body { feet: question.feet, ..drop.body };
     let drop = Drop { body, own_contacts: question.own_contacts, ..drop };
-    let asked = OneDrop { drop, model: Model::Compliant, tolerance: *tolerance };
     let (plate, signs) = (scene.plate(), question.mirrored.map(|is| if is { -1.0 } else { 1.0 }));
     let [length, width] = plate.sides_m();
-    // The corner that touches first feels every drop: where not even that is answered, none is.
-    let corner = Part::at(Place::flat([-0.5 * length, -0.5 * width]), None);
-    asked.answer(&unlimited(LimitKind::VelocityChange), &corner)?;
-    swings(suspension.as_ref())?;
-    let on_product = |[x, y]: [f64; 2]| [0.5 * length * x, 0.5 * width * y];
-    let in_scene = |at: [f64; 2]| {
-        let [x, y] = on_product(at);
-        [signs[0] * x, signs[1] * y]
+    let place = |[x, y]: &[f64; 2]| {
+        let [x, y] = [0.5 * length * x, 0.5 * width * y];
+        (Part::at(Place::flat([signs[0] * x, signs[1] * y]), None), Position::Both([Json(x), Json(y)]))
     };
-    let part = |at: [f64; 2]| Part::at(Place::flat(at), None);
-    let place = |at: &[f64; 2]| (part(in_scene(*at)), Position::Both(on_product(*at).map(Json)));
     let places: Vec<_> = at.iter().map(place).collect();
-    let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, *suspension)).transpose()?;
-    let tightest = limits.as_ref().and_then(|limits| Limit::tightest(limits));
-    let at = tightest.map_or(at_first, |limit| at[limit.place]);
-    let there = part(in_scene(at));
-    let largest = |kind, part| asked.largest(kind, &there, part);
-    let answers = LargestValues {
-        velocity_change: largest(LimitKind::VelocityChange, None)?,
-        acceleration: largest(LimitKind::Acceleration, None)?,
-        angular_velocity_change: largest(LimitKind::AngularVelocityChange, None)?,
-        part_acceleration: suspension.map_or(Ok(None), |_| largest(LimitKind::Acceleration, *suspension))?,
-        part_displacement: suspension.map_or(Ok(None), |_| largest(LimitKind::RattleSpace, *suspension))?,
+    let asked = OneDrop {
+        drop,
+        model: Model::Compliant,
+        tolerance: *tolerance,
+        suspension: *suspension,
+        limits: question.limits.as_deref(),
+        shock_table: question.shock_table,
     };
-    let response = |part| clatter_assess::respond(&asked.drop, &there, &part, Model::Compliant, *tolerance);
-    let response = suspension.map(response).transpose()?;
-    let part = suspension.as_ref().zip(response.as_ref());
-    let equivalent = part.zip(question.shock_table);
-    let equivalent = equivalent.map(|((part, response), table)| Equivalent::new(&table, part, response));
-    let at_once = suspension.map(|part| Factors::at_once(part.damping(), contact.restitution(), scene.speed_m_s()));
+    // The corner that touches first feels every drop.
+    let place = asked.at(&Part::at(Place::flat([-0.5 * length, -0.5 * width]), None), &places)?;
     let [cx, cy] = question.center_of_mass;
     Ok(Answer {
         model: Model::Compliant.name(),
@@ -229,15 +192,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
             Some(contact.time_s()),
         ),
         tolerance: Json(*tolerance),
-        at: at.map(Json),
-        limits,
-        part: part.map(|(part, response)| Peaks::new(part, response, |_| None)),
-        velocity_change_m_s: value(answers.velocity_change),
-        acceleration_m_s2: value(answers.acceleration),
-        angular_velocity_change_rad_s: value(answers.angular_velocity_change),
-        answers,
-        clatter_free: at_once.map(|[flat, _]| flat),
-        standard: at_once.map(|[_, standard]| standard),
-        equivalent: equivalent.transpose()?,
+        at: at[place.index].map(Json),
+        place,
     })
 }

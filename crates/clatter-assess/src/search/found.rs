@@ -158,7 +158,7 @@ mod tests {
                 flat: false,
                 mirrored: [false; 2],
                 at_m: [0.0; 2],
-                shares: [0.0; 9],
+                shares: [0.0; super::super::ranges::AXES],
             };
             let of = |most: f64| OfDrop {
                 later: vec![(0, most)],

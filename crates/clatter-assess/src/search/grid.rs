@@ -324,7 +324,7 @@ impl Ranges<'_> {
 }
 
 /// Bases of Halton's sequence.
-const PRIMES: [u32; AXES] = [2, 3, 5, 7, 11, 13, 17, 19, 23];
+const PRIMES: [u32; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
 
 /// Number k of Halton's sequence along an axis.
 pub(super) fn halton(axis: usize, k: u32) -> f64 {

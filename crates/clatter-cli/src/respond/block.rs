@@ -125,7 +125,7 @@ fn table(answer: &Answer, setup: &Setup, of_file: Option<(&PartSetup, Show)>, ou
     let [x, y, z] = answer.at_m.map(|x| given(neat(1e3 * x.0)));
     let axis = if answer.axis == "any" { "in magnitude".to_owned() } else { format!("along {}", answer.axis) };
     writeln!(out, "Place at {x}, {y}, {z} mm from the middle, {axis}")?;
-    if let Some(((part, time), limits)) = of_file.zip(answer.limits.as_ref()) {
+    if let Some(((part, time), limits)) = of_file.zip(answer.place.limits.as_ref()) {
         limits::table(part, limits, time, out)?;
     }
     let row = |out: &mut dyn Write, name: &str, largest: Option<Largest>| {
@@ -133,12 +133,12 @@ fn table(answer: &Answer, setup: &Setup, of_file: Option<(&PartSetup, Show)>, ou
         let (value, when) = (in_words(unit, None, value.0), figures(1e3 * time_s.0));
         writeln!(out, "  {name:<26}{value:>18}{when:>13}  at impact {impact}")
     };
-    let of = &answer.answers;
+    let of = &answer.place.answers;
     writeln!(out, "\nLargest at this place                             when, ms")?;
     row(out, "change of velocity", of.velocity_change)?;
     row(out, "acceleration", of.acceleration)?;
     row(out, "change of angular velocity", of.angular_velocity_change)?;
-    if let Some(part) = &answer.part {
+    if let Some(part) = &answer.place.part {
         let [omega, damping] = [part.omega, part.damping].map(|of| given(super::six(of.0)));
         writeln!(out, "\nPeak of the part, W = {omega} rad/s, damping ratio {damping}")?;
         row(out, "acceleration", of.part_acceleration)?;

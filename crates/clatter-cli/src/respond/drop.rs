@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use clatter::End;
 use clatter_answer::respond::drop::{self, Answer, Question};
-use clatter_answer::respond::{Factors, Largest, Peaks};
+use clatter_answer::respond::{AtPlace, Factors, Largest, Peaks};
 use clatter_answer::{Error, Json};
 use clatter_assess::units::Quantity;
 use clatter_assess::{LimitKind, Model};
@@ -104,7 +104,7 @@ impl Drop<'_> {
         let (at, shown) = (&self.called, &self.setup.shown);
         let Answer { model, first, length_m, e, speed_m_s, contact_time_s, contact_law, .. } = &self.answer;
         let (length, e) = (shown.length.given(length_m.0), given(e.0));
-        match &self.answer.part {
+        match &self.answer.place.part {
             Some(Peaks { omega, damping, .. }) => {
                 let zeta = given(super::six(damping.0));
                 let of_file = self.setup.part.as_ref().and_then(|part| part.suspension).map(|(frequency, _)| frequency);
@@ -138,23 +138,23 @@ impl Drop<'_> {
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
-        if let (Some(part), Some(limits)) = (&self.setup.part, &self.answer.limits) {
+        if let (Some(part), Some(limits)) = (&self.setup.part, &self.answer.place.limits) {
             limits::table(part, limits, self.setup.shown.time, out)?;
         }
-        if let Some(part) = &self.answer.part {
+        if let Some(part) = &self.answer.place.part {
             self.peaks(part, out)?;
         }
         self.place(out)?;
         self.shocks(out)?;
-        doubts(self.args.tolerance, &self.answer.answers, out)?;
-        equivalent_table(self.answer.equivalent.as_ref(), out)
+        doubts(self.args.tolerance, &self.answer.place.answers, out)?;
+        equivalent_table(self.answer.place.equivalent.as_ref(), out)
     }
 
     /// The peaks of the part.
     fn peaks(&self, part: &Peaks, out: &mut dyn Write) -> io::Result<()> {
         let (peaks, time, speed) = (&part.peaks, self.setup.shown.time, self.setup.shown.speed);
         let [acceleration, displacement] =
-            [self.answer.answers.part_acceleration, self.answer.answers.part_displacement];
+            [self.answer.place.answers.part_acceleration, self.answer.place.answers.part_displacement];
         let when = format!("when, {}", time.name());
         writeln!(out, "\n{:<34}{:>12} {when:>13}", "Peak of the part", "")?;
         let mut line = |name: &str, size: String, at: Json, largest: Option<Largest>| {
@@ -183,7 +183,7 @@ impl Drop<'_> {
 
     /// What the place goes through.
     fn place(&self, out: &mut dyn Write) -> io::Result<()> {
-        let of = &self.answer.answers;
+        let of = &self.answer.place.answers;
         let shown = &self.setup.shown;
         let when = format!("when, {}", shown.time.name());
         writeln!(out, "\n{:<34}{:>12} {when:>13}", "Largest at this position", "")?;
@@ -206,9 +206,10 @@ impl Drop<'_> {
 
     /// Single shocks at the position beside the answer.
     fn shocks(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Answer { e, speed_m_s, height_gap_m, velocity_change_m_s, clatter_free, standard, .. } = &self.answer;
+        let Answer { e, speed_m_s, height_gap_m, place, .. } = &self.answer;
+        let AtPlace { velocity_change_m_s, clatter_free, standard, .. } = place;
         let speed = self.setup.shown.speed;
-        let Some((part, gain)) = self.question.suspension.zip(self.answer.gain) else {
+        let Some((part, gain)) = self.question.suspension.zip(self.answer.place.gain) else {
             let flat = speed.said((1.0 + e.0) * speed_m_s.0);
             return writeln!(out, "\nWithout clatter, (1 + e) v0 everywhere at once: {flat}");
         };

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use clatter::Corner;
 use clatter_answer::Error;
 use clatter_answer::respond::plate::{self, Answer, Question};
-use clatter_answer::respond::{Factors, Largest};
+use clatter_answer::respond::{AtPlace, Factors, Largest};
 use clatter_assess::Model;
 use clatter_assess::units::Quantity;
 
@@ -142,8 +142,8 @@ impl Drop<'_> {
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
-        let (shown, of) = (&self.setup.shown, &self.answer.answers);
-        if let (Some(part), Some(limits)) = (&self.setup.part, &self.answer.limits) {
+        let (shown, of) = (&self.setup.shown, &self.answer.place.answers);
+        if let (Some(part), Some(limits)) = (&self.setup.part, &self.answer.place.limits) {
             limits::table(part, limits, shown.time, out)?;
         }
         let when = format!("when, {}", shown.time.name());
@@ -152,7 +152,7 @@ impl Drop<'_> {
             let (name, value) = (format!("{name}, {}", show.name()), show.figures(value.0));
             writeln!(out, "  {name:<33}{value:>11} {:>13}  at impact {impact}", shown.time.figures(time_s.0))
         };
-        if self.answer.part.is_some() {
+        if self.answer.place.part.is_some() {
             writeln!(out, "\n{:<34}{:>12} {when:>13}", "Peak of the part", "")?;
         }
         line(out, "acceleration", shown.acceleration, of.part_acceleration)?;
@@ -163,12 +163,13 @@ impl Drop<'_> {
         line(out, "change of angular velocity", shown.spin, of.angular_velocity_change)?;
         self.shocks(out)?;
         doubts(self.args.tolerance, of, out)?;
-        equivalent_table(self.answer.equivalent.as_ref(), out)
+        equivalent_table(self.answer.place.equivalent.as_ref(), out)
     }
 
     /// Single shocks at the position beside the answer.
     fn shocks(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Answer { e, speed_m_s, velocity_change_m_s, clatter_free, standard, .. } = &self.answer;
+        let Answer { e, speed_m_s, place, .. } = &self.answer;
+        let AtPlace { velocity_change_m_s, clatter_free, standard, .. } = place;
         let speed = self.setup.shown.speed;
         let Some(part) = &self.question.suspension else {
             let flat = speed.said((1.0 + e.0) * speed_m_s.0);

@@ -1,6 +1,7 @@
 //! Two contact laws, both linear in pieces, fitted to a restitution and to the time that a lone contact takes.
 
 use clatter::{Error, Restitution};
+use serde::{Deserialize, Serialize};
 
 use crate::scene::within;
 
@@ -8,7 +9,8 @@ use crate::scene::within;
 ///
 /// Both have the restitution e at any speed and the stated contact time τ for a lone contact without gravity. With ω₁ and
 /// μ = 1 + (lever arm/radius of gyration)² at the moment of touch, forces are per mass of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ContactLaw {
     /// Loading along F = k₁ d; unloading and reloading along F = k₂ (d − d₀) with k₂ = k₁/e² and d₀ = d_max (1 − e²),
     /// never pulling; back at d_max the point is on the first line again (after Walton and Braun). After parting below
