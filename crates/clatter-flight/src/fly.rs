@@ -7,7 +7,7 @@ use clatter::{End, Excitation};
 
 use crate::drop::{Drop, Engine};
 use crate::motion::{Ahead, FeetMotion, Motion, PlateMotion};
-use crate::{Contact, Error, Feet, Model, Place, Stop, Strike};
+use crate::{Contact, Error, Feet, Model, Place, Stop};
 use solid::{BlockMotion, axes};
 
 pub use solid::Push;
@@ -288,16 +288,6 @@ impl Followed {
         let instant = !self.has_contacts();
         let begun = |touch_s: f64| touch_s < time_s || instant && touch_s <= time_s;
         self.struck_s().partition_point(|s| begun(*s)).max(1) as u64
-    }
-    /// The strikes of a bar, end a that which touches first; none of other bodies and of a bar on feet whose contacts take time.
-    #[must_use]
-    pub fn strikes_of_bar(&self) -> Option<&[Strike]> {
-        if let Course::Bar(motion) = &self.motion { Some(&motion.strikes) } else { None }
-    }
-    /// The motion of a bar; none of other bodies and of a bar on feet whose contacts take time.
-    #[must_use]
-    pub fn motion_of_bar(&self) -> Option<&Motion> {
-        if let Course::Bar(motion) = &self.motion { Some(motion) } else { None }
     }
     /// Strikes of the corners of a plate near level, in order: which of them as seen from above, from a (−, −) to d (−, +), when it touches,
     /// and what its force does to its velocity.
