@@ -6,6 +6,8 @@
 
 use std::f64::consts::PI;
 
+use clatter_shock::samples::float;
+
 /// Up to this share of the sampling rate the content of a record is kept: 2.5 samples a cycle.
 pub const BAND: f64 = 0.4;
 
@@ -51,15 +53,13 @@ fn bessel(x: f64) -> f64 {
 
 /// The windowed sinc, `x` in samples.
 fn kernel(x: f64) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "a small number")]
-    let share = x / REACH as f64;
+    let share = x / float(REACH);
     if share.abs() < 1.0 { sinc(x) * bessel(BETA * (1.0 - share * share).sqrt()) / bessel(BETA) } else { 0.0 }
 }
 
 impl<const POINTS: usize> UpSampler<POINTS> {
     pub(crate) fn new() -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "small numbers")]
-        let (points, reach) = (POINTS as f64, REACH as f64);
+        let (points, reach) = (float(POINTS), float(REACH));
         // Lines between points keep sinc²(f) of a frequency of f to the point; 1 + s²/3 + 8s⁴/45 with s = sin(πf) is its inverse but
         // for s⁶, and s² is taking off the mean of both neighbors, by half.
         let raised = |x: f64| {
@@ -69,8 +69,7 @@ impl<const POINTS: usize> UpSampler<POINTS> {
         };
         let mut weights = [[0.0; POINTS]; TAPS];
         for point in 0..POINTS {
-            #[expect(clippy::cast_precision_loss, reason = "small numbers")]
-            let of = |tap: usize| raised(point as f64 / points + reach - 1.0 - tap as f64);
+            let of = |tap: usize| raised(float(point) / points + reach - 1.0 - float(tap));
             // A constant stays one.
             let sum: f64 = (0..TAPS).map(of).sum();
             for (tap, weights) in weights.iter_mut().enumerate() {

@@ -3,7 +3,7 @@
 mod words;
 
 use crate::factor;
-use crate::unit::{Kind, Unit};
+use crate::unit::{Kind, Unit, lists};
 use words::{ACCELERATIONS, BEGINNINGS, DATES, FUNCTIONS, GRAMS, INDICES, OTHERS, PLACES, TIMES};
 
 /// A heading: the name of a column and its unit.
@@ -70,7 +70,7 @@ impl Heading {
     pub(crate) fn named(&self) -> Named {
         let name = self.name.to_lowercase();
         let words = parts(&name);
-        let any = |list: &[&str]| words.iter().any(|word| list.contains(word));
+        let any = |list: &str| words.iter().any(|word| lists(list, word));
         let within = |part: &str| words.iter().any(|word| word.contains(part));
         // `acc`, `accx`, `acc12`, `accelerometer`, `accSmooth`, and not `account`.
         let is_acc = |word: &&str| {
@@ -81,26 +81,37 @@ impl Heading {
         if words.is_empty() {
             return Named::Index;
         }
-        if self.is_text || any(&OTHERS) || words.iter().any(|word| BEGINNINGS.iter().any(|b| word.starts_with(b))) {
+        if self.is_text
+            || any(OTHERS)
+            || BEGINNINGS.split(' ').any(|begin| words.iter().any(|word| word.starts_with(begin)))
+        {
             return Named::Other;
         }
-        if any(&TIMES) || name == "x_value" || within("timestamp") || words == ["x", "value"] {
+        if any(TIMES) || name == "x_value" || within("timestamp") || words == ["x", "value"] {
             return Named::Time;
         }
-        if any(&DATES) {
+        if any(DATES) {
             return Named::Other;
         }
         let alone = words.first() == Some(&"a") && words.len() <= 2;
-        if alone || any(&ACCELERATIONS) || words.iter().any(is_acc) || within("beschl") {
+        if alone || any(ACCELERATIONS) || words.iter().any(is_acc) || within("beschl") {
             return Named::Acceleration;
         }
-        if any(&PLACES) {
+        if any(PLACES) {
             return Named::Other;
         }
-        if any(&INDICES) {
+        if any(INDICES) {
             return Named::Index;
         }
         Named::Unknown
+    }
+
+    /// Whether it says something of time or acceleration, or has a unit.
+    pub(crate) fn is_telling(&self) -> bool {
+        self.unit.is_some() || self.names_time_or_acceleration()
+    }
+    pub(crate) fn names_time_or_acceleration(&self) -> bool {
+        matches!(self.named(), Named::Time | Named::Acceleration)
     }
 
     /// Whether the name alone says that a column is of times, whatever stands in it.
@@ -123,7 +134,7 @@ impl Heading {
     /// Why a column with a unit of acceleration, or with such a name, is no plain acceleration, if its name says so.
     pub(crate) fn function(&self) -> Option<String> {
         let name = self.name.to_lowercase();
-        let word = parts(&name).into_iter().find(|word| FUNCTIONS.contains(word));
+        let word = parts(&name).into_iter().find(|word| lists(FUNCTIONS, word));
         let begins = name.starts_with(['-', '−', '–', '|']) && name.len() > 1;
         let raised = ["^", "²", "³", "**", "d/dt", "/dt"].iter().find(|mark| name.contains(**mark));
         let factor = parts(&name).into_iter().find(|word| factor::is_marked(word));
@@ -139,10 +150,10 @@ impl Heading {
     pub(crate) fn is_of_grams(&self) -> bool {
         let name = self.name.to_lowercase();
         let words = parts(&name);
-        let is_acc = words.iter().any(|word| ACCELERATIONS.contains(word) || word.starts_with("acc"));
+        let is_acc = words.iter().any(|word| lists(ACCELERATIONS, word) || word.starts_with("acc"));
         let in_grams =
             self.spelled.as_deref().is_some_and(|unit| unit.to_lowercase().ends_with('g') && !unit.contains('/'));
-        in_grams && !is_acc && words.iter().any(|word| GRAMS.contains(word) || word.starts_with("magn"))
+        in_grams && !is_acc && words.iter().any(|word| lists(GRAMS, word) || word.starts_with("magn"))
     }
 
     /// As messages call it.

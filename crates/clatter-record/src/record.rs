@@ -146,17 +146,8 @@ impl Record {
             }
         }
         let untimed = |(name, values): (&str, _)| Untimed { name: name.to_owned(), unit: "m/s2".to_owned(), values };
-        let raw = Raw {
-            channels: channels.into_iter().map(untimed).collect(),
-            start_s,
-            unit_s: 1.0,
-            since_s: Vec::new(),
-            printed: Printed::floats(),
-            step_s: Some(step_s),
-            numbering: Vec::new(),
-            found: Vec::new(),
-        };
-        raw.finish(Bad::default(), &Options::default())
+        let channels = channels.into_iter().map(untimed).collect();
+        Raw::even(channels, [start_s, step_s]).finish(Bad::default(), &Options::default())
     }
 
     /// Of lines of text, by their times.

@@ -183,9 +183,23 @@ impl Preview {
         }
     }
 
+    /// The numbers of a column in the first rows.
+    pub(crate) fn numbers(&self, column: usize) -> impl DoubleEndedIterator<Item = f64> {
+        self.rows.iter().filter_map(move |row| row.get(column)).copied()
+    }
+    /// The same in pairs, each number with the next.
+    fn steps(&self, column: usize) -> impl Iterator<Item = (f64, f64)> {
+        self.numbers(column).zip(self.numbers(column).skip(1))
+    }
+    /// From the number in the first row to that in the last one.
+    pub(crate) fn span(&self, column: usize) -> Option<f64> {
+        let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).copied();
+        Some(at(self.rows.last())? - at(self.rows.first())?)
+    }
+
     /// Whether the first rows of a column rise, or stay for a while and rise, or are too few to tell.
     pub(crate) fn goes_on(&self, column: usize) -> bool {
-        let values = || self.rows.iter().filter_map(|row| row.get(column)).filter(|value| value.is_finite());
+        let values = || self.numbers(column).filter(|value| value.is_finite());
         let rises = values().zip(values().skip(1)).all(|(a, b)| a <= b);
         let moves = values().next().zip(values().next_back()).is_some_and(|(a, b)| a < b);
         self.rows.len() > 1 && rises && moves
@@ -197,8 +211,7 @@ impl Preview {
         if heading.named() != Named::Index || heading.unit.is_some_and(|unit| unit.kind == Kind::Acceleration) {
             return false;
         }
-        let values = || self.rows.iter().filter_map(|row| row.get(column));
-        let counts = values().zip(values().skip(1)).all(|(a, b)| b > a && a.fract() == 0.0);
+        let counts = self.steps(column).all(|(a, b)| b > a && a.fract() == 0.0);
         // `N`, `sample 1` and the like are names of channels as well.
         let name = heading.name.to_lowercase();
         let may_be_channel = ["n", "no", "nr", "sample", "samples", "point", "number", "num"]

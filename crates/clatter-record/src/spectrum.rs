@@ -1,5 +1,6 @@
 //! Shock response spectra of records.
 
+use clatter_shock::samples::float;
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, SpectrumFilter, UnevenFilter};
 
 use crate::between::{BAND, UpSampler};
@@ -97,8 +98,7 @@ impl Channel {
         let mut more = UpSampler::<POINTS>::new();
         let mut each = |values: &[f64]| {
             for value in values {
-                #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-                let time_s = points.len() as f64 * step_s / POINTS as f64;
+                let time_s = float(points.len()) * step_s / float(POINTS);
                 points.push((time_s, *value));
             }
         };

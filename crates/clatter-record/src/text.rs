@@ -17,12 +17,11 @@ mod series;
 use std::borrow::Cow;
 use std::io::Read;
 
-use encoding_rs::Encoding;
-
 use crate::error::Bad;
 use crate::heading::Heading;
 use crate::roles::{Preview, Roles};
 use crate::{At, Error, Options};
+use encoding::Letters;
 use layout::Layout;
 pub use list::{Cell, names_columns, read_list};
 pub(crate) use rows::Rows;
@@ -91,7 +90,7 @@ pub(crate) fn read(
         Some(text) => text.to_vec(),
         None => begin,
     };
-    let letters = encoding::of(&begin[..begin.len().min(HEAD.1)]);
+    let letters = Letters::of(&begin[..begin.len().min(HEAD.1)]);
     if labview::is_labview(&begin) {
         to_end(&mut begin, rest, options)?;
         progress(begin.len() as u64);
@@ -180,7 +179,7 @@ fn few_times(count: usize) -> Result<(), Error> {
 fn shape(
     mut layout: Layout,
     lines: &[String],
-    letters: &'static Encoding,
+    letters: Letters,
     options: &Options,
 ) -> Result<(Shape, Vec<Roles>), Error> {
     let all: Vec<Vec<Cow<'_, str>>> = lines[layout.begin..]
@@ -256,11 +255,11 @@ pub(crate) fn to_end(begin: &mut Vec<u8>, rest: &mut dyn Read, options: &Options
 }
 
 /// The lines that a text begins with, as far as they may tell what it is.
-fn first_lines(begin: &[u8], letters: &'static Encoding) -> Result<Vec<String>, Error> {
+fn first_lines(begin: &[u8], letters: Letters) -> Result<Vec<String>, Error> {
     let lines: Vec<String> = begin[..begin.len().min(HEAD.1)]
         .split(|byte| *byte == b'\n')
         .take(HEAD.0)
-        .map(|line| encoding::text(line, letters))
+        .map(|line| letters.text(line))
         .collect();
     match begin.len() > HEAD.1 && lines.len() < HEAD.0 {
         // The last one may be cut.
@@ -290,10 +289,10 @@ pub(crate) fn fill(input: &mut dyn Read, buffer: &mut [u8]) -> Result<usize, Err
 pub(crate) fn table(input: impl Read, most: usize) -> Result<(Vec<Heading>, Vec<Vec<f64>>), Error> {
     let mut bytes = Vec::new();
     input.take(HEAD.1 as u64).read_to_end(&mut bytes).map_err(|error| Error::Read(error.to_string()))?;
-    let letters = encoding::of(&bytes);
+    let letters = Letters::of(&bytes);
     let text = match decoded(&bytes) {
-        Some(decode) => encoding::text(&decode(&bytes), letters),
-        None => encoding::text(&bytes, letters),
+        Some(decode) => letters.text(&decode(&bytes)),
+        None => letters.text(&bytes),
     };
     let lines: Vec<String> = text.trim_start_matches('\u{feff}').lines().map(str::to_owned).collect();
     let lines = head::join_quotes(lines);

@@ -1,5 +1,7 @@
 //! Whether times lie on an even grid, as far as what a file holds of them tells.
 
+use clatter_shock::samples::float;
+
 use crate::decimal::Decimal;
 
 /// Times may be off an even grid by this share of a step: what that does to a spectrum is far below what is between samples.
@@ -67,8 +69,7 @@ impl Times<'_> {
         if count < 2 {
             return None;
         }
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let mean = self.since_s[count - 1] / (count - 1) as f64;
+        let mean = self.since_s[count - 1] / float(count - 1);
         if mean <= 0.0 {
             return None;
         }
@@ -108,8 +109,7 @@ impl Times<'_> {
             }
             long += units.round() - 1.0;
         }
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let steps = (count - 1) as f64;
+        let steps = float(count - 1);
         if long < LONG * steps {
             return None;
         }
@@ -230,8 +230,7 @@ impl Default for Within {
 impl Within {
     /// The time of a sample is off by so much at most.
     fn note(&mut self, sample: usize, time: f64, band: f64) {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let steps = sample as f64;
+        let steps = float(sample);
         (self.low, self.high) = (self.low.max((time - band) / steps), self.high.min((time + band) / steps));
     }
     /// The step that has the fewest digits, or whose rate has: 1e-4 s and 51200 Hz are meant where rounded times allow them.

@@ -3,14 +3,13 @@
 //! Source: Universal File Dataset 58, Structural Dynamics Research Laboratory, University of Cincinnati.
 
 use super::number::Number;
-use super::{Metadata, Room, column, refuse};
+use super::{TableBuilder, column, refuse};
 use crate::unit::{Kind, Unit};
-use crate::{Column, Error, Values};
+use crate::{Column, Error, Table, Values};
 use std::borrow::Cow;
 
-pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let mut lines = Lines { bytes, at: 0, line: 0 };
-    let mut columns: Vec<Column> = Vec::new();
     // Blocks of one recorder share their times, and lie in a group with them.
     let (mut last_times, mut groups) = (None, 0_usize);
     while let Some(line) = lines.next() {
@@ -20,32 +19,30 @@ pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Resu
         let Some(head) = lines.next() else { break };
         let (set, binary) = (head.get(..6).unwrap_or(&head).trim(), head.get(6..7) == Some("b"));
         if set == "58" {
-            match block(&mut lines, binary.then_some(&head), room)? {
+            match block(&mut lines, binary.then_some(&head), table)? {
                 Ok((times, mut values)) => {
                     if values.name.is_empty() {
-                        values.name = format!("channel {}", columns.len() + 1);
+                        values.name = format!("channel {}", table.table.columns.len() + 1);
                     }
-                    if let Some(mut times) = times {
-                        if last_times.as_ref() != Some(&times) {
-                            last_times = Some(times.clone());
-                            groups += 1;
-                            times.group = groups.to_string();
-                            columns.push(times);
-                        }
-                        values.group = groups.to_string();
+                    let uneven = times.is_some();
+                    if let Some(times) = times.filter(|times| last_times.as_ref() != Some(times)) {
+                        groups += 1;
+                        last_times = Some(times.clone());
+                        table.extend(&groups.to_string(), [times]);
                     }
-                    columns.push(values);
+                    table.extend(&if uneven { groups.to_string() } else { String::new() }, [values]);
                 }
-                Err(reason) => beside.left_out.push(reason),
+                Err(reason) => table.leave_out(reason),
             }
         }
         // Other data sets: to the line that ends them.
         while lines.next().is_some_and(|line| line.trim() != "-1") {}
     }
-    if columns.is_empty() && beside.left_out.is_empty() {
+    let Table { columns, left_out, .. } = &table.table;
+    if columns.is_empty() && left_out.is_empty() {
         return Err(refuse("universal file: it has no data set 58 or 58b, which holds records"));
     }
-    Ok(columns)
+    Ok(())
 }
 
 /// Lines of a file that may hold binary parts.
@@ -117,7 +114,7 @@ struct Axis {
 
 const TIME: u32 = 17;
 
-fn block(lines: &mut Lines<'_>, binary: Option<&str>, room: &mut Room) -> Result<Block, Error> {
+fn block(lines: &mut Lines<'_>, binary: Option<&str>, table: &mut TableBuilder) -> Result<Block, Error> {
     let head = match Head::read(lines)? {
         Ok(head) => head,
         Err(reason) => {
@@ -129,7 +126,7 @@ fn block(lines: &mut Lines<'_>, binary: Option<&str>, room: &mut Room) -> Result
         }
     };
     let per_value = if head.even { 1 } else { 2 };
-    room.take_all(&[head.count, per_value])?;
+    table.take(&[head.count, per_value])?;
     let (times, values) = match binary {
         Some(binary) => head.binary(lines, &Binary::read(binary, lines)?)?,
         None => head.text(lines)?,

@@ -20,25 +20,17 @@ pub(super) struct Form {
 }
 
 /// Cells that stand for no value.
-const MISSING: [&str; 10] = ["nan", "na", "n/a", "#n/a", "#nv", "null", "none", "nil", "-nan", "-nan(ind)"];
+const MISSING: &str = "nan na n/a #n/a #nv null none nil -nan -nan(ind)";
 /// Cells that stand for a value beyond the range of an instrument.
-const BEYOND: [&str; 13] = [
-    "inf",
-    "-inf",
-    "+inf",
-    "infinity",
-    "-infinity",
-    "∞",
-    "-∞",
-    "ol",
-    "-ol",
-    "over",
-    "overload",
-    "overflow",
-    "overrange",
-];
+const BEYOND: &str = "inf -inf +inf infinity -infinity ∞ -∞ ol -ol over overload overflow overrange";
 /// The arrow between time and numbers.
 pub(super) const ARROW: &str = " -> ";
+
+impl Default for Form {
+    fn default() -> Self {
+        Self::new(None, b'.')
+    }
+}
 
 impl Form {
     pub(super) const fn new(separator: Option<u8>, point: u8) -> Self {
@@ -142,12 +134,12 @@ impl Form {
 
 /// Whether a cell says that there is no value.
 pub(super) fn is_missing(cell: &str) -> bool {
-    MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word))
+    MISSING.split(' ').any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Whether a cell says that the value is beyond what the instrument can tell.
 pub(super) fn is_beyond(cell: &str) -> bool {
-    BEYOND.iter().any(|word| cell.eq_ignore_ascii_case(word))
+    BEYOND.split(' ').any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// A number of more digits than are kept, cut to those that floats can tell apart.

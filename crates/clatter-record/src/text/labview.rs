@@ -8,10 +8,10 @@ mod segment;
 use std::collections::HashMap;
 
 use clatter_shock::samples::float;
-use encoding_rs::Encoding;
 
+use super::Rows;
 use super::cells::Form;
-use super::{Rows, encoding};
+use super::encoding::Letters;
 use crate::roles::Roles;
 use crate::{Error, Options};
 
@@ -30,7 +30,7 @@ pub(super) fn is_labview(begin: &[u8]) -> bool {
 /// # Errors
 /// [`Error::File`] for a file without data, or with columns that its heading does not tell of, [`Error::Records`] where one of
 /// several records has to be chosen.
-pub(super) fn read(bytes: &[u8], letters: &'static Encoding, options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
+pub(super) fn read(bytes: &[u8], letters: Letters, options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
     let file = File::of(&lines, letters)?;
     let mut records = file.records(&lines)?;
@@ -56,7 +56,7 @@ pub(super) fn read(bytes: &[u8], letters: &'static Encoding, options: &Options) 
 #[derive(Debug)]
 struct File {
     form: Form,
-    letters: &'static Encoding,
+    letters: Letters,
     columns: Columns,
     segments: Vec<Segment>,
 }
@@ -103,12 +103,12 @@ fn is_blank(line: &[u8]) -> bool {
 }
 
 impl File {
-    fn of(lines: &[&[u8]], letters: &'static Encoding) -> Result<Self, Error> {
+    fn of(lines: &[&[u8]], letters: Letters) -> Result<Self, Error> {
         let end = lines.iter().position(|line| line.starts_with(END.as_bytes())).ok_or_else(|| {
             Error::File(format!("the heading of this LabVIEW measurement does not end: there is no line {END}"))
         })?;
         let value = |key: &str| {
-            let line = lines[..end].iter().map(|line| encoding::text(line, letters)).find(|line| {
+            let line = lines[..end].iter().map(|line| letters.text(line)).find(|line| {
                 line.strip_prefix(key).is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
             })?;
             Some(line[key.len()..].trim_matches(['\r', '\n', '\t', ' ']).to_owned())
@@ -145,7 +145,7 @@ impl File {
 
     /// The cells of a line.
     fn cells(&self, line: &[u8]) -> Vec<String> {
-        let text = encoding::text(line, self.letters);
+        let text = self.letters.text(line);
         self.form.cells(text.trim_end_matches(['\r', '\n'])).into_iter().map(std::borrow::Cow::into_owned).collect()
     }
 
@@ -159,7 +159,7 @@ impl File {
             return Ok(None);
         }
         let end = (begin..lines.len()).find(|line| lines[*line].starts_with(END.as_bytes())).ok_or_else(|| {
-            let line = encoding::text(lines[begin], self.letters);
+            let line = self.letters.text(lines[begin]);
             Error::File(format!("line {}: '{}' begins no segment: no line {END} follows", begin + 1, line.trim()))
         })?;
         let names = lines.get(end + 1).map(|line| self.cells(line)).unwrap_or_default();

@@ -10,7 +10,7 @@ use crate::heading::{Heading, Named, unbracketed};
 use crate::unit::{Kind, Unit};
 
 /// What the beginning of a text tells.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Layout {
     pub(super) form: Form,
     /// Number of the first line of numbers, from 0.
@@ -88,12 +88,9 @@ impl Layout {
         let mut layout = Self {
             form,
             begin,
-            headings: Vec::new(),
-            named: false,
-            sampled_s: None,
             told_s: head::step(&lines[..begin]),
-            count: None,
             measured: found.measured.clone(),
+            ..Self::default()
         };
         layout.count = layout.refuse_numbers(lines, columns)?;
         layout.read_above(lines, columns, found.counts, !found.columns.contains(&0))?;
@@ -124,13 +121,10 @@ impl Layout {
         let headings: Vec<Heading> = scope.names.iter().zip(&scope.units).map(heading).collect();
         Self {
             form: Form::new(Some(b','), b'.'),
-            begin: 0,
             measured: vec![false; headings.len()],
             headings,
             named: true,
-            sampled_s: None,
-            told_s: None,
-            count: None,
+            ..Self::default()
         }
     }
 
@@ -300,13 +294,9 @@ impl Layout {
         };
         let is_rule = |cell: &String| cell.len() > 1 && cell.chars().all(|c| matches!(c, '-' | '+' | '=' | '_' | ':'));
         let filled = || cells.iter().filter(|cell| !cell.is_empty());
-        let telling = |cell: &String| {
-            let heading = Heading::of(cell);
-            heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration)
-        };
         let numbers = filled().filter(|cell| is_number(cell)).count();
         filled().all(|cell| is_type(cell) || is_labelled(cell) || is_rule(cell))
-            || numbers > 0 && !filled().any(|cell| !is_number(cell) && telling(cell))
+            || numbers > 0 && !filled().any(|cell| !is_number(cell) && Heading::of(cell).is_telling())
     }
 }
 
@@ -314,11 +304,8 @@ impl Layout {
 fn other_names(form: Form, line: &str) -> Option<usize> {
     form.separator?;
     let cells = form.cells(line);
-    let telling = |cell: &Cow<'_, str>| {
-        let heading = Heading::of(cell);
-        let is_number = cell.starts_with(|c: char| c.is_ascii_digit());
-        !is_number && (heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration))
-    };
+    let telling =
+        |cell: &Cow<'_, str>| !cell.starts_with(|c: char| c.is_ascii_digit()) && Heading::of(cell).is_telling();
     (cells.len() > 1 && cells.iter().any(telling)).then_some(cells.len())
 }
 
@@ -387,8 +374,7 @@ impl Layout {
         };
         let telling = |cell: &String| {
             let heading = Heading::of(cell);
-            heading.spelled.as_ref().is_some_and(|unit| *unit != heading.name)
-                || matches!(heading.named(), Named::Time | Named::Acceleration)
+            heading.spelled.as_ref().is_some_and(|unit| *unit != heading.name) || heading.names_time_or_acceleration()
         };
         let said = |cell: &&String| self.form.number(cell).is_some() || !is_unit(cell) && telling(cell);
         cells.iter().any(|cell| is_unit(&cell)) && !cells.iter().any(|cell| said(&cell))

@@ -2,12 +2,11 @@
 
 use std::io::Read;
 
-use encoding_rs::Encoding;
-
 use super::cells::Form;
 use super::digits::Digits;
+use super::encoding::Letters;
 use super::layout::uncommented;
-use super::{BLOCK, LONGEST, decoded, encoding, fill, first_lines, head, to_end};
+use super::{BLOCK, LONGEST, decoded, fill, first_lines, head, to_end};
 use crate::error::Bad;
 use crate::heading::{Heading, Named, unbracketed};
 use crate::unit::Unit;
@@ -98,7 +97,7 @@ struct List<const N: usize> {
     form: Form,
     /// Whether a number has shown what its decimal mark is.
     is_sure: bool,
-    letters: &'static Encoding,
+    letters: Letters,
     /// Lines down to the names or the units.
     above: usize,
     columns: usize,
@@ -144,7 +143,7 @@ impl<const N: usize> List<N> {
     /// Of the beginning of a text.
     fn of(begin: &[u8], names: [&str; N]) -> Result<Self, Error> {
         let begin = begin.strip_prefix("\u{feff}".as_bytes()).unwrap_or(begin);
-        let letters = encoding::of(&begin[..begin.len().min(BLOCK)]);
+        let letters = Letters::of(&begin[..begin.len().min(BLOCK)]);
         let lines = first_lines(begin, letters)?;
         let mut filled = lines.iter().enumerate().filter(|(_, line)| is_row(line)).take(ABOVE).peekable();
         let mut missing: Option<(usize, usize, String)> = None;
@@ -202,7 +201,7 @@ impl<const N: usize> List<N> {
                 None => {
                     let above = below.filter(|_| is_below).map_or(0, |(below, _)| below + 1);
                     let digits = std::array::from_fn(|_| Digits::default());
-                    let letters = encoding_rs::WINDOWS_1252;
+                    let letters = Letters::default();
                     return Ok(Self {
                         form,
                         is_sure: separator == Some(b','),
@@ -228,7 +227,7 @@ impl<const N: usize> List<N> {
         line: usize,
         each: &mut impl FnMut([Cell<'_>; N]) -> Result<(), String>,
     ) -> Result<bool, Error> {
-        let text = encoding::text(row, self.letters);
+        let text = self.letters.text(row);
         let text = text.trim_end_matches(['\r', '\n']).trim_start_matches('\u{feff}');
         if line < self.above || !is_row(text) {
             return Ok(false);

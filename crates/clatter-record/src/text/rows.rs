@@ -7,7 +7,7 @@ mod shape;
 use super::cells::is_missing;
 use super::digits::Digits;
 use super::layout::uncommented;
-use super::{cut, encoding, head, visible};
+use super::{cut, head, visible};
 use crate::account::Lines;
 use crate::decimal::Decimal;
 use crate::error::Bad;
@@ -36,7 +36,7 @@ enum Use {
 }
 
 /// Lines of numbers, as far as they are read.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Rows {
     shape: Shape,
     /// What is made of each column, up to the last that is used.
@@ -106,30 +106,13 @@ impl Rows {
             time_size: roles.time.or(roles.checked).map_or(1.0, |(_, size)| size),
             most_values: options.most_values,
             skip_bad: options.skip_bad,
-            line: 0,
             ends_early: roles.beside_others,
-            row: Vec::new(),
-            time: None,
-            day: None,
-            first_time: None,
-            first_day: None,
-            first_date: None,
-            days_s: 0.0,
-            text: Bad::default(),
-            heading: None,
-            empty: None,
-            breaks: (0, 0),
             digits: vec![Digits::default(); roles.channels.len() + 1],
             open: true,
-            lines: Lines::default(),
-            doubled: Vec::new(),
             sampled_s: shape.sampled_s,
-            times: Vec::new(),
-            printed: Printed::default(),
             channels: vec![Vec::new(); roles.channels.len()],
-            bad: Bad::default(),
-            numbering: Vec::new(),
             shape,
+            ..Self::default()
         }
     }
 
@@ -204,7 +187,7 @@ impl Rows {
                 continue;
             }
             let length = text[at..end].iter().position(|byte| *byte == b'\n').unwrap_or(end - at - 1);
-            let line = encoding::text(&text[at..at + length], self.shape.letters);
+            let line = self.shape.letters.text(&text[at..at + length]);
             let rows = self.lines.rows;
             self.any(&line)?;
             let line = &text[at..at + length];

@@ -2,8 +2,9 @@
 
 use super::encoding::{Dictionary, delta, hybrid, plain_bits, split_streams};
 use super::refuse;
-use crate::Error;
 use crate::container::codec;
+use crate::container::stored::Stored;
+use crate::{Error, Values};
 use polars_parquet_format::thrift::protocol::TCompactInputProtocol;
 use polars_parquet_format::{ColumnMetaData, CompressionCodec, Encoding, PageHeader, PageType};
 use std::borrow::Cow;
@@ -26,6 +27,13 @@ pub(super) struct Rows {
     pub(super) bytes: Vec<u8>,
     /// Which rows have a number; empty where all have to.
     pub(super) valid: Vec<bool>,
+}
+
+impl Rows {
+    /// As the values of a column.
+    pub(super) fn values(&self, stored: Stored, name: &str) -> Result<Values, Error> {
+        stored.values(&self.bytes, false, |row| self.valid.is_empty() || self.valid.get(row) == Some(&true), name)
+    }
 }
 
 /// All rows of a column in a row group.

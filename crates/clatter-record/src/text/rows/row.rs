@@ -7,7 +7,7 @@ use clatter_shock::samples::LARGEST;
 use super::{NO_VALUE, Rows, Use};
 use crate::Error;
 use crate::decimal::Decimal;
-use crate::heading::{Heading, Named};
+use crate::heading::Heading;
 use crate::moment::{self, CLOCK, DATED};
 use crate::text::cells::{is_beyond, is_missing};
 use crate::text::visible;
@@ -214,11 +214,7 @@ impl Rows {
 
     /// Whether cells are names of columns.
     pub(super) fn is_heading(cells: &[Cow<'_, str>]) -> bool {
-        let telling = |cell: &Cow<'_, str>| {
-            let heading = Heading::of(cell);
-            heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration)
-        };
-        cells.len() > 1 && cells.iter().any(telling)
+        cells.len() > 1 && cells.iter().any(|cell| Heading::of(cell).is_telling())
     }
 
     /// Whether a text is a heading by which a column goes on in another unit.
