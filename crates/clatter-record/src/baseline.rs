@@ -28,7 +28,7 @@ pub const PRE_SHOCK_SHARE: f64 = 0.05;
 /// The fewest samples before the shock: their mean keeps a quarter of the noise of one (1/√16).
 const FEWEST: usize = 16;
 
-/// What was taken out: offset + drift · t, t from the first sample.
+/// The baseline that was taken out: offset + drift · t, t from the first sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Removed {
     /// At the first sample, m/s².

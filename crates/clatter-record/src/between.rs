@@ -1,4 +1,4 @@
-//! What is between the samples: a record holds all of a history without content from half the sampling rate on.
+//! A record holds all of a history without content from half the sampling rate on, between its samples too.
 //!
 //! Straight lines between samples lose 3 % of a tone at ten samples a cycle and 41 % at two and a half. [`UpSampler`] puts more
 //! points between the samples by a windowed sinc, and raises them by what the lines between them will lose, so that the history
@@ -27,7 +27,7 @@ const BETA: f64 = 7.52;
 /// beyond has 1.3 % of it with four points a sample, and 0.07 % with sixteen.
 #[derive(Debug, Clone)]
 pub(crate) struct UpSampler<const POINTS: usize> {
-    /// What each of the samples around gives to the points after one of them.
+    /// The share that each of the samples around gives to the points after one of them.
     weights: [[f64; POINTS]; TAPS],
     /// The samples that the next point needs, and those that came after.
     window: Vec<f64>,

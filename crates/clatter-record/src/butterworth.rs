@@ -4,12 +4,12 @@ use crate::Error;
 use clatter_shock::samples::{check, float};
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
-/// What a filter lets through.
+/// The part of a record that a filter lets through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Pass {
-    /// What is below the cutoff.
+    /// Frequencies below the cutoff.
     Low,
-    /// What is above it.
+    /// Frequencies above it.
     High,
 }
 
@@ -164,7 +164,7 @@ impl Cascade {
             *sample = value;
         }
     }
-    /// What is left of a constant.
+    /// Returns what is left of a constant.
     fn steady(&self, value: f64) -> f64 {
         if self.pass == Pass::Low { value } else { 0.0 }
     }

@@ -127,7 +127,7 @@ fn seen(columns: &[Column], options: &Options) -> Preview {
     }
 }
 
-/// What the times of a channel are sought in.
+/// The times of channels are sought here.
 struct Sought<'a> {
     columns: &'a [Column],
     seen: &'a Preview,

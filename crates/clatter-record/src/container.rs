@@ -195,7 +195,7 @@ impl Naming {
 struct Matrix<'a> {
     rows: usize,
     columns: usize,
-    /// Whether the numbers of a column lie side by side, or those of a row.
+    /// Tells whether the numbers of a column lie side by side, or those of a row.
     column_by_column: bool,
     bytes: &'a [u8],
     number: Number,
@@ -224,10 +224,11 @@ impl Matrix<'_> {
 /// Seconds between samples, by the name and the value of a number beside the columns: `fs` or `sample_rate` in Hz, `dt`
 /// or `sample_interval` in s. The names are those of scripts and loggers, without regard to case and separators.
 fn interval_s(name: &str, value: f64) -> Option<f64> {
-    const RATES: &str = "fs samplerate samplingrate samplefrequency samplingfrequency samplefreq samplingfreq samplespersecond \
-         sampleratehz";
-    const INTERVALS: &str =
-        "dt deltat ts sampleinterval samplinginterval sampleperiod samplingperiod sampletime timestep wfincrement";
+    const RATES: &str = "\
+        fs samplerate samplingrate samplefrequency samplingfrequency samplefreq samplingfreq samplespersecond \
+        sampleratehz";
+    const INTERVALS: &str = "\
+        dt deltat ts sampleinterval samplinginterval sampleperiod samplingperiod sampletime timestep wfincrement";
     let name: String =
         name.chars().filter(char::is_ascii_alphanumeric).map(|letter| letter.to_ascii_lowercase()).collect();
     let interval = if lists(RATES, &name) {

@@ -1,4 +1,4 @@
-//! What is odd about a record: told, and the record is used all the same.
+//! Findings tell what is odd about a record, which is used all the same.
 
 use crate::error::Bad;
 use clatter_shock::samples::float;
@@ -11,13 +11,13 @@ use std::ops::Range;
 pub enum Finding {
     /// Columns that nothing is made of.
     LeftOut(Vec<String>),
-    /// What the reader has to say of the file.
+    /// A note of the reader on the file.
     Note(String),
     /// Something about channels of one time, where others have another.
     Of {
         /// Names of the channels.
         channels: String,
-        /// What it is.
+        /// The finding.
         finding: Box<Self>,
     },
     /// Lines that were left out, as they cannot be used.
@@ -73,7 +73,7 @@ pub enum Finding {
         to: At,
         /// The level in m/s².
         level_m_s2: f64,
-        /// What it may change of the spectrum at the lowest frequency.
+        /// The share of the spectrum that it may change at the lowest frequency.
         share: f64,
         /// That frequency in Hz.
         hz: f64,
@@ -88,7 +88,7 @@ pub enum Finding {
         to: At,
         /// The level there less that before the shock, in m/s².
         change_m_s2: f64,
-        /// What it may change of the spectrum at the lowest frequency.
+        /// The share of the spectrum that it may change at the lowest frequency.
         share: f64,
         /// That frequency in Hz.
         hz: f64,
@@ -258,7 +258,7 @@ fn usual(steps: &[f64]) -> [f64; 2] {
     [usual_s, share(steps.iter().map(|step| (step - usual_s).abs()).collect(), 9)]
 }
 
-/// Whether samples are of events: their steps differ by more than they are long, and none of them is missing.
+/// Returns whether samples are of events: their steps differ by more than they are long, and none of them is missing.
 pub(crate) fn is_of_events(since_s: &[f64]) -> bool {
     let steps: Vec<f64> = since_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let [usual_s, spread] = usual(&steps);
@@ -315,8 +315,8 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / float(values.len())
 }
 
-/// A channel, its duration and the lowest frequency that matters.
-pub(crate) struct Judged<'a> {
+/// A channel that is inspected, its duration and the lowest frequency that matters.
+pub(crate) struct Inspection<'a> {
     pub(crate) channel: &'a str,
     pub(crate) values: &'a [f64],
     pub(crate) duration_s: f64,
@@ -326,9 +326,9 @@ pub(crate) struct Judged<'a> {
     pub(crate) at: &'a dyn Fn(usize) -> At,
 }
 
-impl Judged<'_> {
+impl Inspection<'_> {
     /// Adds what is odd.
-    pub(crate) fn judge(&self, findings: &mut Vec<Finding>) {
+    pub(crate) fn add_to(&self, findings: &mut Vec<Finding>) {
         let values = self.values;
         let largest = values.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
         let (Some(first), Some(last)) = (values.first(), values.last()) else { return };

@@ -10,7 +10,7 @@ use crate::unit::{FREQUENCY, Kind, LENGTH, Unit, VELOCITY};
 pub struct LimitPoints {
     /// Frequency in Hz and level, in SI where the file names its unit.
     pub points: Vec<(f64, f64)>,
-    /// What the unit is of: "acceleration", "velocity" or "length"; none where the file names none.
+    /// The quantity of the unit: "acceleration", "velocity" or "length"; none where the file names none.
     pub of: Option<&'static str>,
     /// The unit of the level as the file spells it.
     pub unit: Option<String>,

@@ -1,4 +1,4 @@
-//! Whether what is told of a record goes with its numbers.
+//! Rates and units that are told of a record are held against its numbers.
 
 use clatter_shock::samples::float;
 
@@ -6,7 +6,7 @@ use crate::raw::Untimed;
 use crate::unit::Unit;
 use crate::{Error, Finding};
 
-/// What a rate says against times that a file has as well, which may be rounded by so much. Samples that are missing by both are an
+/// Holds a rate against times that a file has as well, which may be rounded by so much. Samples that are missing by both are an
 /// error.
 pub(crate) fn against_times(
     step_s: f64,

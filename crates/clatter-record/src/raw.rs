@@ -1,4 +1,4 @@
-//! What a reader hands on of channels that share their times, before it is known what the times are.
+//! A reader hands channels that share their times on before it is known what the times are.
 
 use std::sync::Arc;
 

@@ -11,7 +11,7 @@ use clatter_shock::samples::check;
 use crate::axis::{Spacing, TimeAxis};
 use crate::container::{self, Kind};
 use crate::error::Bad;
-use crate::finding::{At, Finding, Judged, is_of_events};
+use crate::finding::{At, Finding, Inspection, is_of_events};
 use crate::plausible::{against_times, refuse_counts};
 use crate::raw::{Raw, Untimed};
 use crate::roles::{Role, Roles};
@@ -23,9 +23,9 @@ use crate::{Account, Error, FULL_SCALE, Options};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     pub(crate) channels: Vec<Channel>,
-    /// What was found while reading.
+    /// Findings of the reader.
     pub(crate) read: Vec<Finding>,
-    /// What became of each line and column of a text.
+    /// The account of the lines and columns of a text.
     pub(crate) account: Option<Account>,
 }
 
@@ -266,7 +266,7 @@ impl Record {
     pub fn channel(&self, name: &str) -> Option<&Channel> {
         self.channels.iter().find(|channel| channel.name == name)
     }
-    /// What became of every line and every column, of a text.
+    /// Returns the account of every line and every column, of a text.
     #[must_use]
     pub fn account(&self) -> Option<&Account> {
         self.account.as_ref()
@@ -302,7 +302,7 @@ impl Record {
             }
         }
     }
-    /// What is odd, for one who asks for a spectrum from `lowest_hz` on.
+    /// Returns what is odd, for one who asks for a spectrum from `lowest_hz` on.
     #[must_use]
     pub fn findings(&self, lowest_hz: f64) -> Vec<Finding> {
         let mut findings = self.read.clone();
@@ -313,7 +313,7 @@ impl Record {
             };
             let at = |sample| times.at(sample);
             let duration_s = times.duration_s();
-            Judged { channel: name, values, duration_s, is_even, lowest_hz, at: &at }.judge(&mut findings);
+            Inspection { channel: name, values, duration_s, is_even, lowest_hz, at: &at }.add_to(&mut findings);
         }
         findings
     }

@@ -5,9 +5,9 @@
 pub struct Table {
     /// In the order of the file.
     pub columns: Vec<Column>,
-    /// What the file holds beside them, each with the reason why it is none of them.
+    /// Other contents of the file, each with the reason why it is none of them.
     pub left_out: Vec<String>,
-    /// What else one should know of the file.
+    /// Notes that one should know of the file.
     pub notes: Vec<String>,
 }
 
@@ -54,7 +54,7 @@ impl Values {
             Self::Integer(values) => values.len(),
         }
     }
-    /// Whether there are none.
+    /// Returns whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -110,7 +110,10 @@ impl Values {
     /// Adds the next part of a column. Where one has integers beyond 2^53, both become integers; where the other has some
     /// beyond 2^63, which came as floats, both become floats.
     pub(crate) fn append(&mut self, after: Self) {
-        let is_beyond = |values: &Self| matches!(values, Self::Float(values) if values.iter().any(|value| value.abs() > 2_f64.powi(53)));
+        let is_beyond = |values: &Self| match values {
+            Self::Float(values) => values.iter().any(|value| value.abs() > 2_f64.powi(53)),
+            Self::Integer(_) => false,
+        };
         *self = match (std::mem::replace(self, Self::Float(Vec::new())), after) {
             (Self::Float(mut before), Self::Float(after)) => {
                 before.extend(after);

@@ -39,7 +39,7 @@ pub(crate) const SHOWN: usize = 8;
 /// How the bytes of a text become others.
 type Decode = fn(&[u8]) -> Vec<u8>;
 
-/// What makes a text one of UTF-8, or of any other bytes with ASCII below 128, whose lines end with a line feed.
+/// Returns what makes a text one of UTF-8, or of any other bytes with ASCII below 128, whose lines end with a line feed.
 pub(crate) fn decoded(first: &[u8]) -> Option<Decode> {
     fn little(bytes: &[u8]) -> Vec<u8> {
         utf16(bytes, u16::from_le_bytes)
@@ -68,7 +68,7 @@ fn utf16(bytes: &[u8], word: fn([u8; 2]) -> u16) -> Vec<u8> {
     text.replace("\r\n", "\n").replace('\r', "\n").into_bytes()
 }
 
-/// What a message shows of a text from outside: its beginning, without what a terminal would act on.
+/// Returns what a message shows of a text from outside: its beginning, without what a terminal would act on.
 fn visible(text: &str) -> String {
     const SHOWN: usize = 40;
     let plain = |c: char| if c.is_control() { '□' } else { c };
@@ -175,7 +175,7 @@ fn few_times(count: usize) -> Result<(), Error> {
     Err(Error::Columns(format!("the channels have more than {MOST} times of their own: take some of the channels")))
 }
 
-/// What the lines of numbers are like, and what their columns are, by the first of them: each time with its channels.
+/// Returns the form of the lines of numbers, and what their columns are, by the first of them: each time with its channels.
 fn shape(
     mut layout: Layout,
     lines: &[String],

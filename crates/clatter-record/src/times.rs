@@ -1,4 +1,4 @@
-//! Whether times lie on an even grid, as far as what a file holds of them tells.
+//! Times that lie on an even grid are found, as far as what a file holds of them tells.
 
 use clatter_shock::samples::float;
 
@@ -83,7 +83,7 @@ impl Times<'_> {
         if !explained(found[0]) && !explained(found[1]) {
             found[2] = self.even(mean, own);
         }
-        // What rounding explains in full is meant, before what is a little off.
+        // A step that rounding explains in full is meant, before one that is a little off.
         let found: Vec<Even> = found.into_iter().flatten().collect();
         found.iter().find(|found| found.exact).or(found.first()).map(|found| found.step_s).or_else(|| self.coarse(mean))
     }
@@ -113,7 +113,7 @@ impl Times<'_> {
         if long < LONG * steps {
             return None;
         }
-        // What times leave above and below a line of some step: convex in the step.
+        // The times leave this much above and below a line of some step: it is convex in the step.
         let spread = |step: f64| {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             let mut at = 0.0;
@@ -167,7 +167,7 @@ impl Times<'_> {
     fn own(&self, i: usize) -> Option<f64> {
         Some(10_f64.powi(i32::from(*self.printed.places.get(i)?)) * self.unit_s)
     }
-    /// Whether all times are floats of 32 bits, as numbers, rounded to the digits that were printed, or in their shortest digits.
+    /// Returns whether all times are floats of 32 bits, as numbers, rounded to the digits that were printed, or in their shortest digits.
     fn is_single(&self) -> bool {
         (0..self.since_s.len()).all(|i| {
             let number = self.number(i);
@@ -210,7 +210,7 @@ impl Times<'_> {
 #[derive(Debug, Clone, Copy)]
 struct Even {
     step_s: f64,
-    /// Whether rounding explains all that times are off it.
+    /// Tells whether rounding explains all that times are off it.
     exact: bool,
 }
 

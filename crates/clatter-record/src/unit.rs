@@ -2,7 +2,7 @@
 
 use clatter_shock::STANDARD_GRAVITY_M_S2;
 
-/// What a unit is of.
+/// The quantity that a unit is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Time,
@@ -66,17 +66,30 @@ pub(crate) const VELOCITY: Kind = Kind::Other("a velocity");
 pub(crate) const VOLTAGE: Kind = Kind::Other("a voltage");
 /// Ends that make a velocity of a length, and those that make an acceleration.
 const PER_SECOND: &str = "/s /sec /second ps s-1 sec-1";
-const PER_SECOND_SQUARED: &str = "/s2 /s/s /sec2 /sec/sec /second2 /second/second /secondsquared /(s2) /(s/s) s-2 .s-2 /s/2 sec-2 ps2 /ssquared \
-     /secsquared /(ss) /(s.s) /с2 /с/с /сек2 /秒2";
+const PER_SECOND_SQUARED: &str = "\
+    /s2 /s/s /sec2 /sec/sec /second2 /second/second /secondsquared /(s2) /(s/s) s-2 .s-2 /s/2 sec-2 ps2 /ssquared \
+    /secsquared /(ss) /(s.s) /с2 /с/с /сек2 /秒2";
 /// Factors by name, which stand before a unit as words of their own.
 const PREFIXES: [(&str, f64); 4] = [("milli m", 1e-3), ("micro u", 1e-6), ("nano n", 1e-9), ("kilo k", 1e3)];
 
-/// Whether a list of words has this one.
+/// Returns whether a list of words has this one.
 pub(crate) fn lists(list: &str, word: &str) -> bool {
     list.split(' ').any(|other| other == word)
 }
 
+impl Kind {
+    /// Returns whether a record has columns of the quantity.
+    pub(crate) fn is_recorded(self) -> bool {
+        matches!(self, Self::Time | Self::Acceleration)
+    }
+}
+
 impl Unit {
+    /// Of a text that is a unit of this quantity.
+    pub(crate) fn of_kind(text: &str, kind: Kind) -> Option<Self> {
+        Self::of(text).filter(|unit| unit.kind == kind)
+    }
+
     /// Of a whole text, factors and all; none if it is no unit that is known.
     pub(crate) fn of(text: &str) -> Option<Self> {
         if text.len() > LONGEST {
@@ -199,7 +212,7 @@ pub(crate) fn power_of_ten(text: &str) -> Option<(f64, &str)> {
     Some((10_f64.powi(if negative { -power } else { power }), rest))
 }
 
-/// Whether a text, with or without a number, is a unit of voltage, current or charge.
+/// Returns whether a text, with or without a number, is a unit of voltage, current or charge.
 fn voltage(text: &str) -> bool {
     ["v", "mv", "uv", "ma", "pc"].contains(&factor(text).1)
 }
@@ -264,62 +277,34 @@ mod tests {
     #[test]
     fn units_by_every_usual_name() {
         let g = STANDARD_GRAVITY_M_S2;
-        for (text, kind, size) in [
-            ("s", Kind::Time, 1.0),
-            ("sec", Kind::Time, 1.0),
-            ("Seconds", Kind::Time, 1.0),
-            ("msec", Kind::Time, 1e-3),
-            ("µs", Kind::Time, 1e-6),
-            ("μs", Kind::Time, 1e-6),
-            ("ns", Kind::Time, 1e-9),
-            ("min", Kind::Time, 60.0),
-            ("10 us", Kind::Time, 1e-5),
-            ("1e-4 s", Kind::Time, 1e-4),
-            ("milli s", Kind::Time, 1e-3),
-            ("g", Kind::Acceleration, g),
-            ("G", Kind::Acceleration, g),
-            ("Gs", Kind::Acceleration, g),
-            ("g's", Kind::Acceleration, g),
-            ("gn", Kind::Acceleration, g),
-            ("g_n", Kind::Acceleration, g),
-            ("mg", Kind::Acceleration, 1e-3 * g),
-            ("milli g", Kind::Acceleration, 1e-3 * g),
-            ("k g", Kind::Acceleration, 1e3 * g),
-            ("m/s2", Kind::Acceleration, 1.0),
-            ("m/s^2", Kind::Acceleration, 1.0),
-            ("m/s**2", Kind::Acceleration, 1.0),
-            ("m/s²", Kind::Acceleration, 1.0),
-            ("m/s/s", Kind::Acceleration, 1.0),
-            ("m / s^2", Kind::Acceleration, 1.0),
-            ("m/(s^2)", Kind::Acceleration, 1.0),
-            ("m·s⁻²", Kind::Acceleration, 1.0),
-            ("m s^-2", Kind::Acceleration, 1.0),
-            ("m s-2", Kind::Acceleration, 1.0),
-            ("m*s^-2", Kind::Acceleration, 1.0),
-            ("mps2", Kind::Acceleration, 1.0),
-            ("m_s2", Kind::Acceleration, 1.0),
-            ("m/sec2", Kind::Acceleration, 1.0),
-            ("meters per second squared", Kind::Acceleration, 1.0),
-            ("mm/s^2", Kind::Acceleration, 1e-3),
-            ("cm/s2", Kind::Acceleration, 1e-2),
-            ("in/s2", Kind::Acceleration, 0.0254),
-            ("ft/s²", Kind::Acceleration, 0.3048),
-            ("x1000 m/s^2", Kind::Acceleration, 1000.0),
-            ("0.001 g", Kind::Acceleration, 1e-3 * g),
-            ("× 1000 m/s2", Kind::Acceleration, 1000.0),
-            ("1000 × m/s2", Kind::Acceleration, 1000.0),
-            ("x10^3 m/s2", Kind::Acceleration, 1000.0),
-            ("×10³ m/s²", Kind::Acceleration, 1000.0),
-            ("10⁻³ g", Kind::Acceleration, 1e-3 * g),
-            ("10**-3 g", Kind::Acceleration, 1e-3 * g),
-            ("m/(s*s)", Kind::Acceleration, 1.0),
-            ("m/(s·s)", Kind::Acceleration, 1.0),
-            ("m/(s^2)*", Kind::Acceleration, 1.0),
-            ("м/с²", Kind::Acceleration, 1.0),
+        for (kind, size, texts) in [
+            (Kind::Time, 1.0, "s | sec | Seconds"),
+            (Kind::Time, 1e-3, "msec | milli s"),
+            (Kind::Time, 1e-6, "µs | μs"),
+            (Kind::Time, 1e-9, "ns"),
+            (Kind::Time, 60.0, "min"),
+            (Kind::Time, 1e-5, "10 us"),
+            (Kind::Time, 1e-4, "1e-4 s"),
+            (Kind::Acceleration, g, "g | G | Gs | g's | gn | g_n"),
+            (Kind::Acceleration, 1e-3 * g, "mg | milli g | 0.001 g | 10⁻³ g | 10**-3 g"),
+            (Kind::Acceleration, 1e3 * g, "k g"),
+            (
+                Kind::Acceleration,
+                1.0,
+                "m/s2 | m/s^2 | m/s**2 | m/s² | m/s/s | m / s^2 | m/(s^2) | m·s⁻² | m s^-2 | m s-2 | m*s^-2 | mps2 | m_s2 | \
+                 m/sec2 | meters per second squared | m/(s*s) | m/(s·s) | m/(s^2)* | м/с²",
+            ),
+            (Kind::Acceleration, 1e-3, "mm/s^2"),
+            (Kind::Acceleration, 1e-2, "cm/s2"),
+            (Kind::Acceleration, 0.0254, "in/s2"),
+            (Kind::Acceleration, 0.3048, "ft/s²"),
+            (Kind::Acceleration, 1000.0, "x1000 m/s^2 | × 1000 m/s2 | 1000 × m/s2 | x10^3 m/s2 | ×10³ m/s²"),
         ] {
-            let unit = Unit::of(text).unwrap_or_else(|| panic!("{text} is no unit"));
-            // A product of two roundings.
-            assert!(unit.kind == kind && (unit.size / size - 1.0).abs() < 3e-16, "{text}: {unit:?}");
+            for text in texts.split(" | ") {
+                let unit = Unit::of(text).unwrap_or_else(|| panic!("{text} is no unit"));
+                // A product of two roundings.
+                assert!(unit.kind == kind && (unit.size / size - 1.0).abs() < 3e-16, "{text}: {unit:?}");
+            }
         }
         for (text, what) in [
             ("m/s", "a velocity"),
@@ -337,28 +322,9 @@ mod tests {
                 unit => panic!("{text}: {unit:?}"),
             }
         }
-        for none in [
-            "",
-            "x",
-            "milli",
-            "deka g",
-            "foo g",
-            "m/s3",
-            "m/s2/Hz",
-            "g2",
-            "1000",
-            "g/Hz",
-            "g rms",
-            "-3 g",
-            "x m/s2 y",
-            "100g",
-            "16 g",
-            "16 m·s⁻²",
-            "1000 m/s2",
-            "103 g",
-            "x103 m/s2 y",
-            "10^ g",
-        ] {
+        let none = " | x | milli | deka g | foo g | m/s3 | m/s2/Hz | g2 | 1000 | g/Hz | g rms | -3 g | x m/s2 y | 100g | 16 g | \
+                    16 m·s⁻² | 1000 m/s2 | 103 g | x103 m/s2 y | 10^ g";
+        for none in none.split(" | ") {
             assert_eq!(Unit::of(none), None, "{none}");
         }
     }

@@ -9,7 +9,7 @@ pub(super) struct Bytes<'a> {
     all: &'a [u8],
     at: usize,
     pub(super) big_endian: bool,
-    /// What the messages call the part.
+    /// The name of the part in messages.
     part: &'static str,
 }
 

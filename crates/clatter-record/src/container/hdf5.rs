@@ -65,7 +65,7 @@ impl Collector<'_> {
         }
         let mut groups: Vec<_> = group.iter_groups().map_err(damaged)?.collect();
         groups.sort_unstable_by(|(one, _), (other, _)| one.cmp(other));
-        // What MATLAB keeps for itself.
+        // MATLAB keeps some groups for itself.
         for (name, group) in groups.into_iter().filter(|(name, _)| !name.starts_with('#')) {
             self.group(&group, &full(&name), depth + 1)?;
         }

@@ -138,7 +138,7 @@ fn variable(
     let own = Element::read(&mut bytes)?.data;
     let own = String::from_utf8_lossy(own);
     let name = given.unwrap_or(&own);
-    // What MATLAB keeps for itself has no name.
+    // Variables that MATLAB keeps for itself have no name.
     if name.is_empty() {
         return Ok(());
     }

@@ -312,7 +312,7 @@ fn literal(text: &mut &str, depth: usize) -> Option<Literal> {
     }
 }
 
-/// Whether the list ends here, which takes its bracket.
+/// Returns whether the list ends here, which takes its bracket.
 fn ended(text: &mut &str, close: char) -> Option<bool> {
     *text = text.trim_start();
     let next = text.chars().next()?;

@@ -59,7 +59,7 @@ fn damaged(error: impl std::fmt::Display) -> Error {
 
 /// The metadata at the end of the file, before their length and four letters.
 fn metadata(bytes: &[u8]) -> Result<FileMetaData, Error> {
-    /// What lists and texts in it may take together. A list of so many entries would be beyond any record.
+    /// Lists and texts in it may take so much together. A list of so many entries would be beyond any record.
     const MOST: usize = 1 << 23;
     let cut = || refuse("Parquet file: it does not end with PAR1; the file is cut short or damaged");
     let (rest, magic) = bytes.split_last_chunk::<4>().ok_or_else(cut)?;
@@ -91,7 +91,7 @@ struct Leaf<'a> {
     element: &'a SchemaElement,
     /// How many of the fields on the way may be missing: a value that is there has so many levels.
     levels: u32,
-    /// Whether it is in a list.
+    /// Tells whether it is in a list.
     repeated: bool,
 }
 

@@ -47,7 +47,7 @@ struct File {
     is_active: HashSet<usize>,
     /// How often a channel was gone to in a segment.
     visits: usize,
-    /// Whether data are missing at the end of a segment.
+    /// Tells whether data are missing at the end of a segment.
     is_cut: bool,
 }
 

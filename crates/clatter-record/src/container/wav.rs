@@ -8,7 +8,7 @@ use super::number::Number;
 use super::{TableBuilder, column, refuse};
 use crate::{Column, Error, Values};
 
-/// What `fmt ` says.
+/// The contents of `fmt `.
 #[derive(Debug, Clone, Copy)]
 struct Format {
     coding: Coding,

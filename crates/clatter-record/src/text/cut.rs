@@ -1,4 +1,4 @@
-//! Whether a file ends inside a number: `1.25E-05` cut to `1.25E-0` is a number as well, and another one.
+//! A file may end inside a number: `1.25E-05` cut to `1.25E-0` is a number as well, and another one.
 
 use super::cells::Form;
 use super::encoding::Letters;

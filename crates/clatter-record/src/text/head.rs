@@ -1,4 +1,4 @@
-//! What the lines above the numbers tell beside the names of columns: rates, the settings of instruments, lines of numbers.
+//! The lines above the numbers tell more than the names of columns: rates, the settings of instruments, lines of numbers.
 
 use super::layout::uncommented;
 use crate::decimal::Decimal;
@@ -62,13 +62,14 @@ pub(super) fn numbers(line: &str) -> usize {
 }
 
 /// Words that a line of a sampling rate begins with.
-const RATES: &str = "sample rate, samplerate, sampling rate, samplingrate, sample frequency, sampling frequency, sampling freq, \
-     sample freq, sample_rate, sampling_rate, sampling_frequency, samples per second, abtastrate, abtastfrequenz, \
-     messrate, update rate, scan rate, data rate, output data rate, fs, frecuencia de muestreo, fréquence \
-     d'échantillonnage";
+const RATES: &str = "\
+    sample rate, samplerate, sampling rate, samplingrate, sample frequency, sampling frequency, sampling freq, sample \
+    freq, sample_rate, sampling_rate, sampling_frequency, samples per second, abtastrate, abtastfrequenz, messrate, \
+    update rate, scan rate, data rate, output data rate, fs, frecuencia de muestreo, fréquence d'échantillonnage";
 /// The same of the time between samples.
-const INTERVALS: &str = "sample interval, sampling interval, sample_interval, sampling_interval, sample period, sampling period, time \
-     interval, time step, timestep, delta t, delta_t, dt, interval, abtastintervall, abtastzeit, abtastperiode";
+const INTERVALS: &str = "\
+    sample interval, sampling interval, sample_interval, sampling_interval, sample period, sampling period, time \
+    interval, time step, timestep, delta t, delta_t, dt, interval, abtastintervall, abtastzeit, abtastperiode";
 
 /// The time between samples that lines above the numbers tell, and the line, from 1; nothing where they tell several.
 pub(super) fn step(lines: &[String]) -> Option<(f64, usize)> {
@@ -126,7 +127,7 @@ fn step_of(line: &str) -> Option<f64> {
     (step_s > 0.0 && step_s.is_normal()).then_some(step_s)
 }
 
-/// What an oscilloscope tells of its columns.
+/// The columns of an oscilloscope, as its settings tell them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Scope {
     /// Name of each column.
@@ -186,8 +187,9 @@ pub(super) fn axes(lines: &[String]) -> Option<[String; 2]> {
 
 /// The units of time and acceleration that lines such as `Units: g` and `Time unit: ms` tell; empty where one is not told.
 pub(super) fn units(lines: &[String]) -> Option<[String; 2]> {
-    const KEYS: &str = "unit, units, einheit, acceleration unit, acceleration units, unit of acceleration, units of acceleration, \
-         time unit, time units";
+    const KEYS: &str = "\
+        unit, units, einheit, acceleration unit, acceleration units, unit of acceleration, units of acceleration, \
+        time unit, time units";
     let mut found = [String::new(), String::new()];
     for line in lines.iter().take(60) {
         let text = uncommented(line).0;

@@ -20,7 +20,7 @@ const END: &str = "***End_of_Header***";
 /// Times that follow on others are a step after them, to this share of a step.
 const FOLLOWS: f64 = 0.01;
 
-/// Whether a text is such a file.
+/// Returns whether a text is such a file.
 pub(super) fn is_labview(begin: &[u8]) -> bool {
     begin.starts_with(BEGINS)
 }
@@ -52,7 +52,7 @@ pub(super) fn read(bytes: &[u8], letters: Letters, options: &Options) -> Result<
     records.swap_remove(number - 1).read(&file, &lines, options)
 }
 
-/// What the heading of the file says.
+/// The heading of the file, and its segments.
 #[derive(Debug)]
 struct File {
     form: Form,
@@ -81,12 +81,12 @@ struct Segment {
     channels: Vec<Channel>,
 }
 
-/// What a segment says of a channel.
+/// A channel as its segment tells of it.
 #[derive(Debug, Clone, PartialEq)]
 struct Channel {
     samples: Option<usize>,
     unit: String,
-    /// Whether its abscissa is a time.
+    /// Tells whether its abscissa is a time.
     is_timed: bool,
     /// Date and time of day, in seconds.
     date_s: Option<f64>,
@@ -188,7 +188,7 @@ impl File {
                 count.map_or("unknown".to_owned(), |count| count.to_string())
             )));
         };
-        // What is told of each channel stands in the column of the channel or, by some writers, side by side.
+        // The settings of each channel stand in the column of the channel or, by some writers, side by side.
         let told: HashMap<String, Vec<String>> = told
             .into_iter()
             .map(|(name, mut cells)| {
@@ -285,7 +285,7 @@ impl File {
         Ok(parts)
     }
 
-    /// Whether a segment goes on where another ends, with the same channels.
+    /// Returns whether a segment goes on where another ends, with the same channels.
     fn follows(&self, before: &Segment, after: &Segment, lines: &[&[u8]]) -> bool {
         let rows = before.rows();
         let time = |line: usize, column: usize| {

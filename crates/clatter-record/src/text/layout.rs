@@ -7,9 +7,9 @@ use super::cells::{ARROW, Form};
 use super::head;
 use crate::Error;
 use crate::heading::{Heading, Named, unbracketed};
-use crate::unit::{Kind, Unit};
+use crate::unit::Unit;
 
-/// What the beginning of a text tells.
+/// The layout of a text, as its beginning tells it.
 #[derive(Debug, Default)]
 pub(super) struct Layout {
     pub(super) form: Form,
@@ -128,7 +128,7 @@ impl Layout {
         }
     }
 
-    /// What oscilloscopes tell of units and times.
+    /// Takes in what oscilloscopes tell of units and times.
     fn read_scope(&mut self, lines: &[String]) {
         let above = &lines[..self.begin];
         if let Some(scope) = head::rigol(above) {
@@ -245,7 +245,7 @@ impl Layout {
                 units = Some(cells);
                 continue;
             }
-            // What is said of columns in numbers is no name: `Min,-20`, `10000 Hz`, `Float64`.
+            // A setting of columns is no name: `Min,-20`, `10000 Hz`, `Float64`.
             if names.is_none() && self.is_setting(&cells) {
                 continue;
             }
@@ -283,7 +283,7 @@ impl Layout {
 }
 
 impl Layout {
-    /// Whether cells are settings of columns, and no names.
+    /// Returns whether cells are settings of columns, and no names.
     fn is_setting(&self, cells: &[String]) -> bool {
         let types = ["float64", "float32", "double", "single", "int16", "int32", "real", "float", "f64", "smp", "avg"];
         let is_type = |cell: &String| types.contains(&cell.to_lowercase().as_str());
@@ -358,20 +358,18 @@ fn joined(text: &str) -> Vec<String> {
     cells
 }
 
-/// Whether every cell is a unit or empty, and one is a unit.
+/// Returns whether every cell is a unit or empty, and one is a unit.
 fn all_units(cells: &[String]) -> bool {
     let unit = |cell: &String| Unit::of(unbracketed(cell)).is_some();
     // `t,a` are names, though `a` is a unit of current.
-    let telling = |cell: &String| Unit::of(unbracketed(cell)).is_some_and(|unit| !matches!(unit.kind, Kind::Other(_)));
+    let telling = |cell: &String| Unit::of(unbracketed(cell)).is_some_and(|unit| unit.kind.is_recorded());
     cells.iter().all(|cell| cell.is_empty() || cell == "-" || unit(cell)) && cells.iter().any(telling)
 }
 
 impl Layout {
-    /// Whether some cells are units, and no other one is a number, or a name that says something.
+    /// Returns whether some cells are units, and no other one is a number, or a name that says something.
     fn some_units(&self, cells: &[String]) -> bool {
-        let is_unit = |cell: &&String| {
-            Unit::of(unbracketed(cell)).is_some_and(|unit| matches!(unit.kind, Kind::Time | Kind::Acceleration))
-        };
+        let is_unit = |cell: &&String| Unit::of(unbracketed(cell)).is_some_and(|unit| unit.kind.is_recorded());
         let telling = |cell: &String| {
             let heading = Heading::of(cell);
             heading.spelled.as_ref().is_some_and(|unit| *unit != heading.name) || heading.names_time_or_acceleration()

@@ -84,18 +84,18 @@ pub fn read_list<const N: usize>(
     list.close()
 }
 
-/// Whether a text begins with a line that names all of these columns, as [`read_list`] finds them.
+/// Returns whether a text begins with a line that names all of these columns, as [`read_list`] finds them.
 #[must_use]
 pub fn names_columns<const N: usize>(begin: &[u8], names: [&str; N]) -> bool {
     let begin = decoded(begin).map_or_else(|| begin.to_vec(), |decode| decode(begin));
     List::of(&begin, names).is_ok()
 }
 
-/// What the lines above the rows tell.
+/// A list, as the lines above its rows tell it.
 #[derive(Debug)]
 struct List<const N: usize> {
     form: Form,
-    /// Whether a number has shown what its decimal mark is.
+    /// Tells whether a number has shown what its decimal mark is.
     is_sure: bool,
     letters: Letters,
     /// Lines down to the names or the units.
@@ -300,7 +300,7 @@ fn count(text: &[u8], byte: u8) -> usize {
     text.split(|other| *other == byte).count() - 1
 }
 
-/// Whether a line is one of names or a row.
+/// Returns whether a line is one of names or a row.
 fn is_row(line: &str) -> bool {
     let (text, commented) = uncommented(line.trim_start_matches('\u{feff}'));
     !text.is_empty() && !commented
@@ -310,7 +310,7 @@ fn no_rows<const N: usize>(line: usize, names: [&str; N]) -> Error {
     told(line.max(1), format!("no rows; the first line is {}, a row for each follows", names.join(",")))
 }
 
-/// What is wrong with a line, from 1.
+/// An error of one line, from 1.
 fn told(line: usize, what: String) -> Error {
     let mut bad = Bad::default();
     bad.add(At::Line(line), || what);

@@ -21,7 +21,7 @@ pub(super) use shape::Shape;
 /// Instruments write 9.9E37 for a value beyond their range and 9.91E37 for none (SCPI 1999).
 const NO_VALUE: f64 = 9.8e37;
 
-/// What is made of a column.
+/// The uses that a column has.
 #[derive(Debug, Clone, Copy)]
 enum Use {
     Nothing,
@@ -39,7 +39,7 @@ enum Use {
 #[derive(Debug, Default)]
 pub(crate) struct Rows {
     shape: Shape,
-    /// What is made of each column, up to the last that is used.
+    /// The use of each column, up to the last that has one.
     uses: Vec<Use>,
     sizes: Vec<f64>,
     names: Vec<String>,
@@ -47,7 +47,7 @@ pub(crate) struct Rows {
     most_values: usize,
     skip_bad: bool,
     line: usize,
-    /// Whether the channels may end before the lines do, as others have times of their own.
+    /// Tells whether the channels may end before the lines do, as others have times of their own.
     ends_early: bool,
     /// The numbers of one line, in the order of its columns.
     row: Vec<f64>,
@@ -159,7 +159,7 @@ impl Rows {
     pub(crate) fn told(&self) -> Option<(f64, usize)> {
         self.shape.told.filter(|_| !self.times.is_empty())
     }
-    /// What became of each line.
+    /// Returns how many lines were taken for what.
     pub(crate) fn lines(&self) -> Lines {
         self.lines
     }
@@ -286,7 +286,7 @@ impl Rows {
         Ok(())
     }
 
-    /// Whether all lines that were read go together.
+    /// Checks that all lines that were read go together.
     pub(super) fn close(&mut self) -> Result<(), Error> {
         let has_point = self.digits.iter().any(Digits::has_point);
         for (k, digits) in self.digits.iter().enumerate() {

@@ -15,15 +15,16 @@ use crate::{Error, Options};
 pub(super) struct Word {
     pub(super) column: usize,
     pub(super) expected: String,
-    /// Whether it tells sensors apart; else it is a unit.
+    /// Tells whether it tells sensors apart; else it is a unit.
     pub(super) tells: bool,
-    /// Whether rows of other sensors are passed over, as one was asked for.
+    /// Tells whether rows of other sensors are passed over, as one was asked for.
     pub(super) chosen: bool,
 }
 
 /// Names of columns that tell sensors apart.
-const SENSORS: &str = "sensor sensortype sensorname sensorid device deviceid source tag kanal channel channelid ch type id node nodeid \
-     axis imu address addr mac name signal variable quantity parameter";
+const SENSORS: &str = "\
+    sensor sensortype sensorname sensorid device deviceid source tag kanal channel channelid ch type id node nodeid \
+    axis imu address addr mac name signal variable quantity parameter";
 const UNITS: &str = "unit units einheit unité unidad uom";
 /// Rows that show whether words come in turns.
 const LEAST: usize = 6;

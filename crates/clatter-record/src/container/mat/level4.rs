@@ -54,7 +54,7 @@ fn words(bytes: &[u8]) -> Option<[[u8; 4]; 5]> {
     Some(words)
 }
 
-/// Whether a file begins as one of MATLAB 4: with a head that holds, and a name that ends where it says.
+/// Returns whether a file begins as one of MATLAB 4: with a head that holds, and a name that ends where it says.
 pub(in crate::container) fn is_level4(beginning: &[u8]) -> bool {
     let name = || {
         let head = words(beginning).and_then(Head::read).filter(|head| head.rows > 0 && head.columns > 0)?;

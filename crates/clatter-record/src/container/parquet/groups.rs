@@ -20,7 +20,7 @@ pub struct RowGroups<R> {
 
 /// Rows of a group that are read together at most.
 const MOST_ROWS: usize = 1 << 20;
-/// What stands behind the metadata: their length and the four letters.
+/// The length of the metadata and the four letters stand behind them.
 const END: u64 = 8;
 /// Metadata of more bytes are none.
 const MOST_METADATA: u64 = 1 << 28;
@@ -60,7 +60,7 @@ impl<R: Read + Seek> RowGroups<R> {
         &self.rows
     }
 
-    /// What the file says of itself by this name.
+    /// Returns what the file says of itself by this name.
     #[must_use]
     pub fn note(&self, name: &str) -> Option<&str> {
         let entries = self.metadata.key_value_metadata.as_deref().unwrap_or_default();

@@ -9,13 +9,13 @@ use polars_parquet_format::thrift::protocol::TCompactInputProtocol;
 use polars_parquet_format::{ColumnMetaData, CompressionCodec, Encoding, PageHeader, PageType};
 use std::borrow::Cow;
 
-/// What the schema says of the rows to read.
+/// The rows to read, as the schema tells of them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape {
     pub(super) rows: usize,
     /// Bytes of a number.
     pub(super) width: usize,
-    /// Whether a plain page has eight of them in a byte, as of flags.
+    /// Tells whether a plain page has eight of them in a byte, as of flags.
     pub(super) bits: bool,
     /// Levels of a value that is there.
     pub(super) levels: u32,
@@ -66,7 +66,7 @@ struct Chunk<'a> {
 
 impl Chunk<'_> {
     fn read(mut self, bytes: &[u8]) -> Result<Rows, Fault> {
-        /// What texts in the head of a page may take: smallest and largest value.
+        /// Texts in the head of a page may take so much: smallest and largest value.
         const MOST: usize = 1 << 16;
         let start = match self.told.dictionary_page_offset {
             Some(dictionary) if (1..self.told.data_page_offset).contains(&dictionary) => dictionary,

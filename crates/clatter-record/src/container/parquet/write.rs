@@ -102,7 +102,7 @@ impl<W: Write> RowGroupWriter<W> {
     /// Begins a file with these columns.
     ///
     /// # Errors
-    /// What the writer says.
+    /// An error of the writer.
     pub fn new(out: W, fields: Vec<Field>) -> io::Result<Self> {
         Self::begin(out, fields, true)
     }
@@ -115,7 +115,7 @@ impl<W: Write> RowGroupWriter<W> {
     /// Writes a group of rows, column by column.
     ///
     /// # Errors
-    /// What the writer says, or where the columns are not those of the file or differ in length.
+    /// An error of the writer, or one where the columns are not those of the file or differ in length.
     pub fn write(&mut self, columns: &[&[f64]]) -> io::Result<()> {
         let rows = equal_length(columns).map_err(io::Error::other)?;
         if columns.len() != self.fields.len() {
@@ -142,7 +142,7 @@ impl<W: Write> RowGroupWriter<W> {
     /// Ends the file, with notes about it by their names.
     ///
     /// # Errors
-    /// What the writer says.
+    /// An error of the writer.
     pub fn finish(mut self, notes: &[(&str, &str)]) -> io::Result<W> {
         let arrow = STANDARD.encode(arrow::schema_message(&self.fields));
         let mut entries = vec![KeyValue::new(ARROW_SCHEMA.to_owned(), arrow)];

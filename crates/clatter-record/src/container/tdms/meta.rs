@@ -1,4 +1,4 @@
-//! What the lists of a TDMS file are made of: texts, properties, types of data.
+//! The lists of a TDMS file are made of texts, properties and types of data.
 
 use std::collections::HashMap;
 

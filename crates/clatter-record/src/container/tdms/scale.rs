@@ -112,7 +112,7 @@ impl Scales<'_> {
             Some(kind) => vec![source(&format!("{kind}_Input_Source"))],
         }
     }
-    /// Whether the last of the scales takes it, by way of others.
+    /// Returns whether the last of the scales takes it, by way of others.
     fn is_needed(&self, index: usize, count: usize) -> bool {
         let mut needed = vec![false; count];
         needed[count - 1] = true;
@@ -125,7 +125,7 @@ impl Scales<'_> {
         }
         needed[index]
     }
-    /// What a scale takes.
+    /// Returns the values that a scale takes.
     fn source(&self, index: usize, source: usize, done: &[Option<Vec<f64>>]) -> Result<Vec<f64>, Error> {
         if source == RAW {
             let raw = self.values.ok_or_else(|| self.fault(index, "takes raw data, of which DAQmx has several"))?;

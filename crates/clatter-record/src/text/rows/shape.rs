@@ -1,14 +1,14 @@
-//! What the lines of numbers of a text are like.
+//! The form of the lines of numbers of a text.
 
 use crate::text::cells::Form;
 use crate::text::encoding::Letters;
 use crate::text::sensors::Word;
 
-/// What the lines of numbers are like.
+/// The form of the lines of numbers.
 #[derive(Debug, Clone, Default)]
 pub(in crate::text) struct Shape {
     pub(in crate::text) form: Form,
-    /// What text is written in that is no UTF-8.
+    /// The letters of text that is no UTF-8.
     pub(in crate::text) letters: Letters,
     pub(in crate::text) columns: usize,
     /// Time of the first sample, and between samples, where lines above the numbers tell it.
