@@ -15,7 +15,7 @@ use crate::finding::{At, Finding, Inspection, is_of_events};
 use crate::plausible::{against_times, refuse_counts};
 use crate::raw::{Raw, Untimed};
 use crate::roles::{Role, Roles};
-use crate::text::{self, BLOCK, Rows, decoded};
+use crate::text::{self, Rows, decoded};
 use crate::times::Printed;
 use crate::{Account, Error, FULL_SCALE, Options};
 
@@ -95,10 +95,8 @@ impl Record {
     /// # Errors
     /// [`Error`] tells what is wrong, where, and what is allowed.
     pub fn read(mut input: impl Read, options: &Options, mut progress: impl FnMut(u64)) -> Result<Self, Error> {
-        let mut begin = vec![0; BLOCK];
-        let length = text::fill(&mut input, &mut begin)?;
-        begin.truncate(length);
-        if begin.is_empty() {
+        let mut begin = Vec::new();
+        if text::read_block(&mut input, &mut begin)? == 0 {
             return Err(Error::File("the file is empty".to_owned()));
         }
         let kind = Kind::of(&begin)?;
@@ -167,7 +165,7 @@ impl Record {
         Ok(Self { account, ..Self::of_parts(parts) })
     }
 
-    fn of_text(mut rows: Rows, roles: Roles, options: &Options) -> Result<Self, Error> {
+    fn of_text(rows: Rows, roles: Roles, options: &Options) -> Result<Self, Error> {
         one_scale(&roles.channels, options)?;
         let mut found = Vec::new();
         if !roles.left_out.is_empty() {
@@ -176,50 +174,36 @@ impl Record {
         if rows.below().count > 0 {
             found.push(Finding::Below(rows.below().clone()));
         }
-        let (mut start_s, unit_s) = (rows.start_s(), rows.time_size());
-        let rounded_s = rows.printed.unit() * unit_s;
-        let mut step_s = None;
+        let (start_s, unit_s, told) = (rows.start_s(), rows.time_size(), rows.told());
+        let Rows { channels, times: since_s, printed, numbering, sampled_s, doubled, mut bad, .. } = rows;
+        let untimed = |(values, Role { name, unit, .. })| Untimed { name, unit, values };
+        let channels = channels.into_iter().zip(roles.channels).map(untimed).collect();
+        let mut raw = Raw { channels, start_s, unit_s, since_s, printed, step_s: None, numbering, found };
+        let rounded_s = raw.printed.unit() * unit_s;
         if let Some(hz) = options.sample_rate_hz {
             let given_s = period(hz)?;
-            (start_s, step_s) = (0.0, Some(given_s));
-            let times = std::mem::take(&mut rows.times);
-            found.extend(against_times(given_s, &times, rounded_s, "the rate that is given")?);
-            rows.printed = Printed::default();
-        } else if let (Some([from_s, by_s]), None) = (rows.sampled_s, roles.time) {
-            (start_s, step_s) = (from_s, Some(by_s));
-        } else if let Some((told_s, line)) = rows.told() {
+            let finding = against_times(given_s, &raw.since_s, rounded_s, "the rate that is given")?;
+            raw.found.extend(finding);
+            raw = Raw { start_s: 0.0, step_s: Some(given_s), since_s: Vec::new(), printed: Printed::default(), ..raw };
+        } else if let (Some([from_s, by_s]), None) = (sampled_s, roles.time) {
+            (raw.start_s, raw.step_s) = (from_s, Some(by_s));
+        } else if let Some((told_s, line)) = told {
             let what = format!("the rate of line {line}");
-            found.extend(against_times(told_s, &rows.times, rounded_s, &what).unwrap_or_default());
+            raw.found.extend(against_times(told_s, &raw.since_s, rounded_s, &what).unwrap_or_default());
         }
-        let values = std::mem::take(&mut rows.channels);
-        let channels = values.into_iter().zip(roles.channels).map(|(values, role)| Untimed {
-            name: role.name,
-            unit: role.unit,
-            values,
-        });
-        let mut raw = Raw {
-            channels: channels.collect(),
-            start_s,
-            unit_s,
-            since_s: std::mem::take(&mut rows.times),
-            printed: std::mem::take(&mut rows.printed),
-            step_s,
-            numbering: std::mem::take(&mut rows.numbering),
-            found,
-        };
         if options.units.is_some() {
             refuse_counts(&raw.channels)?;
         }
-        if !raw.since_s.is_empty() && !rows.doubled.is_empty() {
+        if !raw.since_s.is_empty() && !doubled.is_empty() {
             raw.refuse_coarse()?;
             let mut kept = vec![true; raw.since_s.len()];
-            for (sample, line) in &rows.doubled {
-                kept[*sample] = false;
-                rows.bad.add(At::Line(*line), || "is the line before once more".to_owned());
+            for (sample, line) in doubled {
+                kept[sample] = false;
+                bad.add(At::Line(line), || "is the line before once more".to_owned());
             }
             raw.keep(&kept);
         }
-        raw.finish(rows.bad, options)
+        raw.finish(bad, options)
     }
 
     /// Channels of several times as one record, each with its place in the file.

@@ -28,7 +28,7 @@ pub(crate) use rows::Rows;
 use rows::Shape;
 
 /// Bytes that are read at a time, and before it is known what a file holds.
-pub(crate) const BLOCK: usize = 1 << 20;
+const BLOCK: usize = 1 << 20;
 /// Lines, and bytes of them, that may be above the numbers.
 const HEAD: (usize, usize) = (2000, 1 << 18);
 /// A line has no more bytes.
@@ -151,10 +151,7 @@ fn take_all(
                 parts[0].0.line() + 1
             )));
         }
-        let kept = buffer.len();
-        buffer.resize(kept + BLOCK, 0);
-        let read = fill(rest, &mut buffer[kept..])?;
-        buffer.truncate(kept + read);
+        let read = read_block(rest, &mut buffer)?;
         bytes += read as u64;
         if read == 0 {
             break;
@@ -271,18 +268,10 @@ fn first_lines(begin: &[u8], letters: Letters) -> Result<Vec<String>, Error> {
     }
 }
 
-/// Reads until a buffer is full or the input ends.
-pub(crate) fn fill(input: &mut dyn Read, buffer: &mut [u8]) -> Result<usize, Error> {
-    let mut filled = 0;
-    while filled < buffer.len() {
-        match input.read(&mut buffer[filled..]) {
-            Ok(0) => break,
-            Ok(read) => filled += read,
-            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(Error::Read(error.to_string())),
-        }
-    }
-    Ok(filled)
+/// Reads a block behind what a buffer holds, or less where the input ends, and says how many bytes these are.
+pub(crate) fn read_block(input: &mut dyn Read, buffer: &mut Vec<u8>) -> Result<usize, Error> {
+    buffer.reserve(BLOCK);
+    input.take(BLOCK as u64).read_to_end(buffer).map_err(|error| Error::Read(error.to_string()))
 }
 
 /// All of a small text: its headings, and its rows of numbers.

@@ -24,7 +24,7 @@ const MISSING: &str = "nan na n/a #n/a #nv null none nil -nan -nan(ind)";
 /// Cells that stand for a value beyond the range of an instrument.
 const BEYOND: &str = "inf -inf +inf infinity -infinity ∞ -∞ ol -ol over overload overflow overrange";
 /// The arrow between time and numbers.
-pub(super) const ARROW: &str = "->";
+pub(super) const ARROW: &str = " -> ";
 
 impl Default for Form {
     fn default() -> Self {
@@ -161,6 +161,7 @@ mod tests {
         let comma = Form::new(Some(b','), b'.');
         assert_eq!(comma.cells(r#""time, s","a ""x"" [g]", 5 "#), ["time, s", "a \"x\" [g]", "5"]);
         assert_eq!(Form::new(None, b'.').cells("  1   2 "), ["1", "2"]);
+        assert_eq!(Form { arrow: true, ..comma }.cells("a->b -> 1,2"), ["a->b", "1", "2"]);
         let number = |text: &str| comma.number(text).map(Decimal::float);
         for (text, value) in [
             ("29'700", Some(29_700.0)),

@@ -6,7 +6,7 @@ use super::cells::Form;
 use super::digits::Digits;
 use super::encoding::Letters;
 use super::layout::uncommented;
-use super::{BLOCK, LONGEST, decoded, fill, first_lines, head, to_end};
+use super::{BLOCK, LONGEST, decoded, first_lines, head, read_block, to_end};
 use crate::error::Bad;
 use crate::heading::{Heading, Named, unbracketed};
 use crate::unit::Unit;
@@ -45,9 +45,8 @@ pub fn read_list<const N: usize>(
     names: [&str; N],
     mut each: impl FnMut([Cell<'_>; N]) -> Result<(), String>,
 ) -> Result<(), Error> {
-    let mut buffer = vec![0; BLOCK];
-    let length = fill(&mut input, &mut buffer)?;
-    buffer.truncate(length);
+    let mut buffer = Vec::new();
+    read_block(&mut input, &mut buffer)?;
     if let Some(decode) = decoded(&buffer) {
         to_end(&mut buffer, &mut input, &Options::default())?;
         buffer = decode(&buffer);
@@ -66,11 +65,7 @@ pub fn read_list<const N: usize>(
         if buffer.len() > LONGEST {
             return Err(told(line + 1, format!("longer than {LONGEST} bytes, or a quote is opened and not closed")));
         }
-        let kept = buffer.len();
-        buffer.resize(kept + BLOCK, 0);
-        let read = fill(&mut input, &mut buffer[kept..])?;
-        buffer.truncate(kept + read);
-        if read == 0 {
+        if read_block(&mut input, &mut buffer)? == 0 {
             break;
         }
     }
