@@ -132,14 +132,19 @@ impl Form {
     }
 }
 
+/// Returns whether a cell is one of some words, by bytes, as cells are many.
+fn is_among(words: &str, cell: &str) -> bool {
+    words.as_bytes().split(|byte| *byte == b' ').any(|word| cell.as_bytes().eq_ignore_ascii_case(word))
+}
+
 /// Returns whether a cell says that there is no value.
 pub(super) fn is_missing(cell: &str) -> bool {
-    MISSING.split(' ').any(|word| cell.eq_ignore_ascii_case(word))
+    is_among(MISSING, cell)
 }
 
 /// Returns whether a cell says that the value is beyond what the instrument can tell.
 pub(super) fn is_beyond(cell: &str) -> bool {
-    BEYOND.split(' ').any(|word| cell.eq_ignore_ascii_case(word))
+    is_among(BEYOND, cell)
 }
 
 /// A number of more digits than are kept, cut to those that floats can tell apart.
