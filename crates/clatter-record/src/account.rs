@@ -1,6 +1,6 @@
-//! What became of every line and every column of a text.
+//! The account of every line and every column of a text.
 
-/// What became of every line and every column of a text.
+/// The account of every line and every column of a text.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Account {
     /// The lines.

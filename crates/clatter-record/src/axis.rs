@@ -76,7 +76,7 @@ impl TimeAxis {
         At::of(&self.numbering, sample)
     }
 
-    /// Whether as many samples are at the same times, to a millionth of a step: units and offsets leave roundings.
+    /// Returns whether as many samples are at the same times, to a millionth of a step: units and offsets leave roundings.
     #[must_use]
     pub fn is_that_of(&self, other: &Self) -> bool {
         if std::ptr::eq(self, other) {

@@ -1,10 +1,12 @@
-//! What is between the samples: a record holds all of a history without content from half the sampling rate on.
+//! A record holds all of a history without content from half the sampling rate on, between its samples too.
 //!
 //! Straight lines between samples lose 3 % of a tone at ten samples a cycle and 41 % at two and a half. [`UpSampler`] puts more
 //! points between the samples by a windowed sinc, and raises them by what the lines between them will lose, so that the history
 //! that is linear between its points has the content of the record.
 
 use std::f64::consts::PI;
+
+use clatter_shock::samples::float;
 
 /// Up to this share of the sampling rate the content of a record is kept: 2.5 samples a cycle.
 pub const BAND: f64 = 0.4;
@@ -25,7 +27,7 @@ const BETA: f64 = 7.52;
 /// beyond has 1.3 % of it with four points a sample, and 0.07 % with sixteen.
 #[derive(Debug, Clone)]
 pub(crate) struct UpSampler<const POINTS: usize> {
-    /// What each of the samples around gives to the points after one of them.
+    /// The share that each of the samples around gives to the points after one of them.
     weights: [[f64; POINTS]; TAPS],
     /// The samples that the next point needs, and those that came after.
     window: Vec<f64>,
@@ -51,15 +53,13 @@ fn bessel(x: f64) -> f64 {
 
 /// The windowed sinc, `x` in samples.
 fn kernel(x: f64) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "a small number")]
-    let share = x / REACH as f64;
+    let share = x / float(REACH);
     if share.abs() < 1.0 { sinc(x) * bessel(BETA * (1.0 - share * share).sqrt()) / bessel(BETA) } else { 0.0 }
 }
 
 impl<const POINTS: usize> UpSampler<POINTS> {
     pub(crate) fn new() -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "small numbers")]
-        let (points, reach) = (POINTS as f64, REACH as f64);
+        let (points, reach) = (float(POINTS), float(REACH));
         // Lines between points keep sinc²(f) of a frequency of f to the point; 1 + s²/3 + 8s⁴/45 with s = sin(πf) is its inverse but
         // for s⁶, and s² is taking off the mean of both neighbors, by half.
         let raised = |x: f64| {
@@ -69,8 +69,7 @@ impl<const POINTS: usize> UpSampler<POINTS> {
         };
         let mut weights = [[0.0; POINTS]; TAPS];
         for point in 0..POINTS {
-            #[expect(clippy::cast_precision_loss, reason = "small numbers")]
-            let of = |tap: usize| raised(point as f64 / points + reach - 1.0 - tap as f64);
+            let of = |tap: usize| raised(float(point) / points + reach - 1.0 - float(tap));
             // A constant stays one.
             let sum: f64 = (0..TAPS).map(of).sum();
             for (tap, weights) in weights.iter_mut().enumerate() {

@@ -56,24 +56,24 @@ impl Record {
         one_scale(&channels, options)?;
         let sought = Sought::new(&columns, &seen, options, time, &channels)?;
         let mut groups: Vec<(Source, Vec<Role>)> = Vec::new();
-        let mut known: HashMap<[u64; 4], usize> = HashMap::new();
-        let mut used: HashSet<String> = HashSet::new();
-        for role in channels.iter().cloned() {
+        let mut known: HashMap<([u64; 3], usize), usize> = HashMap::new();
+        for role in channels {
             let source = sought.source(&role)?;
             let key = match source {
                 Source::Even([start_s, step_s]) => [0, start_s.to_bits(), step_s.to_bits()],
                 Source::Column(time) => [1, time as u64, 0],
             };
-            let samples = columns[role.column].values.len() as u64;
-            if let Source::Column(time) = source {
-                used.insert(seen.called(time));
-            }
-            let group = *known.entry([key[0], key[1], key[2], samples]).or_insert(groups.len());
+            let group = *known.entry((key, columns[role.column].values.len())).or_insert(groups.len());
             match groups.get_mut(group) {
                 Some((_, roles)) => roles.push(role),
                 None => groups.push((source, vec![role])),
             }
         }
+        let of_times = |(source, _): &(Source, Vec<Role>)| match source {
+            Source::Even(_) => None,
+            Source::Column(time) => Some(seen.called(*time)),
+        };
+        let used: HashSet<String> = groups.iter().filter_map(of_times).collect();
         let several = sought.times.len() > 1;
         let part = |(source, roles): (Source, Vec<Role>)| {
             let places = roles.iter().map(|role| role.column).collect();
@@ -117,22 +117,17 @@ fn seen(columns: &[Column], options: &Options) -> Preview {
         // Floats have no scale of their own.
         if options.full_scale_m_s2.is_some() && plain { heading.with_unit(FULL_SCALE) } else { heading }
     };
-    let number = |column: &Column, row: usize| match &column.values {
-        Values::Float(values) => values.get(row).copied().unwrap_or(f64::NAN),
-        #[expect(clippy::cast_precision_loss, reason = "the first rows tell times from indices")]
-        Values::Integer(values) => values.get(row).map_or(f64::NAN, |value| *value as f64),
-    };
     let headings: Vec<Heading> = columns.iter().map(heading).collect();
     Preview {
         named: headings.iter().any(|heading| !heading.name.is_empty()),
         sampled: columns.iter().any(|column| column.sampled_s.is_some()),
-        rows: (0..SHOWN).map(|row| columns.iter().map(|column| number(column, row)).collect()).collect(),
+        rows: (0..SHOWN).map(|row| columns.iter().map(|column| column.values.float(row)).collect()).collect(),
         headings,
         ..Preview::default()
     }
 }
 
-/// What the times of a channel are sought in.
+/// The times of channels are sought here.
 struct Sought<'a> {
     columns: &'a [Column],
     seen: &'a Preview,
@@ -258,7 +253,7 @@ impl<'a> Sought<'a> {
     /// Seconds between samples by a column of times, on average.
     fn mean_step(&self, time: usize) -> Result<Option<f64>, Error> {
         let size = self.seen.time_size(time, self.options)?;
-        let (_, since_s) = since_first(&self.columns[time].values, size);
+        let (_, since_s) = self.columns[time].values.since_first(size);
         let steps = float(since_s.len().saturating_sub(1));
         Ok(since_s.last().map(|last| last / steps).filter(|step_s| *step_s > 0.0))
     }
@@ -273,69 +268,42 @@ fn group(
     several: bool,
     options: &Options,
 ) -> Result<Record, Error> {
-    let (mut step_s, mut since_s, mut printed) = (None, Vec::new(), Printed::floats());
-    let start_s;
-    match source {
-        Source::Even([from_s, by_s]) => (start_s, step_s) = (from_s, Some(by_s)),
+    let untimed = |role: Role| {
+        let Column { name, group, values, .. } = &columns[role.column];
+        // The whole name where the file has groups.
+        let name = if group.is_empty() { role.name } else { name.clone() };
+        Untimed { name, unit: role.unit, values: values.times(role.size) }
+    };
+    let channels: Vec<Untimed> = roles.into_iter().map(untimed).collect();
+    let mut raw = match source {
+        Source::Even(sampled_s) => Raw::even(channels, sampled_s),
         Source::Column(time) => {
-            (start_s, since_s) = since_first(&columns[time].values, time_size);
-            if let Values::Integer(_) = columns[time].values {
-                printed = Printed::whole();
-            }
+            let values = &columns[time].values;
+            let (start_s, since_s) = values.since_first(time_size);
+            let printed = if let Values::Integer(_) = values { Printed::whole() } else { Printed::floats() };
+            Raw { channels, start_s, unit_s: time_size, since_s, printed, ..Raw::default() }
         }
-    }
-    let mut channels: Vec<Untimed> = roles
-        .into_iter()
-        .map(|role| {
-            let values: Vec<f64> = match &columns[role.column].values {
-                Values::Float(values) => values.iter().map(|value| value * role.size).collect(),
-                #[expect(clippy::cast_precision_loss, reason = "no converter has so many digits")]
-                Values::Integer(values) => values.iter().map(|value| *value as f64 * role.size).collect(),
-            };
-            // The whole name where the file has groups.
-            let name = &columns[role.column].name;
-            let name = if columns[role.column].group.is_empty() { role.name } else { name.clone() };
-            Untimed { name, unit: role.unit, values }
-        })
-        .collect();
+    };
     // A table fills up columns that end before others.
-    if several && !since_s.is_empty() {
+    if several && !raw.since_s.is_empty() {
         let is_filled =
-            |row: usize| since_s[row].is_nan() && channels.iter().all(|channel| channel.values[row].is_nan());
-        let end = (0..since_s.len()).rposition(|row| !is_filled(row)).map_or(0, |last| last + 1);
-        since_s.truncate(end);
-        for channel in &mut channels {
+            |row: usize| raw.since_s[row].is_nan() && raw.channels.iter().all(|channel| channel.values[row].is_nan());
+        let end = (0..raw.since_s.len()).rposition(|row| !is_filled(row)).map_or(0, |last| last + 1);
+        raw.since_s.truncate(end);
+        for channel in &mut raw.channels {
             channel.values.truncate(end);
         }
     }
     let mut bad = Bad::default();
-    let mut kept = vec![true; channels[0].values.len()];
+    let mut kept = vec![true; raw.channels[0].values.len()];
     for (sample, kept) in kept.iter_mut().enumerate() {
-        let values = channels.iter().map(|channel| (channel.name.as_str(), channel.values[sample]));
-        let mut values = values.chain(since_s.get(sample).map(|since_s| ("time", *since_s)));
+        let values = raw.channels.iter().map(|channel| (channel.name.as_str(), channel.values[sample]));
+        let mut values = values.chain(raw.since_s.get(sample).map(|since_s| ("time", *since_s)));
         if let Some((name, value)) = values.find(|(_, value)| !value.is_finite() || value.abs() > LARGEST) {
             *kept = false;
             bad.add(At::Sample(sample + 1), || format!("{value} in {name} is no number up to {LARGEST:e}"));
         }
     }
-    let found = Vec::new();
-    let mut raw = Raw { channels, start_s, unit_s: time_size, since_s, printed, step_s, numbering: Vec::new(), found };
     raw.keep(&kept);
     raw.finish(bad, options)
-}
-
-/// The first of some times in seconds, and all of them since it; exact for integers.
-fn since_first(values: &Values, size: f64) -> (f64, Vec<f64>) {
-    match values {
-        Values::Float(values) => {
-            let first = values.first().copied().unwrap_or(0.0);
-            (first * size, values.iter().map(|value| (value - first) * size).collect())
-        }
-        #[expect(clippy::cast_precision_loss, reason = "a record lasts less than 2^53 of its units")]
-        Values::Integer(values) => {
-            let first = values.first().copied().unwrap_or(0);
-            let since = |value: &i64| (i128::from(*value) - i128::from(first)) as f64 * size;
-            (first as f64 * size, values.iter().map(since).collect())
-        }
-    }
 }

@@ -18,16 +18,18 @@ mod arrow;
 #[cfg(feature = "hdf5")]
 mod hdf5;
 #[cfg(feature = "parquet")]
-mod nulls;
-#[cfg(feature = "parquet")]
 mod parquet;
+#[cfg(feature = "parquet")]
+mod stored;
 
 pub use kind::Kind;
 #[cfg(feature = "parquet")]
 pub use parquet::{RowGroupWriter, RowGroups, Series, write as write_parquet};
 
+use crate::unit::lists;
 use crate::{Column, Error, Table, Values};
 use number::Number;
+use std::collections::HashMap;
 
 /// The columns of a file in one of the binary kinds.
 ///
@@ -53,71 +55,93 @@ use number::Number;
 /// # Ok::<(), clatter_record::Error>(())
 /// ```
 pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
-    let room = &mut Room { left: most, most };
-    let mut beside = Metadata::default();
-    let columns = match kind {
+    let table = &mut TableBuilder { left: most, most, ..TableBuilder::default() };
+    match kind {
         Kind::Text => return Err(refuse("a text file is not read as a binary one")),
-        Kind::Npy => npy::read(bytes, room)?,
-        Kind::Wav => wav::read(bytes, room)?,
-        Kind::Mat5 => mat::read(bytes, room, &mut beside)?,
-        Kind::Mat4 => mat::level4::read(bytes, room, &mut beside)?,
-        Kind::Tdms => tdms::read(bytes, room, &mut beside)?,
-        Kind::Uff => uff::read(bytes, room, &mut beside)?,
+        Kind::Npy => npy::read(bytes, table)?,
+        Kind::Wav => wav::read(bytes, table)?,
+        Kind::Mat5 => mat::read(bytes, table)?,
+        Kind::Mat4 => mat::level4::read(bytes, table)?,
+        Kind::Tdms => tdms::read(bytes, table)?,
+        Kind::Uff => uff::read(bytes, table)?,
         #[cfg(feature = "hdf5")]
-        Kind::Hdf5 => hdf5::read(bytes, room)?,
+        Kind::Hdf5 => hdf5::read(bytes, table)?,
         #[cfg(feature = "parquet")]
-        Kind::Parquet => parquet::read(bytes, room)?,
+        Kind::Parquet => parquet::read(bytes, table)?,
         #[cfg(feature = "parquet")]
-        Kind::Arrow => arrow::read(bytes, room)?,
+        Kind::Arrow => arrow::read(bytes, table)?,
         #[cfg(not(all(feature = "hdf5", feature = "parquet")))]
         other => return Err(refuse(format!("this build does not read {other}"))),
-    };
-    let Metadata { left_out, notes } = beside;
+    }
+    let Table { columns, left_out, .. } = &table.table;
     if columns.is_empty() {
         let why =
             left_out.first().map_or_else(|| "no column of numbers".to_owned(), |one| format!("nothing but {one}"));
         return Err(refuse(format!("{kind}: it holds {why}")));
     }
-    Ok(Table { columns, left_out, notes })
+    Ok(std::mem::take(&mut table.table))
 }
 
 fn refuse(message: impl Into<String>) -> Error {
     Error::File(message.into())
 }
 
-/// What a file holds beside its columns.
+/// The table of a file while it is filled: every reader puts its columns here, and what it leaves out.
 #[derive(Debug, Default)]
-struct Metadata {
-    left_out: Vec<String>,
-    notes: Vec<String>,
-}
-
-/// How many values may still be read.
-#[derive(Debug)]
-struct Room {
+struct TableBuilder {
+    table: Table,
+    /// How many values may still be read.
     left: usize,
     most: usize,
+    /// Groups, the file by an empty name, and the time between samples that numbers beside the columns tell for each.
+    intervals_s: HashMap<String, f64>,
 }
 
-impl Room {
-    /// Room for so many values more, before memory is taken for them.
-    fn take(&mut self, values: usize) -> Result<(), Error> {
-        self.left = self.left.checked_sub(values).ok_or_else(|| {
-            refuse(format!("the file holds more than {} values, which is the most that is read", self.most))
-        })?;
-        Ok(())
-    }
-    /// The same for rows times columns.
-    fn take_all(&mut self, counts: &[usize]) -> Result<usize, Error> {
+impl TableBuilder {
+    /// Room for so many values more, before memory is taken for them: rows times columns.
+    fn take(&mut self, counts: &[usize]) -> Result<usize, Error> {
         // A product that overflows is beyond any room.
         let values =
             counts.iter().try_fold(1_usize, |product, count| product.checked_mul(*count)).unwrap_or(usize::MAX);
-        self.take(values)?;
+        self.left = self.left.checked_sub(values).ok_or_else(|| {
+            refuse(format!("the file holds more than {} values, which is the most that is read", self.most))
+        })?;
         Ok(values)
     }
     /// Bytes that a compressed part of the file may unpack to: 8 a value, and some for names and headers.
     fn bytes(&self) -> usize {
         self.left.saturating_mul(8).saturating_add(1 << 16)
+    }
+
+    /// Adds columns of a group.
+    fn extend(&mut self, group: &str, columns: impl IntoIterator<Item = Column>) {
+        let columns = columns.into_iter().map(|column| Column { group: group.to_owned(), ..column });
+        self.table.columns.extend(columns);
+    }
+    fn leave_out(&mut self, what: String) {
+        self.table.left_out.push(what);
+    }
+
+    /// Takes in a single number of a group, which may tell the time between samples of its columns.
+    fn number(&mut self, group: &str, name: &str, value: f64) {
+        if let Some(interval_s) = interval_s(name, value) {
+            let told = agreed(self.intervals_s.get(group).copied(), interval_s);
+            self.intervals_s.insert(group.to_owned(), told);
+        }
+    }
+    /// Columns without a time between samples get that of their group, or of the nearest one around it. The names of groups
+    /// within groups have this separator.
+    fn spread_intervals(&mut self, separator: char) {
+        for column in &mut self.table.columns {
+            let mut group = Some(column.group.as_str());
+            while let (Some(name), None) = (group, column.sampled_s) {
+                column.sampled_s = self.intervals_s.get(name).map(|interval_s| [0.0, *interval_s]);
+                group = match name.rsplit_once(separator) {
+                    Some((around, _)) => Some(around),
+                    None => Some("").filter(|_| !name.is_empty()),
+                };
+            }
+        }
     }
 }
 
@@ -171,7 +195,7 @@ impl Naming {
 struct Matrix<'a> {
     rows: usize,
     columns: usize,
-    /// Whether the numbers of a column lie side by side, or those of a row.
+    /// Tells whether the numbers of a column lie side by side, or those of a row.
     column_by_column: bool,
     bytes: &'a [u8],
     number: Number,
@@ -200,34 +224,16 @@ impl Matrix<'_> {
 /// Seconds between samples, by the name and the value of a number beside the columns: `fs` or `sample_rate` in Hz, `dt`
 /// or `sample_interval` in s. The names are those of scripts and loggers, without regard to case and separators.
 fn interval_s(name: &str, value: f64) -> Option<f64> {
-    const RATES: [&str; 9] = [
-        "fs",
-        "samplerate",
-        "samplingrate",
-        "samplefrequency",
-        "samplingfrequency",
-        "samplefreq",
-        "samplingfreq",
-        "samplespersecond",
-        "sampleratehz",
-    ];
-    const INTERVALS: [&str; 10] = [
-        "dt",
-        "deltat",
-        "ts",
-        "sampleinterval",
-        "samplinginterval",
-        "sampleperiod",
-        "samplingperiod",
-        "sampletime",
-        "timestep",
-        "wfincrement",
-    ];
+    const RATES: &str = "\
+        fs samplerate samplingrate samplefrequency samplingfrequency samplefreq samplingfreq samplespersecond \
+        sampleratehz";
+    const INTERVALS: &str = "\
+        dt deltat ts sampleinterval samplinginterval sampleperiod samplingperiod sampletime timestep wfincrement";
     let name: String =
         name.chars().filter(char::is_ascii_alphanumeric).map(|letter| letter.to_ascii_lowercase()).collect();
-    let interval = if RATES.contains(&name.as_str()) {
+    let interval = if lists(RATES, &name) {
         1.0 / value
-    } else if INTERVALS.contains(&name.as_str()) {
+    } else if lists(INTERVALS, &name) {
         value
     } else {
         return None;
@@ -238,44 +244,4 @@ fn interval_s(name: &str, value: f64) -> Option<f64> {
 /// A time between samples beside one that was told before in the same place: NaN where they contradict each other.
 fn agreed(before: Option<f64>, interval_s: f64) -> f64 {
     before.map_or(interval_s, |before| if (before / interval_s - 1.0).abs() <= 1e-3 { interval_s } else { f64::NAN })
-}
-
-/// As integers, which they are.
-#[expect(clippy::cast_possible_truncation, reason = "integers up to 2^53 that were made floats")]
-fn whole(values: Values) -> Vec<i64> {
-    match values {
-        Values::Integer(values) => values,
-        Values::Float(values) => values.into_iter().map(|value| value as i64).collect(),
-    }
-}
-
-/// As floats, within half an ulp.
-#[expect(clippy::cast_precision_loss, reason = "beside integers that no 64 bits with a sign hold")]
-fn rounded(values: Values) -> Vec<f64> {
-    match values {
-        Values::Float(values) => values,
-        Values::Integer(values) => values.into_iter().map(|value| value as f64).collect(),
-    }
-}
-
-/// One part of a column behind the other. Where one has integers beyond 2^53, both are integers; where the other has
-/// some beyond 2^63, which came as floats, both are floats.
-fn joined(before: Values, after: Values) -> Values {
-    let beyond = |values: &Values| matches!(values, Values::Float(values) if values.iter().any(|value| value.abs() > 2_f64.powi(53)));
-    match (before, after) {
-        (Values::Float(mut before), Values::Float(after)) => {
-            before.extend(after);
-            Values::Float(before)
-        }
-        (before, after) if beyond(&before) || beyond(&after) => {
-            let mut before = rounded(before);
-            before.extend(rounded(after));
-            Values::Float(before)
-        }
-        (before, after) => {
-            let mut before = whole(before);
-            before.extend(whole(after));
-            Values::Integer(before)
-        }
-    }
 }

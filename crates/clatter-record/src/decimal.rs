@@ -86,7 +86,7 @@ impl Decimal {
         if self.negative { -size } else { size }
     }
 
-    /// What it is above another one: exact before its one rounding, where both have their digits close together.
+    /// Returns what it is above another one: exact before its one rounding, where both have their digits close together.
     #[inline]
     pub(crate) fn above(self, other: Self) -> f64 {
         let exponent = self.exponent.min(other.exponent);

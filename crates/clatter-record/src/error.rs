@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::At;
 
-/// What makes a file no record. Lines count from 1.
+/// The reasons why a file is no record. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -40,10 +40,10 @@ pub enum Error {
         /// and ends.
         end_s: f64,
     },
-    /// What goes with channels of one time alone.
+    /// The request goes with channels of one time alone.
     #[error("{what} needs channels of one time: {first}; {other}")]
     Times {
-        /// What is asked.
+        /// The request.
         what: &'static str,
         /// A channel and its times,
         first: String,
@@ -53,19 +53,19 @@ pub enum Error {
     /// Which of the records of a file is meant is not clear, or there is no such record.
     #[error("{0}")]
     Records(String),
-    /// What goes with even samples alone.
+    /// The request goes with even samples alone.
     #[error("{0} needs samples that are even in time, and those of this record are not")]
     Uneven(&'static str),
     /// More numbers than are to be read.
     #[error("the record has more than {0} numbers: take a part of it, or fewer channels")]
     Many(usize),
-    /// What makes no spectrum, or samples that make no history.
+    /// The request makes no spectrum, or the samples make no history.
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
     /// A number outside of its range.
     #[error("{name} = {value:?} is not {allowed}")]
     Quantity {
-        /// What the value stands for, with its unit.
+        /// The quantity, with its unit.
         name: &'static str,
         /// The value.
         value: f64,

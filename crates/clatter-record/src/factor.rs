@@ -2,12 +2,12 @@
 
 use crate::unit::power_of_ten;
 
-/// What stands beside a unit: the name without a factor, the factor, or what is neither.
+/// A text beside a unit: the name without a factor, the factor, or what is neither.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Prefixed<'a> {
     pub(crate) name: &'a str,
     pub(crate) factor: f64,
-    /// What says something of the unit, and it is not clear what.
+    /// A part that says something of the unit, and it is not clear what.
     pub(crate) refused: Option<&'a str>,
 }
 
@@ -30,13 +30,13 @@ pub(crate) fn alone(text: &str) -> Option<f64> {
     number(marked)
 }
 
-/// Whether a word of a name is a factor for sure: `x1000`, and not `x2`, which may be a channel.
+/// Returns whether a word of a name is a factor for sure: `x1000`, and not `x2`, which may be a channel.
 pub(crate) fn is_marked(word: &str) -> bool {
     let digits = word.strip_prefix('x').unwrap_or_default();
     digits.len() >= 3 && digits.bytes().all(|c| c.is_ascii_digit())
 }
 
-/// Whether brackets hold what is done with the numbers, and not a remark: `(/1000)`, `(* gain)`.
+/// Returns whether brackets hold what is done with the numbers, and not a remark: `(/1000)`, `(* gain)`.
 pub(crate) fn is_operation(text: &str) -> bool {
     alone(text).is_none() && text.trim().starts_with(['/', '÷', '*', '×', '·', '⋅', '^'])
 }
@@ -50,7 +50,7 @@ fn number(text: &str) -> Option<f64> {
     text.replace(',', ".").parse().ok().filter(|number: &f64| is_number && *number > 0.0 && number.is_finite())
 }
 
-/// What stands behind a unit in brackets.
+/// Reads what stands behind a unit in brackets.
 pub(crate) fn after(text: &str) -> Prefixed<'_> {
     let text = text.trim();
     let refused = Prefixed { name: "", factor: 1.0, refused: Some(text) };
@@ -71,7 +71,7 @@ pub(crate) fn after(text: &str) -> Prefixed<'_> {
     if begins { refused } else { Prefixed::name(text) }
 }
 
-/// What stands before a unit in brackets: a name, and a factor at its end.
+/// Reads what stands before a unit in brackets: a name, and a factor at its end.
 pub(crate) fn before(text: &str) -> Prefixed<'_> {
     let text = text.trim();
     let Some(at) = text.rfind(SIGNS) else { return Prefixed::name(text) };

@@ -1,4 +1,4 @@
-//! What a column of a written file is.
+//! Columns of a file that is written.
 
 /// A column of a file of row groups.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -7,11 +7,11 @@ pub struct Field {
     pub name: String,
     /// Its unit, such as `m/s2`; empty where it has none.
     pub unit: String,
-    /// What its numbers are.
+    /// The kind of its numbers.
     pub kind: FieldKind,
 }
 
-/// What the numbers of a column are, and so how they are stored.
+/// The kind of the numbers of a column, and so how they are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldKind {
     /// Any numbers.

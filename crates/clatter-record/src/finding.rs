@@ -1,6 +1,7 @@
-//! What is odd about a record: told, and the record is used all the same.
+//! Findings tell what is odd about a record, which is used all the same.
 
 use crate::error::Bad;
+use clatter_shock::samples::float;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -10,13 +11,13 @@ use std::ops::Range;
 pub enum Finding {
     /// Columns that nothing is made of.
     LeftOut(Vec<String>),
-    /// What the reader has to say of the file.
+    /// A note of the reader on the file.
     Note(String),
     /// Something about channels of one time, where others have another.
     Of {
         /// Names of the channels.
         channels: String,
-        /// What it is.
+        /// The finding.
         finding: Box<Self>,
     },
     /// Lines that were left out, as they cannot be used.
@@ -72,7 +73,7 @@ pub enum Finding {
         to: At,
         /// The level in m/s².
         level_m_s2: f64,
-        /// What it may change of the spectrum at the lowest frequency.
+        /// The share of the spectrum that it may change at the lowest frequency.
         share: f64,
         /// That frequency in Hz.
         hz: f64,
@@ -87,7 +88,7 @@ pub enum Finding {
         to: At,
         /// The level there less that before the shock, in m/s².
         change_m_s2: f64,
-        /// What it may change of the spectrum at the lowest frequency.
+        /// The share of the spectrum that it may change at the lowest frequency.
         share: f64,
         /// That frequency in Hz.
         hz: f64,
@@ -175,32 +176,21 @@ impl std::fmt::Display for Finding {
                 write!(f, "two samples at one time are a jump: {}", listed.join(", "))?;
                 if *count > first.len() { write!(f, " and {} more", count - first.len()) } else { Ok(()) }
             }
-            Self::Begins { channel, share } => write!(
-                f,
-                "{channel} begins at {} % of its largest value: the shock begins before the record, or there is an offset",
-                percent(*share)
-            ),
-            Self::Ends { channel, share } => {
-                write!(
-                    f,
-                    "{channel} ends at {} % of its largest value: the shock is cut off, or there is an offset",
-                    percent(*share)
-                )
+            Self::Begins { channel, share } | Self::Ends { channel, share } => {
+                let [does, what] = match self {
+                    Self::Begins { .. } => ["begins", "begins before the record"],
+                    _ => ["ends", "is cut off"],
+                };
+                let share = percent(*share);
+                write!(f, "{channel} {does} at {share} % of its largest value: the shock {what}, or there is an offset")
             }
-            Self::Offset { channel, from, to, level_m_s2, share, hz } => write!(
-                f,
-                "{channel}, {from} to {to}: {} m/s2 before the shock, up to {} % of the spectrum at {} Hz",
-                three(*level_m_s2),
-                percent(*share),
-                three(*hz)
-            ),
-            Self::Drift { channel, from, to, change_m_s2, share, hz } => write!(
-                f,
-                "{channel}, {from} to {to}: {} m/s2 from the level before the shock, up to {} % of the spectrum at {} Hz",
-                three(*change_m_s2),
-                percent(*share),
-                three(*hz)
-            ),
+            Self::Offset { channel, from, to, level_m_s2: level, share, hz }
+            | Self::Drift { channel, from, to, change_m_s2: level, share, hz } => {
+                let what =
+                    if let Self::Drift { .. } = self { "from the level before the shock" } else { "before the shock" };
+                let [level, share, hz] = [three(*level), percent(*share), three(*hz)];
+                write!(f, "{channel}, {from} to {to}: {level} m/s2 {what}, up to {share} % of the spectrum at {hz} Hz")
+            }
             Self::Clipped { channel, at, samples, value_m_s2 } => write!(
                 f,
                 "{channel}, from {at} on: {samples} samples at {} m/s2, the largest of all: it may be clipped",
@@ -268,7 +258,7 @@ fn usual(steps: &[f64]) -> [f64; 2] {
     [usual_s, share(steps.iter().map(|step| (step - usual_s).abs()).collect(), 9)]
 }
 
-/// Whether samples are of events: their steps differ by more than they are long, and none of them is missing.
+/// Returns whether samples are of events: their steps differ by more than they are long, and none of them is missing.
 pub(crate) fn is_of_events(since_s: &[f64]) -> bool {
     let steps: Vec<f64> = since_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let [usual_s, spread] = usual(&steps);
@@ -317,19 +307,16 @@ fn changed(values: &[f64], base: f64) -> Option<f64> {
 fn with_error(values: &[f64]) -> (f64, f64) {
     let all = mean(values);
     let square: f64 = values.iter().map(|part| (part - all).powi(2)).sum();
-    #[expect(clippy::cast_precision_loss, reason = "a small number")]
-    let count = values.len() as f64;
+    let count = float(values.len());
     (all, (square / (count * (count - 1.0))).sqrt())
 }
 
 fn mean(values: &[f64]) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-    let count = values.len() as f64;
-    values.iter().sum::<f64>() / count
+    values.iter().sum::<f64>() / float(values.len())
 }
 
-/// A channel, its duration and the lowest frequency that matters.
-pub(crate) struct Judged<'a> {
+/// A channel that is inspected, its duration and the lowest frequency that matters.
+pub(crate) struct Inspection<'a> {
     pub(crate) channel: &'a str,
     pub(crate) values: &'a [f64],
     pub(crate) duration_s: f64,
@@ -339,9 +326,9 @@ pub(crate) struct Judged<'a> {
     pub(crate) at: &'a dyn Fn(usize) -> At,
 }
 
-impl Judged<'_> {
+impl Inspection<'_> {
     /// Adds what is odd.
-    pub(crate) fn judge(&self, findings: &mut Vec<Finding>) {
+    pub(crate) fn add_to(&self, findings: &mut Vec<Finding>) {
         let values = self.values;
         let largest = values.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
         let (Some(first), Some(last)) = (values.first(), values.last()) else { return };
@@ -422,8 +409,7 @@ impl Judged<'_> {
 
     /// How far the velocity goes, from its least to its most, without what a level adds: in m/s.
     fn velocity_swing(&self, level: f64) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let step_s = self.duration_s / (self.values.len() - 1).max(1) as f64;
+        let step_s = self.duration_s / float((self.values.len() - 1).max(1));
         let (mut velocity, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
         for a in self.values {
             velocity += (a - level) * step_s;

@@ -1,9 +1,9 @@
-//! What a column is by its heading.
+//! Headings tell what columns are.
 
 mod words;
 
 use crate::factor;
-use crate::unit::{Kind, Unit};
+use crate::unit::{Kind, Unit, lists};
 use words::{ACCELERATIONS, BEGINNINGS, DATES, FUNCTIONS, GRAMS, INDICES, OTHERS, PLACES, TIMES};
 
 /// A heading: the name of a column and its unit.
@@ -14,11 +14,11 @@ pub(crate) struct Heading {
     pub(crate) unit: Option<Unit>,
     /// The unit as it is spelled, known or not.
     pub(crate) spelled: Option<String>,
-    /// Whether words stand in the column, and no numbers.
+    /// Tells whether words stand in the column, and no numbers.
     pub(crate) is_text: bool,
 }
 
-/// What the name of a column says.
+/// The kinds of columns that names tell apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Named {
     Time,
@@ -66,11 +66,16 @@ impl Heading {
         self
     }
 
-    /// What the name says.
+    /// The quantity of the unit, if it is known.
+    pub(crate) fn kind(&self) -> Option<Kind> {
+        self.unit.map(|unit| unit.kind)
+    }
+
+    /// Returns what the name says.
     pub(crate) fn named(&self) -> Named {
         let name = self.name.to_lowercase();
         let words = parts(&name);
-        let any = |list: &[&str]| words.iter().any(|word| list.contains(word));
+        let any = |list: &str| words.iter().any(|word| lists(list, word));
         let within = |part: &str| words.iter().any(|word| word.contains(part));
         // `acc`, `accx`, `acc12`, `accelerometer`, `accSmooth`, and not `account`.
         let is_acc = |word: &&str| {
@@ -81,38 +86,49 @@ impl Heading {
         if words.is_empty() {
             return Named::Index;
         }
-        if self.is_text || any(&OTHERS) || words.iter().any(|word| BEGINNINGS.iter().any(|b| word.starts_with(b))) {
+        if self.is_text
+            || any(OTHERS)
+            || BEGINNINGS.split(' ').any(|begin| words.iter().any(|word| word.starts_with(begin)))
+        {
             return Named::Other;
         }
-        if any(&TIMES) || name == "x_value" || within("timestamp") || words == ["x", "value"] {
+        if any(TIMES) || name == "x_value" || within("timestamp") || words == ["x", "value"] {
             return Named::Time;
         }
-        if any(&DATES) {
+        if any(DATES) {
             return Named::Other;
         }
         let alone = words.first() == Some(&"a") && words.len() <= 2;
-        if alone || any(&ACCELERATIONS) || words.iter().any(is_acc) || within("beschl") {
+        if alone || any(ACCELERATIONS) || words.iter().any(is_acc) || within("beschl") {
             return Named::Acceleration;
         }
-        if any(&PLACES) {
+        if any(PLACES) {
             return Named::Other;
         }
-        if any(&INDICES) {
+        if any(INDICES) {
             return Named::Index;
         }
         Named::Unknown
     }
 
-    /// Whether the name alone says that a column is of times, whatever stands in it.
+    /// Returns whether it says something of time or acceleration, or has a unit.
+    pub(crate) fn is_telling(&self) -> bool {
+        self.unit.is_some() || self.names_time_or_acceleration()
+    }
+    pub(crate) fn names_time_or_acceleration(&self) -> bool {
+        matches!(self.named(), Named::Time | Named::Acceleration)
+    }
+
+    /// Returns whether the name alone says that a column is of times, whatever stands in it.
     pub(crate) fn is_time_by_name(&self) -> bool {
         Self::named_alone(&self.name).named() == Named::Time
     }
 
-    /// Whether a column is one of times, by its name or its unit; `t1` is, as `t`.
+    /// Returns whether a column is one of times, by its name or its unit; `t1` is, as `t`.
     pub(crate) fn is_time(&self) -> bool {
         let stem = self.name.trim_end_matches(|c: char| c.is_ascii_digit());
         let is_named = || [self.named(), Self::named_alone(stem).named()].contains(&Named::Time);
-        match self.unit.map(|unit| unit.kind) {
+        match self.kind() {
             _ if self.is_text => false,
             Some(Kind::Time) => self.named() != Named::Other,
             None => is_named(),
@@ -123,7 +139,7 @@ impl Heading {
     /// Why a column with a unit of acceleration, or with such a name, is no plain acceleration, if its name says so.
     pub(crate) fn function(&self) -> Option<String> {
         let name = self.name.to_lowercase();
-        let word = parts(&name).into_iter().find(|word| FUNCTIONS.contains(word));
+        let word = parts(&name).into_iter().find(|word| lists(FUNCTIONS, word));
         let begins = name.starts_with(['-', '−', '–', '|']) && name.len() > 1;
         let raised = ["^", "²", "³", "**", "d/dt", "/dt"].iter().find(|mark| name.contains(**mark));
         let factor = parts(&name).into_iter().find(|word| factor::is_marked(word));
@@ -135,14 +151,14 @@ impl Heading {
             })
     }
 
-    /// Whether a unit such as g or mG is one of a mass or of a magnetic field, by the name.
+    /// Returns whether a unit such as g or mG is one of a mass or of a magnetic field, by the name.
     pub(crate) fn is_of_grams(&self) -> bool {
         let name = self.name.to_lowercase();
         let words = parts(&name);
-        let is_acc = words.iter().any(|word| ACCELERATIONS.contains(word) || word.starts_with("acc"));
+        let is_acc = words.iter().any(|word| lists(ACCELERATIONS, word) || word.starts_with("acc"));
         let in_grams =
             self.spelled.as_deref().is_some_and(|unit| unit.to_lowercase().ends_with('g') && !unit.contains('/'));
-        in_grams && !is_acc && words.iter().any(|word| GRAMS.contains(word) || word.starts_with("magn"))
+        in_grams && !is_acc && words.iter().any(|word| lists(GRAMS, word) || word.starts_with("magn"))
     }
 
     /// As messages call it.
@@ -187,65 +203,23 @@ fn parts(name: &str) -> Vec<&str> {
 /// A heading whose unit stands in brackets, with the factor that stands beside or in brackets of its own. What stands in brackets
 /// and names no unit is part of the name; what has a part that is a unit, and is none as a whole, is a unit that is not known.
 fn bracketed(cell: &str) -> Option<Heading> {
-    let (mut groups, mut names) = (Vec::new(), vec![String::new()]);
-    let mut rest = cell;
-    while let Some(open) = rest.find(['[', '(']) {
-        let close = if rest[open..].starts_with('[') { ']' } else { ')' };
-        let length = closing(&rest[open..], close)?;
-        names.last_mut()?.push_str(&rest[..open]);
-        let group = since_dropped(rest[open + 1..open + length].trim());
-        // `accSmooth[0]` is a name; `(z)` may be an axis.
-        let is_number = !group.is_empty() && group.bytes().all(|c| c.is_ascii_digit());
-        if is_number || group.is_empty() {
-            names.last_mut()?.push_str(&rest[open..=open + length]);
-        } else {
-            groups.push(group);
-            names.push(String::new());
-        }
-        rest = &rest[open + length + 1..];
-    }
-    names.last_mut()?.push_str(rest);
-    if groups.is_empty() {
-        return None;
-    }
-    let used = |group: &&str| Unit::of(group).is_some_and(|unit| matches!(unit.kind, Kind::Time | Kind::Acceleration));
-    let places = |is: &dyn Fn(&&str) -> bool| (0..groups.len()).filter(|i| is(&groups[*i])).collect::<Vec<_>>();
-    let measured = places(&used);
-    let other = places(&|group| Unit::of(group).is_some() && !used(group));
-    let is_unknown = |group: &&str| {
-        Unit::of(group).is_none()
-            && factor::alone(group).is_none()
-            && (is_like_unit(group) || factor::is_operation(group))
+    let (names, groups) = apart(cell)?;
+    let unclear = |name: &str| Heading { spelled: Some(groups.join("; ")), ..Heading::named_alone(name) };
+    let Ok(place) = place_of_unit(&groups) else {
+        return Some(unclear(&names.concat().split_whitespace().collect::<Vec<_>>().join(" ")));
     };
-    let unknown = places(&is_unknown);
-    // A letter beside a unit is the name of an axis or a place.
-    let is_letter = |place: &usize| groups[*place].chars().count() == 1;
-    let place = match (&measured[..], &other[..], &unknown[..]) {
-        ([unit], others, []) if others.iter().all(is_letter) => Some(*unit),
-        ([], [unit], []) | ([], [], [unit]) => Some(*unit),
-        ([], [], []) => None,
-        // One of them may be a unit and the others words, but no one can tell for all.
-        _ => {
-            let name = names.concat();
-            let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
-            return Some(Heading { spelled: Some(groups.join("; ")), ..Heading::named_alone(&name) });
-        }
-    };
+    let unit = place.and_then(|place| Unit::of(groups[place]));
     let mut size = 1.0;
     let mut kept: Vec<String> = Vec::new();
-    // What is divided by 9.81 was in m/s².
-    let in_si =
-        place.and_then(|place| Unit::of(groups[place])).is_some_and(|unit| unit.size.to_bits() == 1.0_f64.to_bits());
+    // A column that is divided by 9.81 was in m/s².
+    let in_si = unit.is_some_and(|unit| unit.size.to_bits() == 1.0_f64.to_bits());
     let divided = place.map(|place| names[place + 1].trim()).filter(|beside| beside.starts_with('/') && !in_si);
     let mut refused = divided;
     for (i, name) in names.iter().enumerate() {
-        let (before, after) = (place == Some(i), i > 0 && place == Some(i - 1));
-        let found = if after {
-            factor::after(name)
-        } else if before {
-            factor::before(name)
-        } else {
-            factor::Prefixed::name(name)
+        let found = match place {
+            Some(place) if place + 1 == i => factor::after(name),
+            Some(place) if place == i => factor::before(name),
+            _ => factor::Prefixed::name(name),
         };
         size *= found.factor;
         refused = refused.or(found.refused);
@@ -258,38 +232,77 @@ fn bracketed(cell: &str) -> Option<Heading> {
         }
     }
     let name = kept.join(" ");
+    let is_one = size.to_bits() == 1.0_f64.to_bits();
     let Some(place) = place else {
         // A factor without a unit has none to go with.
-        let is_factor = size.to_bits() != 1.0_f64.to_bits();
-        return Some(if is_factor {
-            Heading { spelled: Some(groups.join("; ")), ..Heading::named_alone(&name) }
-        } else {
-            Heading::named_alone(&name)
-        });
+        return Some(if is_one { Heading::named_alone(&name) } else { unclear(&name) });
     };
     let spelled = match refused {
         Some(beside) => format!("{} {beside}", groups[place]),
-        None if size.to_bits() == 1.0_f64.to_bits() => groups[place].to_owned(),
+        None if is_one => groups[place].to_owned(),
         None => format!("{} × {size}", groups[place]),
     };
-    let unit = if refused.is_some() { None } else { Unit::of(groups[place]).map(|unit| unit.times(size)) };
+    let unit = unit.filter(|_| refused.is_none()).map(|unit| unit.times(size));
     Some(Heading { unit, spelled: Some(spelled), ..Heading::named_alone(&name) })
+}
+
+/// The texts between brackets, and those before, between and behind these; none where there are no brackets.
+fn apart(cell: &str) -> Option<(Vec<String>, Vec<&str>)> {
+    let (mut groups, mut names) = (Vec::new(), vec![String::new()]);
+    let mut rest = cell;
+    while let Some(open) = rest.find(['[', '(']) {
+        let close = if rest[open..].starts_with('[') { ']' } else { ')' };
+        let length = closing(&rest[open..], close)?;
+        names.last_mut()?.push_str(&rest[..open]);
+        let group = since_dropped(rest[open + 1..open + length].trim());
+        // `accSmooth[0]` is a name; `(z)` may be an axis.
+        if group.bytes().all(|c| c.is_ascii_digit()) {
+            names.last_mut()?.push_str(&rest[open..=open + length]);
+        } else {
+            groups.push(group);
+            names.push(String::new());
+        }
+        rest = &rest[open + length + 1..];
+    }
+    names.last_mut()?.push_str(rest);
+    (!groups.is_empty()).then_some((names, groups))
+}
+
+/// The one of some texts in brackets that is a unit, if one is. One of several may be a unit and the others words, but no one can
+/// tell for all, which is an error.
+fn place_of_unit(groups: &[&str]) -> Result<Option<usize>, ()> {
+    let (mut recorded, mut other, mut unknown) = (Vec::new(), Vec::new(), Vec::new());
+    for (place, group) in groups.iter().enumerate() {
+        match Unit::of(group) {
+            Some(unit) if unit.kind.is_recorded() => recorded.push(place),
+            Some(_) => other.push(place),
+            None if factor::alone(group).is_some() => {}
+            None if is_like_unit(group) || factor::is_operation(group) => unknown.push(place),
+            None => {}
+        }
+    }
+    // A letter beside a unit is the name of an axis or a place.
+    let is_letter = |place: &usize| groups[*place].chars().count() == 1;
+    match (&recorded[..], &other[..], &unknown[..]) {
+        ([unit], others, []) if others.iter().all(is_letter) => Ok(Some(*unit)),
+        ([], [unit], []) | ([], [], [unit]) => Ok(Some(*unit)),
+        ([], [], []) => Ok(None),
+        _ => Err(()),
+    }
 }
 
 /// A unit of time without what it counts from: `s since trigger`.
 fn since_dropped(group: &str) -> &str {
     let end = [" since ", " after ", " from ", " relative "].iter().find_map(|word| group.find(word));
-    end.map(|end| &group[..end])
-        .filter(|unit| Unit::of(unit).is_some_and(|unit| unit.kind == Kind::Time))
-        .unwrap_or(group)
+    end.map(|end| &group[..end]).filter(|unit| Unit::of_kind(unit, Kind::Time).is_some()).unwrap_or(group)
 }
 
-/// Whether a text that is no unit has a part that is one: `500g`, `g rms`, `deka g`, `m/s2/Hz`, and not `raw` or `CFC 1000`.
+/// Returns whether a text that is no unit has a part that is one: `500g`, `g rms`, `deka g`, `m/s2/Hz`, and not `raw` or `CFC 1000`.
 fn is_like_unit(group: &str) -> bool {
     let parts = group.split(|c: char| c.is_whitespace() || matches!(c, '/' | '*' | '·' | ',' | ';' | '^' | '²'));
     parts.map(|part| part.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '±' | '+' | '-'))).any(
         |part| {
-            let telling = |unit: Unit| matches!(unit.kind, Kind::Time | Kind::Acceleration) || part.chars().count() > 1;
+            let telling = |unit: Unit| unit.kind.is_recorded() || part.chars().count() > 1;
             Unit::of(part).is_some_and(telling)
         },
     )
@@ -360,7 +373,7 @@ fn trailing(cell: &str) -> Option<Heading> {
             return Some(Heading { unit: Some(sensitivity), spelled: Some(format!("per {unit}")), ..name_only });
         }
         // `t_in_s` is a time in seconds, not one in inches a second.
-        let in_words = unit.strip_prefix("in_").and_then(Unit::of).is_some_and(|known| known.kind == Kind::Time);
+        let in_words = unit.strip_prefix("in_").is_some_and(|unit| Unit::of_kind(unit, Kind::Time).is_some());
         if in_words && name_only.named() == Named::Time {
             continue;
         }

@@ -3,14 +3,14 @@
 use crate::Error;
 use crate::heading::Heading;
 use crate::text::table;
-use crate::unit::{Kind, Unit};
+use crate::unit::{FREQUENCY, Kind, LENGTH, Unit, VELOCITY};
 
 /// A limit over frequency, as a file has it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LimitPoints {
     /// Frequency in Hz and level, in SI where the file names its unit.
     pub points: Vec<(f64, f64)>,
-    /// What the unit is of: "acceleration", "velocity" or "length"; none where the file names none.
+    /// The quantity of the unit: "acceleration", "velocity" or "length"; none where the file names none.
     pub of: Option<&'static str>,
     /// The unit of the level as the file spells it.
     pub unit: Option<String>,
@@ -41,14 +41,14 @@ pub fn read_limit(input: impl std::io::Read) -> Result<LimitPoints, Error> {
     }
     let [frequency, level] = [&headings[0], &headings[1]];
     let hertz = match (frequency.unit, &frequency.spelled) {
-        (Some(Unit { kind: Kind::Other("a frequency"), size }), _) => size,
+        (Some(Unit { kind: FREQUENCY, size }), _) => size,
         (None, None) => 1.0,
         _ => return Err(wrong(frequency, "a frequency")),
     };
     let (of, size) = match (level.unit.map(|unit| (unit.kind, unit.size)), &level.spelled) {
         (Some((Kind::Acceleration, size)), _) => (Some("acceleration"), size),
-        (Some((Kind::Other("a velocity"), size)), _) => (Some("velocity"), size),
-        (Some((Kind::Other("a length"), size)), _) => (Some("length"), size),
+        (Some((VELOCITY, size)), _) => (Some("velocity"), size),
+        (Some((LENGTH, size)), _) => (Some("length"), size),
         (None, None) => (None, 1.0),
         _ => return Err(wrong(level, "an acceleration, a velocity or a length")),
     };

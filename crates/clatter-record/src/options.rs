@@ -1,9 +1,9 @@
-//! What is told of a file beside the file.
+//! Settings that a caller tells beside the file.
 
 use crate::Error;
 use crate::unit::{Kind, Unit, VOLTAGE};
 
-/// What is told of a file beside the file.
+/// Settings that a caller tells beside the file.
 ///
 /// ```
 /// use clatter_record::{Options, Units};
@@ -21,15 +21,15 @@ pub struct Options {
     pub units: Option<Units>,
     /// Samples a second, in place of a column of time.
     pub sample_rate_hz: Option<f64>,
-    /// What full scale is in m/s², for files that count in shares of it.
+    /// Full scale in m/s², for files that count in shares of it.
     pub full_scale_m_s2: Option<f64>,
-    /// What a sensor gives for an acceleration, in V s²/m, for channels in volts.
+    /// Volts that a sensor gives for an acceleration, in V s²/m, for channels in volts.
     pub sensitivity_v_s2_m: Option<f64>,
     /// The sensor whose rows are read, where rows of several come in turns.
     pub sensor: Option<String>,
     /// Which record of a file that holds several, from 1.
     pub record: Option<usize>,
-    /// Whether lines that cannot be used are left out; else they are an error.
+    /// Tells whether lines that cannot be used are left out; else they are an error.
     pub skip_bad: bool,
     /// Numbers that are read at most: what is larger is refused.
     pub most_values: usize,
@@ -109,10 +109,10 @@ pub fn sensitivity(text: &str) -> Result<f64, Error> {
         let end = volts.rfind(|c: char| c.is_ascii_digit() || c == '.')? + 1;
         let number: f64 =
             volts[..end].trim().parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite())?;
-        let volt = Unit::of(&volts[end..]).filter(|unit| unit.kind == VOLTAGE)?;
+        let volt = Unit::of_kind(&volts[end..], VOLTAGE)?;
         let acceleration = acceleration.trim();
         let inner = acceleration.strip_prefix('(').and_then(|text| text.strip_suffix(')')).unwrap_or(acceleration);
-        let per = Unit::of(inner).filter(|unit| unit.kind == Kind::Acceleration)?;
+        let per = Unit::of_kind(inner, Kind::Acceleration)?;
         Some(number * volt.size / per.size)
     };
     of().ok_or_else(|| {

@@ -1,10 +1,12 @@
-//! Whether what is told of a record goes with its numbers.
+//! Rates and units that are told of a record are held against its numbers.
+
+use clatter_shock::samples::float;
 
 use crate::raw::Untimed;
 use crate::unit::Unit;
 use crate::{Error, Finding};
 
-/// What a rate says against times that a file has as well, which may be rounded by so much. Samples that are missing by both are an
+/// Holds a rate against times that a file has as well, which may be rounded by so much. Samples that are missing by both are an
 /// error.
 pub(crate) fn against_times(
     step_s: f64,
@@ -18,9 +20,8 @@ pub(crate) fn against_times(
     if steps == 0 {
         return Ok(None);
     }
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-    let (count, mut sorted): (f64, Vec<f64>) =
-        (steps as f64, since_s.windows(2).map(|pair| pair[1] - pair[0]).collect());
+    let count = float(steps);
+    let mut sorted: Vec<f64> = since_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let (span_s, expected_s) = (since_s[steps], step_s * count);
     if (span_s - expected_s).abs() <= step_s + 2.0 * rounded_s + SAME * expected_s {
         return Ok(None);

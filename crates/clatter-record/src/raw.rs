@@ -1,8 +1,8 @@
-//! What a reader hands on of channels that share their times, before it is known what the times are.
+//! A reader hands channels that share their times on before it is known what the times are.
 
 use std::sync::Arc;
 
-use clatter_shock::samples::LARGEST;
+use clatter_shock::samples::{LARGEST, float};
 
 use crate::axis::{Spacing, TimeAxis};
 use crate::error::Bad;
@@ -19,12 +19,17 @@ pub(crate) struct Untimed {
 }
 
 /// Channels of one time, as a reader hands them on.
+#[derive(Default)]
 pub(crate) struct Raw {
     pub(crate) channels: Vec<Untimed>,
     pub(crate) start_s: f64,
+    /// The unit of the times in the file, in seconds.
     pub(crate) unit_s: f64,
+    /// Seconds since the first sample, where the file has a column of times,
     pub(crate) since_s: Vec<f64>,
+    /// and how they are printed.
     pub(crate) printed: Printed,
+    /// Seconds from one sample to the next, where they are told.
     pub(crate) step_s: Option<f64>,
     /// Samples that follow no other at the place before, each with its place.
     pub(crate) numbering: Vec<(usize, At)>,
@@ -32,6 +37,11 @@ pub(crate) struct Raw {
 }
 
 impl Raw {
+    /// Channels of samples that are so far apart.
+    pub(crate) fn even(channels: Vec<Untimed>, [start_s, step_s]: [f64; 2]) -> Self {
+        Self { channels, start_s, step_s: Some(step_s), ..Self::default() }
+    }
+
     /// A record, where the times go forwards.
     pub(crate) fn finish(mut self, mut bad: Bad, options: &Options) -> Result<Record, Error> {
         self.drop_unbounded(&mut bad);
@@ -54,8 +64,7 @@ impl Raw {
         if samples < 2 {
             return Err(clatter_shock::Error::Short { what: "a record", samples, needed: 2 }.into());
         }
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let last_s = step_s.map_or(0.0, |step_s| step_s * samples as f64);
+        let last_s = step_s.map_or(0.0, |step_s| step_s * float(samples));
         for value in [self.start_s, last_s] {
             if !(-LARGEST..=LARGEST).contains(&value) {
                 return Err(Error::Quantity { name: "time of a sample (s)", value, allowed: "within 1e100" });
@@ -87,8 +96,7 @@ impl Raw {
         let count = self.since_s.len();
         let same = self.since_s.windows(2).filter(|pair| pair[0].to_bits() == pair[1].to_bits()).count();
         let unit_s = self.printed.unit() * self.unit_s;
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let coarse = unit_s * (count - 1) as f64 > 0.5 * self.since_s[count - 1].abs();
+        let coarse = unit_s * float(count - 1) > 0.5 * self.since_s[count - 1].abs();
         // A few samples at one time are jumps, or there twice.
         if 10 * same < count || !coarse {
             return Ok(());

@@ -11,11 +11,11 @@ use clatter_shock::samples::check;
 use crate::axis::{Spacing, TimeAxis};
 use crate::container::{self, Kind};
 use crate::error::Bad;
-use crate::finding::{At, Finding, Judged, is_of_events};
+use crate::finding::{At, Finding, Inspection, is_of_events};
 use crate::plausible::{against_times, refuse_counts};
 use crate::raw::{Raw, Untimed};
 use crate::roles::{Role, Roles};
-use crate::text::{self, BLOCK, Rows, decoded};
+use crate::text::{self, Rows, decoded};
 use crate::times::Printed;
 use crate::{Account, Error, FULL_SCALE, Options};
 
@@ -23,9 +23,9 @@ use crate::{Account, Error, FULL_SCALE, Options};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     pub(crate) channels: Vec<Channel>,
-    /// What was found while reading.
+    /// Findings of the reader.
     pub(crate) read: Vec<Finding>,
-    /// What became of each line and column of a text.
+    /// The account of the lines and columns of a text.
     pub(crate) account: Option<Account>,
 }
 
@@ -95,10 +95,8 @@ impl Record {
     /// # Errors
     /// [`Error`] tells what is wrong, where, and what is allowed.
     pub fn read(mut input: impl Read, options: &Options, mut progress: impl FnMut(u64)) -> Result<Self, Error> {
-        let mut begin = vec![0; BLOCK];
-        let length = text::fill(&mut input, &mut begin)?;
-        begin.truncate(length);
-        if begin.is_empty() {
+        let mut begin = Vec::new();
+        if text::read_block(&mut input, &mut begin)? == 0 {
             return Err(Error::File("the file is empty".to_owned()));
         }
         let kind = Kind::of(&begin)?;
@@ -146,17 +144,8 @@ impl Record {
             }
         }
         let untimed = |(name, values): (&str, _)| Untimed { name: name.to_owned(), unit: "m/s2".to_owned(), values };
-        let raw = Raw {
-            channels: channels.into_iter().map(untimed).collect(),
-            start_s,
-            unit_s: 1.0,
-            since_s: Vec::new(),
-            printed: Printed::floats(),
-            step_s: Some(step_s),
-            numbering: Vec::new(),
-            found: Vec::new(),
-        };
-        raw.finish(Bad::default(), &Options::default())
+        let channels = channels.into_iter().map(untimed).collect();
+        Raw::even(channels, [start_s, step_s]).finish(Bad::default(), &Options::default())
     }
 
     /// Of lines of text, by their times.
@@ -176,7 +165,7 @@ impl Record {
         Ok(Self { account, ..Self::of_parts(parts) })
     }
 
-    fn of_text(mut rows: Rows, roles: Roles, options: &Options) -> Result<Self, Error> {
+    fn of_text(rows: Rows, roles: Roles, options: &Options) -> Result<Self, Error> {
         one_scale(&roles.channels, options)?;
         let mut found = Vec::new();
         if !roles.left_out.is_empty() {
@@ -185,50 +174,36 @@ impl Record {
         if rows.below().count > 0 {
             found.push(Finding::Below(rows.below().clone()));
         }
-        let (mut start_s, unit_s) = (rows.start_s(), rows.time_size());
-        let rounded_s = rows.printed.unit() * unit_s;
-        let mut step_s = None;
+        let (start_s, unit_s, told) = (rows.start_s(), rows.time_size(), rows.told());
+        let Rows { channels, times: since_s, printed, numbering, sampled_s, doubled, mut bad, .. } = rows;
+        let untimed = |(values, Role { name, unit, .. })| Untimed { name, unit, values };
+        let channels = channels.into_iter().zip(roles.channels).map(untimed).collect();
+        let mut raw = Raw { channels, start_s, unit_s, since_s, printed, step_s: None, numbering, found };
+        let rounded_s = raw.printed.unit() * unit_s;
         if let Some(hz) = options.sample_rate_hz {
             let given_s = period(hz)?;
-            (start_s, step_s) = (0.0, Some(given_s));
-            let times = std::mem::take(&mut rows.times);
-            found.extend(against_times(given_s, &times, rounded_s, "the rate that is given")?);
-            rows.printed = Printed::default();
-        } else if let (Some([from_s, by_s]), None) = (rows.sampled_s, roles.time) {
-            (start_s, step_s) = (from_s, Some(by_s));
-        } else if let Some((told_s, line)) = rows.told() {
+            let finding = against_times(given_s, &raw.since_s, rounded_s, "the rate that is given")?;
+            raw.found.extend(finding);
+            raw = Raw { start_s: 0.0, step_s: Some(given_s), since_s: Vec::new(), printed: Printed::default(), ..raw };
+        } else if let (Some([from_s, by_s]), None) = (sampled_s, roles.time) {
+            (raw.start_s, raw.step_s) = (from_s, Some(by_s));
+        } else if let Some((told_s, line)) = told {
             let what = format!("the rate of line {line}");
-            found.extend(against_times(told_s, &rows.times, rounded_s, &what).unwrap_or_default());
+            raw.found.extend(against_times(told_s, &raw.since_s, rounded_s, &what).unwrap_or_default());
         }
-        let values = std::mem::take(&mut rows.channels);
-        let channels = values.into_iter().zip(roles.channels).map(|(values, role)| Untimed {
-            name: role.name,
-            unit: role.unit,
-            values,
-        });
-        let mut raw = Raw {
-            channels: channels.collect(),
-            start_s,
-            unit_s,
-            since_s: std::mem::take(&mut rows.times),
-            printed: std::mem::take(&mut rows.printed),
-            step_s,
-            numbering: std::mem::take(&mut rows.numbering),
-            found,
-        };
         if options.units.is_some() {
             refuse_counts(&raw.channels)?;
         }
-        if !raw.since_s.is_empty() && !rows.doubled.is_empty() {
+        if !raw.since_s.is_empty() && !doubled.is_empty() {
             raw.refuse_coarse()?;
             let mut kept = vec![true; raw.since_s.len()];
-            for (sample, line) in &rows.doubled {
-                kept[*sample] = false;
-                rows.bad.add(At::Line(*line), || "is the line before once more".to_owned());
+            for (sample, line) in doubled {
+                kept[sample] = false;
+                bad.add(At::Line(line), || "is the line before once more".to_owned());
             }
             raw.keep(&kept);
         }
-        raw.finish(rows.bad, options)
+        raw.finish(bad, options)
     }
 
     /// Channels of several times as one record, each with its place in the file.
@@ -275,7 +250,7 @@ impl Record {
     pub fn channel(&self, name: &str) -> Option<&Channel> {
         self.channels.iter().find(|channel| channel.name == name)
     }
-    /// What became of every line and every column, of a text.
+    /// Returns the account of every line and every column, of a text.
     #[must_use]
     pub fn account(&self) -> Option<&Account> {
         self.account.as_ref()
@@ -311,7 +286,7 @@ impl Record {
             }
         }
     }
-    /// What is odd, for one who asks for a spectrum from `lowest_hz` on.
+    /// Returns what is odd, for one who asks for a spectrum from `lowest_hz` on.
     #[must_use]
     pub fn findings(&self, lowest_hz: f64) -> Vec<Finding> {
         let mut findings = self.read.clone();
@@ -322,7 +297,7 @@ impl Record {
             };
             let at = |sample| times.at(sample);
             let duration_s = times.duration_s();
-            Judged { channel: name, values, duration_s, is_even, lowest_hz, at: &at }.judge(&mut findings);
+            Inspection { channel: name, values, duration_s, is_even, lowest_hz, at: &at }.add_to(&mut findings);
         }
         findings
     }

@@ -6,7 +6,7 @@ use crate::heading::{Heading, Named};
 use crate::unit::{Kind, Unit, VOLTAGE};
 use crate::{Error, Options, Pick};
 
-/// What the columns of a file are.
+/// The columns of a file by what they are.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Roles {
     /// The column of time and the size of its unit in seconds; none where samples come at a given rate.
@@ -14,11 +14,11 @@ pub(crate) struct Roles {
     pub(crate) channels: Vec<Role>,
     /// The column of times that a given rate stands in place of, and the size of its unit.
     pub(crate) checked: Option<(usize, f64)>,
-    /// What is made of no other column, as messages call them.
+    /// Columns that nothing is made of, as messages call them.
     pub(crate) left_out: Vec<String>,
     /// Every column, as messages call it, and what it is taken for.
     pub(crate) columns: Vec<(String, String)>,
-    /// Whether other channels have other times, for which lines may go on.
+    /// Tells whether other channels have other times, for which lines may go on.
     pub(crate) beside_others: bool,
 }
 
@@ -37,9 +37,9 @@ pub(crate) struct Role {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Preview {
     pub(crate) headings: Vec<Heading>,
-    /// Whether the file names its columns.
+    /// Tells whether the file names its columns.
     pub(crate) named: bool,
-    /// Whether the file tells times apart from columns.
+    /// Tells whether the file tells times apart from columns.
     pub(crate) sampled: bool,
     /// The first rows, for columns without names.
     pub(crate) rows: Vec<Vec<f64>>,
@@ -48,7 +48,7 @@ pub(crate) struct Preview {
 }
 
 impl Preview {
-    /// What each column is.
+    /// Returns what each column is.
     ///
     /// # Errors
     /// [`Error::Columns`] where it is not clear, [`Error::Units`] for a unit that is missing, or not known, or another one.
@@ -75,10 +75,10 @@ impl Preview {
         })
     }
 
-    /// What a column is taken for, or why it is nothing.
+    /// Returns what a column is taken for, or why it is nothing.
     fn taken_for(&self, column: usize, time: Option<usize>, channels: &[usize]) -> String {
         let heading = &self.headings[column];
-        let is = match heading.unit.map(|unit| unit.kind) {
+        let is = match heading.kind() {
             _ if time == Some(column) => "time",
             _ if channels.contains(&column) => "acceleration",
             _ if heading.is_text => "words",
@@ -98,8 +98,7 @@ impl Preview {
         let without = Options { sample_rate_hz: None, ..options.clone() };
         let time = self.time(&without).ok()??;
         let heading = &self.headings[time];
-        let is_time =
-            heading.unit.is_some_and(|unit| unit.kind == Kind::Time) || heading.named() == Named::Time || !self.named;
+        let is_time = heading.kind() == Some(Kind::Time) || heading.named() == Named::Time || !self.named;
         let size = self.time_size(time, &without).ok()?;
         (is_time && !channels.contains(&time) && self.goes_on(time)).then_some((time, size))
     }
@@ -144,10 +143,9 @@ impl Preview {
         if !self.named {
             return self.time_by_place(none);
         }
-        let kind = |heading: &Heading| heading.unit.map(|unit| unit.kind);
         let is_named = |heading: &Heading| heading.named() == Named::Time;
-        let is_unit = |heading: &Heading| kind(heading) == Some(Kind::Time);
-        let fits = |heading: &Heading| matches!(kind(heading), None | Some(Kind::Time));
+        let is_unit = |heading: &Heading| heading.kind() == Some(Kind::Time);
+        let fits = |heading: &Heading| matches!(heading.kind(), None | Some(Kind::Time));
         // One that goes on, where there is one: what is told of a whole file may be a time as well.
         let find = |is: &dyn Fn(&Heading) -> bool| {
             let all = || (0..self.headings.len()).filter(|column| is(&self.headings[*column]));
@@ -183,22 +181,35 @@ impl Preview {
         }
     }
 
-    /// Whether the first rows of a column rise, or stay for a while and rise, or are too few to tell.
+    /// The numbers of a column in the first rows.
+    pub(crate) fn numbers(&self, column: usize) -> impl DoubleEndedIterator<Item = f64> {
+        self.rows.iter().filter_map(move |row| row.get(column)).copied()
+    }
+    /// The same in pairs, each number with the next.
+    fn steps(&self, column: usize) -> impl Iterator<Item = (f64, f64)> {
+        self.numbers(column).zip(self.numbers(column).skip(1))
+    }
+    /// From the number in the first row to that in the last one.
+    pub(crate) fn span(&self, column: usize) -> Option<f64> {
+        let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).copied();
+        Some(at(self.rows.last())? - at(self.rows.first())?)
+    }
+
+    /// Returns whether the first rows of a column rise, or stay for a while and rise, or are too few to tell.
     pub(crate) fn goes_on(&self, column: usize) -> bool {
-        let values = || self.rows.iter().filter_map(|row| row.get(column)).filter(|value| value.is_finite());
+        let values = || self.numbers(column).filter(|value| value.is_finite());
         let rises = values().zip(values().skip(1)).all(|(a, b)| a <= b);
         let moves = values().next().zip(values().next_back()).is_some_and(|(a, b)| a < b);
         self.rows.len() > 1 && rises && moves
     }
 
-    /// Whether a column counts its rows, or is named as one that tells rows apart.
+    /// Returns whether a column counts its rows, or is named as one that tells rows apart.
     fn is_index(&self, column: usize) -> bool {
         let heading = &self.headings[column];
-        if heading.named() != Named::Index || heading.unit.is_some_and(|unit| unit.kind == Kind::Acceleration) {
+        if heading.named() != Named::Index || heading.kind() == Some(Kind::Acceleration) {
             return false;
         }
-        let values = || self.rows.iter().filter_map(|row| row.get(column));
-        let counts = values().zip(values().skip(1)).all(|(a, b)| b > a && a.fract() == 0.0);
+        let counts = self.steps(column).all(|(a, b)| b > a && a.fract() == 0.0);
         // `N`, `sample 1` and the like are names of channels as well.
         let name = heading.name.to_lowercase();
         let may_be_channel = ["n", "no", "nr", "sample", "samples", "point", "number", "num"]
@@ -242,11 +253,10 @@ impl Preview {
         let those = |is: &dyn Fn(&Heading) -> bool| -> Vec<usize> {
             rest.iter().copied().filter(|column| is(&self.headings[*column])).collect()
         };
-        let kind = |heading: &Heading| heading.unit.map(|unit| unit.kind);
-        let volts = |heading: &Heading| options.sensitivity_v_s2_m.is_some() && kind(heading) == Some(VOLTAGE);
+        let volts = |heading: &Heading| options.sensitivity_v_s2_m.is_some() && heading.kind() == Some(VOLTAGE);
         // Words drop no column that has a unit of acceleration, but for grams and gausses. Below a name of an acceleration a unit
         // that is not understood, or one of something else, has to be cleared up.
-        let mut found = those(&|heading| match (heading.named(), kind(heading)) {
+        let mut found = those(&|heading| match (heading.named(), heading.kind()) {
             (_, Some(Kind::Acceleration)) => !heading.is_text && !heading.is_of_grams(),
             (Named::Other | Named::Time, _) => volts(heading),
             (named, _) => volts(heading) || named == Named::Acceleration,
@@ -277,7 +287,7 @@ impl Preview {
             )));
         }
         if found.is_empty() {
-            let in_volts = self.headings.iter().any(|heading| kind(heading) == Some(VOLTAGE));
+            let in_volts = self.headings.iter().any(|heading| heading.kind() == Some(VOLTAGE));
             let hint = if in_volts { "; --sensitivity such as 100mV/g makes accelerations of a voltage" } else { "" };
             return Err(Error::Columns(format!("no column is an acceleration: {}{hint}", self.all())));
         }

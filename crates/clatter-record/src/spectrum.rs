@@ -1,14 +1,15 @@
 //! Shock response spectra of records.
 
+use clatter_shock::samples::float;
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, SpectrumFilter, UnevenFilter};
 
 use crate::between::{BAND, UpSampler};
 use crate::{Channel, Error};
 
-/// What the acceleration is between samples.
+/// The course of the acceleration between samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Between {
-    /// What has no content from half the sampling rate on; of uneven records straight lines.
+    /// A history without content from half the sampling rate on; of uneven records straight lines.
     #[default]
     BandLimited,
     /// Straight lines.
@@ -36,51 +37,39 @@ impl Channel {
         between: Between,
         mut progress: impl FnMut(u64),
     ) -> Result<Spectrum, Error> {
-        let mut spectrum = self.since_first(frequencies, damping, quantity, between, &mut progress)?;
-        spectrum.time_of_peak_s.iter_mut().for_each(|time| *time += self.times.start_s());
-        Ok(spectrum)
-    }
-
-    /// The same with times since the first sample.
-    fn since_first(
-        &self,
-        frequencies: &Frequencies,
-        damping: DampingRatio,
-        quantity: Quantity,
-        between: Between,
-        progress: &mut dyn FnMut(u64),
-    ) -> Result<Spectrum, Error> {
-        let values = &self.values;
-        let Some(step_s) = self.times.step_s() else {
-            let mut filter = UnevenFilter::new(frequencies.clone(), damping, quantity);
-            let times_s: Vec<f64> = self.times.times_s().collect();
-            for (i, (times_s, piece)) in times_s.chunks(PIECE).zip(values.chunks(PIECE)).enumerate() {
-                filter.push(times_s, piece)?;
-                progress((i * PIECE + piece.len()) as u64);
-            }
-            return Ok(filter.finish()?);
-        };
         let filter = |step_s| SpectrumFilter::new(frequencies.clone(), damping, quantity, step_s);
-        match between {
-            Between::Linear => {
+        let values = &self.values;
+        let mut spectrum = match (self.times.step_s(), between) {
+            (None, _) => {
+                let mut filter = UnevenFilter::new(frequencies.clone(), damping, quantity);
+                let times_s: Vec<f64> = self.times.times_s().collect();
+                for (i, (times_s, piece)) in times_s.chunks(PIECE).zip(values.chunks(PIECE)).enumerate() {
+                    filter.push(times_s, piece)?;
+                    progress((i * PIECE + piece.len()) as u64);
+                }
+                filter.finish()?
+            }
+            (Some(step_s), Between::Linear) => {
                 let mut filter = filter(step_s)?;
                 for (i, piece) in values.chunks(PIECE).enumerate() {
                     filter.push(piece);
                     progress((i * PIECE + piece.len()) as u64);
                 }
-                Ok(filter.finish()?)
+                filter.finish()?
             }
-            // A stiff or heavily damped part goes along with what lines add beyond the band, so that it takes more points.
-            Between::BandLimited => {
+            (Some(step_s), Between::BandLimited) => {
+                // A stiff or heavily damped part goes along with what lines add beyond the band, so that it takes more points.
                 let highest = frequencies.hz().iter().fold(0.0_f64, |most, hz| most.max(*hz));
-                let follows = highest * (1.0 + 2.0 * damping.get()) * step_s > BAND;
-                if follows {
-                    points::<16>(values, filter(step_s / 16.0)?, progress)
+                if highest * (1.0 + 2.0 * damping.get()) * step_s > BAND {
+                    points::<16>(values, filter(step_s / 16.0)?, &mut progress)?
                 } else {
-                    points::<4>(values, filter(step_s / 4.0)?, progress)
+                    points::<4>(values, filter(step_s / 4.0)?, &mut progress)?
                 }
             }
-        }
+        };
+        // The filters count from the first sample on.
+        spectrum.time_of_peak_s.iter_mut().for_each(|time| *time += self.times.start_s());
+        Ok(spectrum)
     }
 }
 
@@ -97,8 +86,7 @@ impl Channel {
         let mut more = UpSampler::<POINTS>::new();
         let mut each = |values: &[f64]| {
             for value in values {
-                #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-                let time_s = points.len() as f64 * step_s / POINTS as f64;
+                let time_s = float(points.len()) * step_s / float(POINTS);
                 points.push((time_s, *value));
             }
         };

@@ -5,9 +5,9 @@
 pub struct Table {
     /// In the order of the file.
     pub columns: Vec<Column>,
-    /// What the file holds beside them, each with the reason why it is none of them.
+    /// Other contents of the file, each with the reason why it is none of them.
     pub left_out: Vec<String>,
-    /// What else one should know of the file.
+    /// Notes that one should know of the file.
     pub notes: Vec<String>,
 }
 
@@ -54,9 +54,75 @@ impl Values {
             Self::Integer(values) => values.len(),
         }
     }
-    /// Whether there are none.
+    /// Returns whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The number of a row; NaN where there is none.
+    pub(crate) fn float(&self, row: usize) -> f64 {
+        match self {
+            Self::Float(values) => values.get(row).copied().unwrap_or(f64::NAN),
+            #[expect(clippy::cast_precision_loss, reason = "within half an ulp")]
+            Self::Integer(values) => values.get(row).map_or(f64::NAN, |value| *value as f64),
+        }
+    }
+    /// As floats, within half an ulp.
+    #[expect(clippy::cast_precision_loss, reason = "within half an ulp")]
+    pub(crate) fn into_floats(self) -> Vec<f64> {
+        match self {
+            Self::Float(values) => values,
+            Self::Integer(values) => values.into_iter().map(|value| value as f64).collect(),
+        }
+    }
+    /// The numbers times a size.
+    #[expect(clippy::cast_precision_loss, reason = "no converter has so many digits")]
+    pub(crate) fn times(&self, size: f64) -> Vec<f64> {
+        match self {
+            Self::Float(values) => values.iter().map(|value| value * size).collect(),
+            Self::Integer(values) => values.iter().map(|value| *value as f64 * size).collect(),
+        }
+    }
+    /// The first of some times in seconds, and all of them since it; exact for integers.
+    #[expect(clippy::cast_precision_loss, reason = "a record lasts less than 2^53 of its units")]
+    pub(crate) fn since_first(&self, size: f64) -> (f64, Vec<f64>) {
+        match self {
+            Self::Float(values) => {
+                let first = values.first().copied().unwrap_or(0.0);
+                (first * size, values.iter().map(|value| (value - first) * size).collect())
+            }
+            Self::Integer(values) => {
+                let first = values.first().copied().unwrap_or(0);
+                let since = |value: &i64| (i128::from(*value) - i128::from(first)) as f64 * size;
+                (first as f64 * size, values.iter().map(since).collect())
+            }
+        }
+    }
+    /// As integers, which they are.
+    #[expect(clippy::cast_possible_truncation, reason = "integers up to 2^53 that were made floats")]
+    pub(crate) fn into_integers(self) -> Vec<i64> {
+        match self {
+            Self::Integer(values) => values,
+            Self::Float(values) => values.into_iter().map(|value| value as i64).collect(),
+        }
+    }
+    /// Adds the next part of a column. Where one has integers beyond 2^53, both become integers; where the other has some
+    /// beyond 2^63, which came as floats, both become floats.
+    pub(crate) fn append(&mut self, after: Self) {
+        let is_beyond = |values: &Self| match values {
+            Self::Float(values) => values.iter().any(|value| value.abs() > 2_f64.powi(53)),
+            Self::Integer(_) => false,
+        };
+        *self = match (std::mem::replace(self, Self::Float(Vec::new())), after) {
+            (Self::Float(mut before), Self::Float(after)) => {
+                before.extend(after);
+                Self::Float(before)
+            }
+            (before, after) if is_beyond(&before) || is_beyond(&after) => {
+                Self::Float([before.into_floats(), after.into_floats()].concat())
+            }
+            (before, after) => Self::Integer([before.into_integers(), after.into_integers()].concat()),
+        };
     }
 }

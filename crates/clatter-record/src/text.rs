@@ -17,19 +17,18 @@ mod series;
 use std::borrow::Cow;
 use std::io::Read;
 
-use encoding_rs::Encoding;
-
 use crate::error::Bad;
 use crate::heading::Heading;
 use crate::roles::{Preview, Roles};
 use crate::{At, Error, Options};
+use encoding::Letters;
 use layout::Layout;
 pub use list::{Cell, names_columns, read_list};
 pub(crate) use rows::Rows;
 use rows::Shape;
 
 /// Bytes that are read at a time, and before it is known what a file holds.
-pub(crate) const BLOCK: usize = 1 << 20;
+const BLOCK: usize = 1 << 20;
 /// Lines, and bytes of them, that may be above the numbers.
 const HEAD: (usize, usize) = (2000, 1 << 18);
 /// A line has no more bytes.
@@ -40,7 +39,7 @@ pub(crate) const SHOWN: usize = 8;
 /// How the bytes of a text become others.
 type Decode = fn(&[u8]) -> Vec<u8>;
 
-/// What makes a text one of UTF-8, or of any other bytes with ASCII below 128, whose lines end with a line feed.
+/// Returns what makes a text one of UTF-8, or of any other bytes with ASCII below 128, whose lines end with a line feed.
 pub(crate) fn decoded(first: &[u8]) -> Option<Decode> {
     fn little(bytes: &[u8]) -> Vec<u8> {
         utf16(bytes, u16::from_le_bytes)
@@ -69,7 +68,7 @@ fn utf16(bytes: &[u8], word: fn([u8; 2]) -> u16) -> Vec<u8> {
     text.replace("\r\n", "\n").replace('\r', "\n").into_bytes()
 }
 
-/// What a message shows of a text from outside: its beginning, without what a terminal would act on.
+/// Returns what a message shows of a text from outside: its beginning, without what a terminal would act on.
 fn visible(text: &str) -> String {
     const SHOWN: usize = 40;
     let plain = |c: char| if c.is_control() { '□' } else { c };
@@ -91,7 +90,7 @@ pub(crate) fn read(
         Some(text) => text.to_vec(),
         None => begin,
     };
-    let letters = encoding::of(&begin[..begin.len().min(HEAD.1)]);
+    let letters = Letters::of(&begin[..begin.len().min(HEAD.1)]);
     if labview::is_labview(&begin) {
         to_end(&mut begin, rest, options)?;
         progress(begin.len() as u64);
@@ -152,10 +151,7 @@ fn take_all(
                 parts[0].0.line() + 1
             )));
         }
-        let kept = buffer.len();
-        buffer.resize(kept + BLOCK, 0);
-        let read = fill(rest, &mut buffer[kept..])?;
-        buffer.truncate(kept + read);
+        let read = read_block(rest, &mut buffer)?;
         bytes += read as u64;
         if read == 0 {
             break;
@@ -176,11 +172,11 @@ fn few_times(count: usize) -> Result<(), Error> {
     Err(Error::Columns(format!("the channels have more than {MOST} times of their own: take some of the channels")))
 }
 
-/// What the lines of numbers are like, and what their columns are, by the first of them: each time with its channels.
+/// Returns the form of the lines of numbers, and what their columns are, by the first of them: each time with its channels.
 fn shape(
     mut layout: Layout,
     lines: &[String],
-    letters: &'static Encoding,
+    letters: Letters,
     options: &Options,
 ) -> Result<(Shape, Vec<Roles>), Error> {
     let all: Vec<Vec<Cow<'_, str>>> = lines[layout.begin..]
@@ -256,11 +252,11 @@ pub(crate) fn to_end(begin: &mut Vec<u8>, rest: &mut dyn Read, options: &Options
 }
 
 /// The lines that a text begins with, as far as they may tell what it is.
-fn first_lines(begin: &[u8], letters: &'static Encoding) -> Result<Vec<String>, Error> {
+fn first_lines(begin: &[u8], letters: Letters) -> Result<Vec<String>, Error> {
     let lines: Vec<String> = begin[..begin.len().min(HEAD.1)]
         .split(|byte| *byte == b'\n')
         .take(HEAD.0)
-        .map(|line| encoding::text(line, letters))
+        .map(|line| letters.text(line))
         .collect();
     match begin.len() > HEAD.1 && lines.len() < HEAD.0 {
         // The last one may be cut.
@@ -272,28 +268,20 @@ fn first_lines(begin: &[u8], letters: &'static Encoding) -> Result<Vec<String>, 
     }
 }
 
-/// Reads until a buffer is full or the input ends.
-pub(crate) fn fill(input: &mut dyn Read, buffer: &mut [u8]) -> Result<usize, Error> {
-    let mut filled = 0;
-    while filled < buffer.len() {
-        match input.read(&mut buffer[filled..]) {
-            Ok(0) => break,
-            Ok(read) => filled += read,
-            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(Error::Read(error.to_string())),
-        }
-    }
-    Ok(filled)
+/// Reads a block behind what a buffer holds, or less where the input ends, and says how many bytes these are.
+pub(crate) fn read_block(input: &mut dyn Read, buffer: &mut Vec<u8>) -> Result<usize, Error> {
+    buffer.reserve(BLOCK);
+    input.take(BLOCK as u64).read_to_end(buffer).map_err(|error| Error::Read(error.to_string()))
 }
 
 /// All of a small text: its headings, and its rows of numbers.
 pub(crate) fn table(input: impl Read, most: usize) -> Result<(Vec<Heading>, Vec<Vec<f64>>), Error> {
     let mut bytes = Vec::new();
     input.take(HEAD.1 as u64).read_to_end(&mut bytes).map_err(|error| Error::Read(error.to_string()))?;
-    let letters = encoding::of(&bytes);
+    let letters = Letters::of(&bytes);
     let text = match decoded(&bytes) {
-        Some(decode) => encoding::text(&decode(&bytes), letters),
-        None => encoding::text(&bytes, letters),
+        Some(decode) => letters.text(&decode(&bytes)),
+        None => letters.text(&bytes),
     };
     let lines: Vec<String> = text.trim_start_matches('\u{feff}').lines().map(str::to_owned).collect();
     let lines = head::join_quotes(lines);

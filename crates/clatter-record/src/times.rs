@@ -1,4 +1,6 @@
-//! Whether times lie on an even grid, as far as what a file holds of them tells.
+//! Times that lie on an even grid are found, as far as what a file holds of them tells.
+
+use clatter_shock::samples::float;
 
 use crate::decimal::Decimal;
 
@@ -67,8 +69,7 @@ impl Times<'_> {
         if count < 2 {
             return None;
         }
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let mean = self.since_s[count - 1] / (count - 1) as f64;
+        let mean = self.since_s[count - 1] / float(count - 1);
         if mean <= 0.0 {
             return None;
         }
@@ -82,7 +83,7 @@ impl Times<'_> {
         if !explained(found[0]) && !explained(found[1]) {
             found[2] = self.even(mean, own);
         }
-        // What rounding explains in full is meant, before what is a little off.
+        // A step that rounding explains in full is meant, before one that is a little off.
         let found: Vec<Even> = found.into_iter().flatten().collect();
         found.iter().find(|found| found.exact).or(found.first()).map(|found| found.step_s).or_else(|| self.coarse(mean))
     }
@@ -108,12 +109,11 @@ impl Times<'_> {
             }
             long += units.round() - 1.0;
         }
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let steps = (count - 1) as f64;
+        let steps = float(count - 1);
         if long < LONG * steps {
             return None;
         }
-        // What times leave above and below a line of some step: convex in the step.
+        // The times leave this much above and below a line of some step: it is convex in the step.
         let spread = |step: f64| {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             let mut at = 0.0;
@@ -167,7 +167,7 @@ impl Times<'_> {
     fn own(&self, i: usize) -> Option<f64> {
         Some(10_f64.powi(i32::from(*self.printed.places.get(i)?)) * self.unit_s)
     }
-    /// Whether all times are floats of 32 bits, as numbers, rounded to the digits that were printed, or in their shortest digits.
+    /// Returns whether all times are floats of 32 bits, as numbers, rounded to the digits that were printed, or in their shortest digits.
     fn is_single(&self) -> bool {
         (0..self.since_s.len()).all(|i| {
             let number = self.number(i);
@@ -210,7 +210,7 @@ impl Times<'_> {
 #[derive(Debug, Clone, Copy)]
 struct Even {
     step_s: f64,
-    /// Whether rounding explains all that times are off it.
+    /// Tells whether rounding explains all that times are off it.
     exact: bool,
 }
 
@@ -230,8 +230,7 @@ impl Default for Within {
 impl Within {
     /// The time of a sample is off by so much at most.
     fn note(&mut self, sample: usize, time: f64, band: f64) {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let steps = sample as f64;
+        let steps = float(sample);
         (self.low, self.high) = (self.low.max((time - band) / steps), self.high.min((time + band) / steps));
     }
     /// The step that has the fewest digits, or whose rate has: 1e-4 s and 51200 Hz are meant where rounded times allow them.

@@ -2,7 +2,7 @@
 
 use clatter_shock::STANDARD_GRAVITY_M_S2;
 
-/// What a unit is of.
+/// The quantity that a unit is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Time,
@@ -18,193 +18,79 @@ pub(crate) struct Unit {
     pub(crate) size: f64,
 }
 
-/// Seconds, by all their usual names.
-const TIMES: [(&str, f64); 56] = [
-    ("s", 1.0),
-    ("sec", 1.0),
-    ("sec.", 1.0),
-    ("sek.", 1.0),
-    ("secs", 1.0),
-    ("second", 1.0),
-    ("seconds", 1.0),
-    ("sekunde", 1.0),
-    ("sekunden", 1.0),
-    ("ms", 1e-3),
-    ("msec", 1e-3),
-    ("msecs", 1e-3),
-    ("millisec", 1e-3),
-    ("millisecs", 1e-3),
-    ("millisecond", 1e-3),
-    ("milliseconds", 1e-3),
-    ("millis", 1e-3),
-    ("us", 1e-6),
-    ("usec", 1e-6),
-    ("usecs", 1e-6),
-    ("microsec", 1e-6),
-    ("microsecs", 1e-6),
-    ("microsecond", 1e-6),
-    ("microseconds", 1e-6),
-    ("micros", 1e-6),
-    ("ns", 1e-9),
-    ("nsec", 1e-9),
-    ("nsecs", 1e-9),
-    ("nanosecond", 1e-9),
-    ("nanoseconds", 1e-9),
-    ("nanos", 1e-9),
-    ("min", 60.0),
-    ("mins", 60.0),
-    ("minute", 60.0),
-    ("minutes", 60.0),
-    ("h", 3600.0),
-    ("hr", 3600.0),
-    ("hour", 3600.0),
-    ("hours", 3600.0),
-    ("d", 86_400.0),
-    ("day", 86_400.0),
-    ("days", 86_400.0),
-    ("秒", 1.0),
-    ("ミリ秒", 1e-3),
-    ("毫秒", 1e-3),
-    ("マイクロ秒", 1e-6),
-    ("微秒", 1e-6),
-    ("초", 1.0),
-    ("с", 1.0),
-    ("сек", 1.0),
-    ("сек.", 1.0),
-    ("мс", 1e-3),
-    ("мсек", 1e-3),
-    ("мкс", 1e-6),
-    ("мксек", 1e-6),
-    ("segundos", 1.0),
+/// Units by all their usual names, in small letters: what each is of, its size in SI, its names.
+const UNITS: [(Kind, f64, &str); 35] = [
+    (Kind::Time, 1.0, "s sec sec. sek. secs second seconds sekunde sekunden 秒 초 с сек сек. segundos"),
+    (Kind::Time, 1e-3, "ms msec msecs millisec millisecs millisecond milliseconds millis ミリ秒 毫秒 мс мсек"),
+    (Kind::Time, 1e-6, "us usec usecs microsec microsecs microsecond microseconds micros マイクロ秒 微秒 мкс мксек"),
+    (Kind::Time, 1e-9, "ns nsec nsecs nanosecond nanoseconds nanos"),
+    (Kind::Time, 60.0, "min mins minute minutes"),
+    (Kind::Time, 3600.0, "h hr hour hours"),
+    (Kind::Time, 86_400.0, "d day days"),
+    // `kg` is a mass.
+    (Kind::Acceleration, GRAVITY, "g gs g's g’s g-force gn g_n g0 g_0 gee gees grav"),
+    (Kind::Acceleration, 1e-3 * GRAVITY, "milli-g millig mg mgs mgn milligs"),
+    (Kind::Acceleration, 1e-6 * GRAVITY, "ug"),
+    (Kind::Acceleration, 1e3 * GRAVITY, "kgn"),
+    // Seismology has a name for cm/s².
+    (Kind::Acceleration, 1e-2, "gal gals"),
+    (Kind::Acceleration, 1e-5, "mgal milligal"),
+    (LENGTH, 1.0, "m meter meters metre metres м 米"),
+    (LENGTH, 1e-3, "mm millimeter millimeters millimetres мм"),
+    (LENGTH, 1e-2, "cm см"),
+    (LENGTH, 1e-6, "um"),
+    (LENGTH, 1e3, "km"),
+    (LENGTH, 0.0254, "in inch inches \""),
+    (LENGTH, 0.3048, "ft foot feet '"),
+    (FREQUENCY, 1.0, "hz cps"),
+    (FREQUENCY, 1e3, "khz"),
+    (VOLTAGE, 1.0, "v volt volts"),
+    (VOLTAGE, 1e-3, "mv millivolt millivolts"),
+    (VOLTAGE, 1e-6, "uv"),
+    // The sizes of those below are of no use.
+    (Kind::Other("a mass"), 1.0, "kg gram grams lb lbs"),
+    (Kind::Other("a force"), 1.0, "n kn lbf"),
+    (Kind::Other("a current"), 1.0, "a ma"),
+    (Kind::Other("an angle"), 1.0, "rad deg °"),
+    (Kind::Other("an angular velocity"), 1.0, "rad/s deg/s °/s dps rpm"),
+    (Kind::Other("a temperature"), 1.0, "c °c degc k"),
+    (Kind::Other("a pressure"), 1.0, "pa kpa"),
+    (Kind::Other("a magnetic field"), 1.0, "ut"),
+    (Kind::Other("counts of a converter"), 1.0, "lsb counts count"),
+    (Kind::Other("a share"), 1.0, "%"),
 ];
-/// Standard gravity, by all its usual names; `kg` is a mass.
-const GRAVITIES: [(&str, f64); 20] = [
-    ("g", 1.0),
-    ("gs", 1.0),
-    ("g's", 1.0),
-    ("g’s", 1.0),
-    ("g-force", 1.0),
-    ("milli-g", 1e-3),
-    ("millig", 1e-3),
-    ("gn", 1.0),
-    ("g_n", 1.0),
-    ("g0", 1.0),
-    ("g_0", 1.0),
-    ("gee", 1.0),
-    ("gees", 1.0),
-    ("grav", 1.0),
-    ("mg", 1e-3),
-    ("mgs", 1e-3),
-    ("mgn", 1e-3),
-    ("milligs", 1e-3),
-    ("ug", 1e-6),
-    ("kgn", 1e3),
-];
-/// cm/s², by the names that seismology has for it.
-const GALS: [(&str, f64); 4] = [("gal", 1e-2), ("gals", 1e-2), ("mgal", 1e-5), ("milligal", 1e-5)];
-/// Meters.
-const LENGTHS: [(&str, f64); 24] = [
-    ("m", 1.0),
-    ("meter", 1.0),
-    ("meters", 1.0),
-    ("metre", 1.0),
-    ("metres", 1.0),
-    ("mm", 1e-3),
-    ("millimeter", 1e-3),
-    ("millimeters", 1e-3),
-    ("millimetres", 1e-3),
-    ("cm", 1e-2),
-    ("um", 1e-6),
-    ("km", 1e3),
-    ("in", 0.0254),
-    ("inch", 0.0254),
-    ("inches", 0.0254),
-    ("\"", 0.0254),
-    ("ft", 0.3048),
-    ("foot", 0.3048),
-    ("feet", 0.3048),
-    ("'", 0.3048),
-    ("м", 1.0),
-    ("мм", 1e-3),
-    ("см", 1e-2),
-    ("米", 1.0),
-];
-const PER_SECOND: [&str; 6] = ["/s", "/sec", "/second", "ps", "s-1", "sec-1"];
-const PER_SECOND_SQUARED: [&str; 22] = [
-    "/s2",
-    "/s/s",
-    "/sec2",
-    "/sec/sec",
-    "/second2",
-    "/second/second",
-    "/secondsquared",
-    "/(s2)",
-    "/(s/s)",
-    "s-2",
-    ".s-2",
-    "/s/2",
-    "sec-2",
-    "ps2",
-    "/ssquared",
-    "/secsquared",
-    "/(ss)",
-    "/(s.s)",
-    "/с2",
-    "/с/с",
-    "/сек2",
-    "/秒2",
-];
-/// Hertz.
-const FREQUENCIES: [(&str, f64); 3] = [("hz", 1.0), ("khz", 1e3), ("cps", 1.0)];
-/// What a unit of voltage is of.
+const GRAVITY: f64 = STANDARD_GRAVITY_M_S2;
+pub(crate) const LENGTH: Kind = Kind::Other("a length");
+pub(crate) const FREQUENCY: Kind = Kind::Other("a frequency");
+pub(crate) const VELOCITY: Kind = Kind::Other("a velocity");
 pub(crate) const VOLTAGE: Kind = Kind::Other("a voltage");
-const VOLTAGES: [(&str, f64); 7] =
-    [("v", 1.0), ("mv", 1e-3), ("uv", 1e-6), ("volt", 1.0), ("volts", 1.0), ("millivolt", 1e-3), ("millivolts", 1e-3)];
-/// Units of what is no time and no acceleration.
-const OTHERS: [(&str, &str); 29] = [
-    ("kg", "a mass"),
-    ("gram", "a mass"),
-    ("grams", "a mass"),
-    ("lb", "a mass"),
-    ("lbs", "a mass"),
-    ("n", "a force"),
-    ("kn", "a force"),
-    ("lbf", "a force"),
-    ("a", "a current"),
-    ("ma", "a current"),
-    ("rad", "an angle"),
-    ("deg", "an angle"),
-    ("°", "an angle"),
-    ("rad/s", "an angular velocity"),
-    ("deg/s", "an angular velocity"),
-    ("°/s", "an angular velocity"),
-    ("dps", "an angular velocity"),
-    ("rpm", "an angular velocity"),
-    ("c", "a temperature"),
-    ("°c", "a temperature"),
-    ("degc", "a temperature"),
-    ("k", "a temperature"),
-    ("pa", "a pressure"),
-    ("kpa", "a pressure"),
-    ("ut", "a magnetic field"),
-    ("lsb", "counts of a converter"),
-    ("counts", "counts of a converter"),
-    ("count", "counts of a converter"),
-    ("%", "a share"),
-];
+/// Ends that make a velocity of a length, and those that make an acceleration.
+const PER_SECOND: &str = "/s /sec /second ps s-1 sec-1";
+const PER_SECOND_SQUARED: &str = "\
+    /s2 /s/s /sec2 /sec/sec /second2 /second/second /secondsquared /(s2) /(s/s) s-2 .s-2 /s/2 sec-2 ps2 /ssquared \
+    /secsquared /(ss) /(s.s) /с2 /с/с /сек2 /秒2";
 /// Factors by name, which stand before a unit as words of their own.
-const PREFIXES: [(&str, f64); 8] = [
-    ("milli", 1e-3),
-    ("micro", 1e-6),
-    ("nano", 1e-9),
-    ("kilo", 1e3),
-    ("k", 1e3),
-    ("m", 1e-3),
-    ("u", 1e-6),
-    ("n", 1e-9),
-];
+const PREFIXES: [(&str, f64); 4] = [("milli m", 1e-3), ("micro u", 1e-6), ("nano n", 1e-9), ("kilo k", 1e3)];
+
+/// Returns whether a list of words has this one.
+pub(crate) fn lists(list: &str, word: &str) -> bool {
+    // Bytes are split in less time than letters, and units may stand in every cell.
+    list.as_bytes().split(|byte| *byte == b' ').any(|other| other == word.as_bytes())
+}
+
+impl Kind {
+    /// Returns whether a record has columns of the quantity.
+    pub(crate) fn is_recorded(self) -> bool {
+        matches!(self, Self::Time | Self::Acceleration)
+    }
+}
 
 impl Unit {
+    /// Of a text that is a unit of this quantity.
+    pub(crate) fn of_kind(text: &str, kind: Kind) -> Option<Self> {
+        Self::of(text).filter(|unit| unit.kind == kind)
+    }
+
     /// Of a whole text, factors and all; none if it is no unit that is known.
     pub(crate) fn of(text: &str) -> Option<Self> {
         if text.len() > LONGEST {
@@ -232,31 +118,25 @@ impl Unit {
             return (!is_range).then(|| unit.times(number));
         }
         let (prefix, rest) = rest.split_once(' ')?;
-        let size = PREFIXES.iter().find(|(name, _)| *name == prefix)?.1;
+        let (_, size) = PREFIXES.iter().find(|(names, _)| lists(names, prefix))?;
         Some(Self::plain(rest.trim())?.times(number * size))
     }
 
     /// Of a unit by one of its names, in small letters.
     fn plain(text: &str) -> Option<Self> {
-        let of = |kind, list: &[(&str, f64)], unit: f64| {
-            let (_, size) = list.iter().find(|(name, _)| *name == text)?;
-            Some(Self { kind, size: size * unit })
-        };
-        let other = |name| Self { kind: Kind::Other(name), size: 1.0 };
-        let close: String = text.replace("per", "/").split_whitespace().collect();
-        let over = |per: &[&str]| {
-            let length = |end: &&str| LENGTHS.iter().find(|(name, _)| close.strip_suffix(*end) == Some(*name));
-            per.iter().find_map(length).map(|(_, size)| *size)
-        };
-        of(Kind::Time, &TIMES, 1.0)
-            .or_else(|| of(Kind::Acceleration, &GRAVITIES, STANDARD_GRAVITY_M_S2))
-            .or_else(|| of(Kind::Acceleration, &GALS, 1.0))
-            .or_else(|| over(&PER_SECOND_SQUARED).map(|size| Self { kind: Kind::Acceleration, size }))
-            .or_else(|| over(&PER_SECOND).map(|size| Self { size, ..other("a velocity") }))
-            .or_else(|| of(Kind::Other("a length"), &LENGTHS, 1.0))
-            .or_else(|| of(Kind::Other("a frequency"), &FREQUENCIES, 1.0))
-            .or_else(|| of(VOLTAGE, &VOLTAGES, 1.0))
-            .or_else(|| OTHERS.iter().find(|(name, _)| *name == text).map(|(_, what)| other(what)))
+        Self::named(text).or_else(|| {
+            let close: String = text.replace("per", "/").split_whitespace().collect();
+            let over = |ends: &str, kind: Kind| {
+                let length = |end: &str| Self::named(close.strip_suffix(end)?).filter(|unit| unit.kind == LENGTH);
+                ends.split(' ').find_map(length).map(|Self { size, .. }| Self { kind, size })
+            };
+            over(PER_SECOND_SQUARED, Kind::Acceleration).or_else(|| over(PER_SECOND, VELOCITY))
+        })
+    }
+
+    fn named(name: &str) -> Option<Self> {
+        let (kind, size, _) = UNITS.iter().find(|(_, _, names)| lists(names, name))?;
+        Some(Self { kind: *kind, size: *size })
     }
 
     pub(crate) fn times(self, factor: f64) -> Self {
@@ -271,8 +151,8 @@ const LONGEST: usize = 80;
 fn spelled(text: &str) -> String {
     // Some loggers mark a unit with a star.
     let text = text.trim().trim_end_matches('*').to_lowercase();
-    // Names of their own, and our own columns: m_s2.
-    let text = if GRAVITIES.iter().any(|(name, _)| *name == text) { text } else { text.replace('_', "/") };
+    // Some names have an underscore; in others, as m_s2 of our own columns, it stands for a slash.
+    let text = if text.contains('_') && Unit::named(&text).is_none() { text.replace('_', "/") } else { text };
     let mut spelled = String::with_capacity(text.len());
     for c in text.replace("**", "^").chars() {
         match c {
@@ -333,7 +213,7 @@ pub(crate) fn power_of_ten(text: &str) -> Option<(f64, &str)> {
     Some((10_f64.powi(if negative { -power } else { power }), rest))
 }
 
-/// Whether a text, with or without a number, is a unit of voltage, current or charge.
+/// Returns whether a text, with or without a number, is a unit of voltage, current or charge.
 fn voltage(text: &str) -> bool {
     ["v", "mv", "uv", "ma", "pc"].contains(&factor(text).1)
 }
@@ -388,69 +268,44 @@ mod tests {
         for (name, size, what) in more {
             check(name, Kind::Other(what), size);
         }
-        let all = [TIMES.len(), GRAVITIES.len(), GALS.len(), LENGTHS.len(), VOLTAGES.len(), FREQUENCIES.len()];
-        assert_eq!(checked, all.iter().sum::<usize>(), "every name is here once");
+        let is_checked = |kind: &Kind| {
+            matches!(kind, Kind::Time | Kind::Acceleration) || [LENGTH, VOLTAGE, FREQUENCY].contains(kind)
+        };
+        let all = UNITS.iter().filter(|(kind, ..)| is_checked(kind)).map(|(.., names)| names.split(' ').count());
+        assert_eq!(checked, all.sum::<usize>(), "every name is here once");
     }
 
     #[test]
     fn units_by_every_usual_name() {
         let g = STANDARD_GRAVITY_M_S2;
-        for (text, kind, size) in [
-            ("s", Kind::Time, 1.0),
-            ("sec", Kind::Time, 1.0),
-            ("Seconds", Kind::Time, 1.0),
-            ("msec", Kind::Time, 1e-3),
-            ("µs", Kind::Time, 1e-6),
-            ("μs", Kind::Time, 1e-6),
-            ("ns", Kind::Time, 1e-9),
-            ("min", Kind::Time, 60.0),
-            ("10 us", Kind::Time, 1e-5),
-            ("1e-4 s", Kind::Time, 1e-4),
-            ("milli s", Kind::Time, 1e-3),
-            ("g", Kind::Acceleration, g),
-            ("G", Kind::Acceleration, g),
-            ("Gs", Kind::Acceleration, g),
-            ("g's", Kind::Acceleration, g),
-            ("gn", Kind::Acceleration, g),
-            ("g_n", Kind::Acceleration, g),
-            ("mg", Kind::Acceleration, 1e-3 * g),
-            ("milli g", Kind::Acceleration, 1e-3 * g),
-            ("k g", Kind::Acceleration, 1e3 * g),
-            ("m/s2", Kind::Acceleration, 1.0),
-            ("m/s^2", Kind::Acceleration, 1.0),
-            ("m/s**2", Kind::Acceleration, 1.0),
-            ("m/s²", Kind::Acceleration, 1.0),
-            ("m/s/s", Kind::Acceleration, 1.0),
-            ("m / s^2", Kind::Acceleration, 1.0),
-            ("m/(s^2)", Kind::Acceleration, 1.0),
-            ("m·s⁻²", Kind::Acceleration, 1.0),
-            ("m s^-2", Kind::Acceleration, 1.0),
-            ("m s-2", Kind::Acceleration, 1.0),
-            ("m*s^-2", Kind::Acceleration, 1.0),
-            ("mps2", Kind::Acceleration, 1.0),
-            ("m_s2", Kind::Acceleration, 1.0),
-            ("m/sec2", Kind::Acceleration, 1.0),
-            ("meters per second squared", Kind::Acceleration, 1.0),
-            ("mm/s^2", Kind::Acceleration, 1e-3),
-            ("cm/s2", Kind::Acceleration, 1e-2),
-            ("in/s2", Kind::Acceleration, 0.0254),
-            ("ft/s²", Kind::Acceleration, 0.3048),
-            ("x1000 m/s^2", Kind::Acceleration, 1000.0),
-            ("0.001 g", Kind::Acceleration, 1e-3 * g),
-            ("× 1000 m/s2", Kind::Acceleration, 1000.0),
-            ("1000 × m/s2", Kind::Acceleration, 1000.0),
-            ("x10^3 m/s2", Kind::Acceleration, 1000.0),
-            ("×10³ m/s²", Kind::Acceleration, 1000.0),
-            ("10⁻³ g", Kind::Acceleration, 1e-3 * g),
-            ("10**-3 g", Kind::Acceleration, 1e-3 * g),
-            ("m/(s*s)", Kind::Acceleration, 1.0),
-            ("m/(s·s)", Kind::Acceleration, 1.0),
-            ("m/(s^2)*", Kind::Acceleration, 1.0),
-            ("м/с²", Kind::Acceleration, 1.0),
+        for (kind, size, texts) in [
+            (Kind::Time, 1.0, "s | sec | Seconds"),
+            (Kind::Time, 1e-3, "msec | milli s"),
+            (Kind::Time, 1e-6, "µs | μs"),
+            (Kind::Time, 1e-9, "ns"),
+            (Kind::Time, 60.0, "min"),
+            (Kind::Time, 1e-5, "10 us"),
+            (Kind::Time, 1e-4, "1e-4 s"),
+            (Kind::Acceleration, g, "g | G | Gs | g's | gn | g_n"),
+            (Kind::Acceleration, 1e-3 * g, "mg | milli g | 0.001 g | 10⁻³ g | 10**-3 g"),
+            (Kind::Acceleration, 1e3 * g, "k g"),
+            (
+                Kind::Acceleration,
+                1.0,
+                "m/s2 | m/s^2 | m/s**2 | m/s² | m/s/s | m / s^2 | m/(s^2) | m·s⁻² | m s^-2 | m s-2 | m*s^-2 | mps2 | m_s2 | \
+                 m/sec2 | meters per second squared | m/(s*s) | m/(s·s) | m/(s^2)* | м/с²",
+            ),
+            (Kind::Acceleration, 1e-3, "mm/s^2"),
+            (Kind::Acceleration, 1e-2, "cm/s2"),
+            (Kind::Acceleration, 0.0254, "in/s2"),
+            (Kind::Acceleration, 0.3048, "ft/s²"),
+            (Kind::Acceleration, 1000.0, "x1000 m/s^2 | × 1000 m/s2 | 1000 × m/s2 | x10^3 m/s2 | ×10³ m/s²"),
         ] {
-            let unit = Unit::of(text).unwrap_or_else(|| panic!("{text} is no unit"));
-            // A product of two roundings.
-            assert!(unit.kind == kind && (unit.size / size - 1.0).abs() < 3e-16, "{text}: {unit:?}");
+            for text in texts.split(" | ") {
+                let unit = Unit::of(text).unwrap_or_else(|| panic!("{text} is no unit"));
+                // A product of two roundings.
+                assert!(unit.kind == kind && (unit.size / size - 1.0).abs() < 3e-16, "{text}: {unit:?}");
+            }
         }
         for (text, what) in [
             ("m/s", "a velocity"),
@@ -468,28 +323,9 @@ mod tests {
                 unit => panic!("{text}: {unit:?}"),
             }
         }
-        for none in [
-            "",
-            "x",
-            "milli",
-            "deka g",
-            "foo g",
-            "m/s3",
-            "m/s2/Hz",
-            "g2",
-            "1000",
-            "g/Hz",
-            "g rms",
-            "-3 g",
-            "x m/s2 y",
-            "100g",
-            "16 g",
-            "16 m·s⁻²",
-            "1000 m/s2",
-            "103 g",
-            "x103 m/s2 y",
-            "10^ g",
-        ] {
+        let none = " | x | milli | deka g | foo g | m/s3 | m/s2/Hz | g2 | 1000 | g/Hz | g rms | -3 g | x m/s2 y | 100g | 16 g | \
+                    16 m·s⁻² | 1000 m/s2 | 103 g | x103 m/s2 y | 10^ g";
+        for none in none.split(" | ") {
             assert_eq!(Unit::of(none), None, "{none}");
         }
     }

@@ -9,7 +9,7 @@ use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, SpectrumFilte
 
 /// Points a sample of the reference: lines between them lose (π BAND/64)²/3 = 1.3e-4 at most.
 const FINE: usize = 64;
-/// What is stated.
+/// The share that is stated.
 const STATED: f64 = 1e-3;
 
 const QUANTITIES: [Quantity; 4] = [

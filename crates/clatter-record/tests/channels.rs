@@ -299,7 +299,7 @@ fn floats_of_sound_take_a_full_scale_or_a_unit() {
         let unit = Options { units: Some("s,g".parse().expect("units")), ..Options::default() };
         assert!((told(&read(file(name), &unit).expect(name).channels()[0]).4 - A).abs() < 1e-9, "{name}");
     }
-    // What has a unit has no full scale; what counts in shares of it has no unit.
+    // A channel with a unit has no full scale; one that counts in shares of it has no unit.
     assert!(message("t [s],a [g]\n0,0\n1,1\n", &full).contains("full scale"));
     assert!(message(file("i32.wav"), &Options { units: Some(Units::si()), ..full }).contains("full scale"));
 }

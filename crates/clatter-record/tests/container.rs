@@ -251,7 +251,7 @@ fn uff() {
     assert_eq!(read(Kind::Uff, &latin, MOST).expect("a table").columns[0].unit.as_deref(), Some("m/s²"));
 }
 
-/// What numbers fixed fields and Fortran may leave without a blank between them.
+/// Fixed fields and Fortran may leave numbers without a blank between them.
 #[test]
 fn numbers_of_uff() {
     let file = String::from_utf8(bytes("time58.uff")).expect("text");

@@ -24,7 +24,7 @@ fn options(arguments: &Value) -> Options {
     options
 }
 
-/// Whether a record is the one that is right; nothing stands for one that is to be refused.
+/// Returns whether a record is the one that is right; nothing stands for one that is to be refused.
 fn is_right(record: &Record, right: &Value) -> bool {
     let all = || record.channels().iter().flat_map(|channel| channel.values.iter().copied());
     let close = |got: f64, name: &str| (got / right[name].as_f64().expect(name) - 1.0).abs() < 1e-4;
@@ -53,7 +53,7 @@ fn files_of_the_field() {
             let same = || tries.iter().filter(|other| other["args"] == one["args"]).map(|other| &other["right"]);
             let fault = match Record::read(&bytes[..], &options(&one["args"]), |_| ()) {
                 Err(_) if same().any(Value::is_null) => continue,
-                // What is read as it is needs no more.
+                // A file that is read as it is needs no more.
                 Err(_) if nth > 0 => continue,
                 Err(error) => format!("refused: {error}"),
                 Ok(record) if same().any(|right| is_right(&record, right)) => continue,

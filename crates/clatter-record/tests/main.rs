@@ -3,10 +3,13 @@
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
+mod baseline;
 mod between;
+mod butterworth;
 mod channels;
 mod container;
 mod field;
+mod integrate;
 mod notations;
 mod text;
 mod times;

@@ -57,7 +57,7 @@ fn clock(t: f64) -> String {
     format!("12:00:{:07.4}", 1.0 + t)
 }
 
-/// What is to be read.
+/// The record that is to be read.
 enum Want {
     /// The shock, in so many channels, the last of which has it whole.
     Shock(usize),
@@ -86,7 +86,7 @@ fn options(given: &str) -> Options {
     options
 }
 
-/// What is wrong with how a text is read, if anything.
+/// Returns what is wrong with how a text is read, if anything.
 fn fault(bytes: &[u8], given: &str, want: &Want) -> Option<String> {
     let record = match (Record::read(bytes, &options(given), |_| ()), want) {
         (Err(error), Refused(words)) => {

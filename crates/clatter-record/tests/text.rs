@@ -116,7 +116,7 @@ fn files_that_are_refused_with_the_reason() {
     ] {
         assert_eq!(read(file(name)).expect_err(name), reason, "{name}");
     }
-    // What was told goes on.
+    // A list that was told goes on.
     let skipped = with(file("h_nanlast.csv"), &Options { skip_bad: true, ..Options::default() }).expect("the rest");
     assert_eq!((samples(&skipped), skipped.step_s()), (300, Some(1e-4)));
     assert!(matches!(&skipped.findings(10.0)[..], [Finding::Skipped(bad)] if bad.count == 1));
@@ -277,7 +277,7 @@ fn faults_by_line_ten_of_them_and_the_number_of_the_rest() {
     }
 }
 
-/// What is outside of a text of columns ends with a message, and soon.
+/// Any other text than one of columns ends with a message, and soon.
 #[test]
 fn what_is_no_text_of_columns() {
     assert!(read(vec![b'x'; 3 << 20]).expect_err("one long line").contains("longer than"));
@@ -467,7 +467,7 @@ fn what_rises_without_whole_numbers_is_no_number_of_the_row() {
     assert_eq!(taken(["0.5", "1.25", "3.5"]), "no acceleration by its name");
 }
 
-/// What a file counts in is no acceleration, whatever unit is given for it.
+/// Counts of a file are no acceleration, whatever unit is given for them.
 #[test]
 fn counts_of_a_converter() {
     let text =
@@ -580,7 +580,7 @@ fn what_is_easily_misread() {
     let skip = Options { skip_bad: true, ..Options::default() };
     assert!(peaks(blocks, &skip).expect_err("two units").contains("line 4 begins a second block, in other units"));
     close(peaks(&blocks.replace("m/s2", "g"), &skip), &[("Acc", 980.0 * G)]);
-    // What is no acceleration, though it begins like one or is in such a unit.
+    // These are no accelerations, though they begin like one or are in such a unit.
     let phone = "timestamp,accuracy,x,y,z\n0,3,0,0,1\n1,3,0,0,9\n2,3,0,0,1\n";
     close(given(phone, "ms,m/s2"), &[("x", 0.0), ("y", 0.0), ("z", 9.0)]);
     let compass = "Time [ms],AccX [mg],MagX [mG]\n0,0,410\n1,100,410\n2,0,410\n";

@@ -131,7 +131,7 @@ fn a_base_line_that_bows_and_comes_back_is_found() {
             assert!((0.2..1.1).contains(&(change_m_s2 / (800.0 * size))), "{size}: {change_m_s2}");
         }
     }
-    // What strays until the end, and an offset before.
+    // A level strays until the end, and an offset stands before.
     let steps = of(&|x| if x > 0.6 { 0.05 } else { 0.0 });
     assert!(
         matches!(&steps[..], [Finding::Drift { change_m_s2, .. }] if (change_m_s2 / 40.0 - 1.0).abs() < 0.1),

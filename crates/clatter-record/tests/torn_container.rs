@@ -64,7 +64,7 @@ fn torn_files_are_read_or_refused() {
         for variant in 0..VARIANTS {
             let bytes = torn(&whole, &mut chance);
             let taken = allocation_counter::measure(|| {
-                // What no longer is of its kind is not this test's.
+                // A file that no longer is of its kind is not this test's.
                 let Ok(kind) = Kind::of(&bytes) else { return };
                 match read(kind, &bytes, MOST) {
                     Ok(table) => {

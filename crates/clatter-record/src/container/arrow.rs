@@ -8,17 +8,16 @@ mod schema;
 pub(super) use schema::{schema_message, units};
 
 use super::bytes::Bytes;
-use super::number::Number;
-use super::{Room, codec, nulls, refuse};
-use crate::{Column, Error, Values};
+use super::{TableBuilder, codec, refuse};
+use crate::Error;
 use polars_arrow_format::ipc::planus::ReadAsRoot;
 use polars_arrow_format::ipc::{self, CompressionType, MessageHeaderRef, MessageRef, RecordBatchRef};
-use schema::{Field, Schema, Stored};
+use schema::{Field, Schema};
 
 const MAGIC: &[u8] = b"ARROW1\0\0";
 const CONTINUES: u32 = u32::MAX;
 
-pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let is_file = bytes.starts_with(b"ARROW1");
     let mut bytes = Bytes::new(bytes, "Arrow file");
     if is_file {
@@ -26,7 +25,6 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
         bytes.take(MAGIC.len())?;
     }
     let mut schema: Option<Schema> = None;
-    let mut columns: Vec<Column> = Vec::new();
     // A stream may end without a mark.
     while is_file || bytes.left() > 0 {
         let Some(message) = next_message(&mut bytes)? else { break };
@@ -35,18 +33,18 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
         match (message.header().map_err(damaged)?, &schema) {
             (Some(MessageHeaderRef::Schema(found)), None) => {
                 let found = Schema::read(found)?;
-                columns = found.fields.iter().filter_map(Field::empty_column).collect();
+                table.extend("", found.fields.iter().filter_map(Field::empty_column));
                 schema = Some(found);
             }
             (Some(MessageHeaderRef::RecordBatch(batch)), Some(schema)) => {
-                Batch::read(batch, body)?.append(schema, &mut columns, room)?;
+                Batch::read(batch, body)?.append(schema, table)?;
             }
             // Dictionaries hold text.
             (Some(MessageHeaderRef::DictionaryBatch(_)), Some(_)) => {}
             _ => return Err(refuse("Arrow file: a message is not where it should be; the file is damaged")),
         }
     }
-    Ok(columns)
+    Ok(())
 }
 
 fn damaged(error: ipc::planus::Error) -> Error {
@@ -91,21 +89,32 @@ impl<'a> Batch<'a> {
     }
 
     /// Adds its rows to the columns of numbers.
-    fn append(&self, schema: &Schema, columns: &mut [Column], room: &mut Room) -> Result<(), Error> {
+    fn append(&self, schema: &Schema, table: &mut TableBuilder) -> Result<(), Error> {
         let mut buffers = self.buffers.iter();
         let mut variadic = self.variadic.iter();
-        let mut columns = columns.iter_mut();
+        let mut place = 0..table.table.columns.len();
         let missing = || refuse("Arrow file: a message has fewer buffers than its columns need; the file is damaged");
         for field in &schema.fields {
-            if let Stored::Number(number) = field.stored
-                && let Some(column) = columns.next()
+            if let Some(stored) = field.stored
+                && let Some(place) = place.next()
             {
                 let (valid, data) = (buffers.next().ok_or_else(missing)?, buffers.next().ok_or_else(missing)?);
-                room.take(self.rows)?;
+                table.take(&[self.rows])?;
                 let valid = self.buffer(*valid, self.rows.div_ceil(8), &field.name)?;
-                let most = self.rows.checked_mul(number.size()).ok_or_else(missing)?;
+                let most = self.rows.checked_mul(stored.width()).ok_or_else(missing)?;
                 let data = self.buffer(*data, most, &field.name)?;
-                self.rows_of(field, number, &valid, &data, schema.big_endian, column)?;
+                let data = data.get(..most).ok_or_else(|| {
+                    refuse(format!(
+                        "Arrow file: column {:?} has {} bytes for {} rows; the file is damaged",
+                        field.name,
+                        data.len(),
+                        self.rows
+                    ))
+                })?;
+                let is_valid =
+                    |row: usize| valid.is_empty() || valid.get(row / 8).is_some_and(|byte| byte >> (row % 8) & 1 == 1);
+                let values = stored.values(data, schema.big_endian, is_valid, &field.name)?;
+                table.table.columns[place].values.append(values);
             } else {
                 let more = (0..field.variadic).try_fold(0, |sum: usize, _| {
                     variadic
@@ -119,34 +128,6 @@ impl<'a> Batch<'a> {
                 }
             }
         }
-        Ok(())
-    }
-
-    fn rows_of(
-        &self,
-        field: &Field,
-        number: Number,
-        valid: &[u8],
-        data: &[u8],
-        big_endian: bool,
-        column: &mut Column,
-    ) -> Result<(), Error> {
-        let is_valid =
-            |row: usize| valid.is_empty() || valid.get(row / 8).is_some_and(|byte| byte >> (row % 8) & 1 == 1);
-        if data.len() < self.rows * number.size() {
-            return Err(refuse(format!(
-                "Arrow file: column {:?} has {} bytes for {} rows; the file is damaged",
-                field.name,
-                data.len(),
-                self.rows
-            )));
-        }
-        let values = number.placed(data, big_endian, 0, number.size(), self.rows);
-        let values = match field.tick_ns {
-            Some(tick) => Values::Integer(nulls::times(values, tick, is_valid, &field.name)?),
-            None => nulls::marked(values, is_valid, &field.name)?,
-        };
-        column.values = super::joined(std::mem::replace(&mut column.values, Values::Float(Vec::new())), values);
         Ok(())
     }
 

@@ -9,7 +9,7 @@ pub(super) struct Bytes<'a> {
     all: &'a [u8],
     at: usize,
     pub(super) big_endian: bool,
-    /// What the messages call the part.
+    /// The name of the part in messages.
     part: &'static str,
 }
 
@@ -25,6 +25,10 @@ macro_rules! number {
 impl<'a> Bytes<'a> {
     pub(super) fn new(bytes: &'a [u8], part: &'static str) -> Self {
         Self { all: bytes, at: 0, big_endian: false, part }
+    }
+    /// Bytes of a part, in the same order.
+    pub(super) fn part<'b>(&self, bytes: &'b [u8], part: &'static str) -> Bytes<'b> {
+        Bytes { big_endian: self.big_endian, ..Bytes::new(bytes, part) }
     }
     pub(super) fn at(&self) -> usize {
         self.at

@@ -4,7 +4,7 @@
 //! give its unit and its rate.
 
 use super::number::Number;
-use super::{Matrix, Naming, Room, agreed, column, interval_s, refuse};
+use super::{Matrix, Naming, TableBuilder, agreed, column, interval_s, refuse};
 use crate::{Column, Error, Values};
 use hdf5_pure::{AttrValue, Dataset, Datatype, DatatypeByteOrder, File, FloatingPointLayout, Group};
 use std::collections::HashMap;
@@ -14,13 +14,13 @@ const DEEPEST: usize = 16;
 /// Groups and data sets together, for the same reason.
 const MOST_OBJECTS: usize = 10_000;
 
-pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     // MATLAB puts a header of its own before the file.
     let matlab = bytes.starts_with(b"MATLAB");
     let file = File::from_bytes(bytes.to_vec()).map_err(damaged)?;
-    let mut collector = Collector { matlab, room, objects: 0, columns: Vec::new() };
-    collector.group(&file.root(), "", 0, None)?;
-    Ok(collector.columns)
+    Collector { matlab, table, objects: 0 }.group(&file.root(), "", 0)?;
+    table.spread_intervals('/');
+    Ok(())
 }
 
 fn damaged(error: impl std::fmt::Display) -> Error {
@@ -32,9 +32,8 @@ type Attributes = HashMap<String, AttrValue>;
 #[derive(Debug)]
 struct Collector<'a> {
     matlab: bool,
-    room: &'a mut Room,
+    table: &'a mut TableBuilder,
     objects: usize,
-    columns: Vec<Column>,
 }
 
 impl Collector<'_> {
@@ -46,47 +45,37 @@ impl Collector<'_> {
         Ok(())
     }
 
-    fn group(&mut self, group: &Group, path: &str, depth: usize, interval: Option<f64>) -> Result<(), Error> {
+    fn group(&mut self, group: &Group, path: &str, depth: usize) -> Result<(), Error> {
         self.count()?;
         if depth > DEEPEST {
             return Err(refuse(format!("HDF5 file: groups lie more than {DEEPEST} deep at {path:?}")));
         }
-        let interval = rate(&group.attrs().map_err(damaged)?).or(interval);
-        let first = self.columns.len();
-        let mut told = None;
+        let interval_s = rate(&group.attrs().map_err(damaged)?);
+        let full = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}/{name}") };
         // Opened in one walk: by name each would be a walk of its own.
         let mut datasets: Vec<_> = group.iter_datasets().map_err(damaged)?.collect();
         datasets.sort_unstable_by(|(one, _), (other, _)| one.cmp(other));
         for (name, dataset) in datasets {
             self.count()?;
-            let full = if path.is_empty() { name.clone() } else { format!("{path}/{name}") };
-            let begin = self.columns.len();
-            let single = self.dataset(&dataset, &full)?;
-            if let Some(interval) = single.and_then(|value| interval_s(&name, value)) {
-                told = Some(agreed(told, interval));
-            }
-            self.columns[begin..].iter_mut().for_each(|column| path.clone_into(&mut column.group));
+            self.dataset(&dataset, path, &name, &full(&name))?;
         }
-        // A single number of the group holds for its columns, after what they say themselves.
-        if let Some(interval) = told.or(interval) {
-            for column in &mut self.columns[first..] {
-                column.sampled_s = column.sampled_s.or(Some([0.0, interval]));
-            }
+        // A single number of the group holds before its attributes.
+        if let Some(interval_s) = interval_s {
+            self.table.intervals_s.entry(path.to_owned()).or_insert(interval_s);
         }
         let mut groups: Vec<_> = group.iter_groups().map_err(damaged)?.collect();
         groups.sort_unstable_by(|(one, _), (other, _)| one.cmp(other));
-        // What MATLAB keeps for itself.
+        // MATLAB keeps some groups for itself.
         for (name, group) in groups.into_iter().filter(|(name, _)| !name.starts_with('#')) {
-            let full = if path.is_empty() { name.clone() } else { format!("{path}/{name}") };
-            self.group(&group, &full, depth + 1, told.or(interval))?;
+            self.group(&group, &full(&name), depth + 1)?;
         }
         Ok(())
     }
 
-    /// Adds the columns of a data set; a single number is returned.
-    fn dataset(&mut self, dataset: &Dataset, path: &str) -> Result<Option<f64>, Error> {
+    /// Adds the columns of a data set, or a single number.
+    fn dataset(&mut self, dataset: &Dataset, group: &str, name: &str, path: &str) -> Result<(), Error> {
         let kind = dataset.datatype().map_err(damaged)?;
-        let Some(fields) = fields(&kind) else { return Ok(None) };
+        let Some(fields) = fields(&kind) else { return Ok(()) };
         let attributes = dataset.attrs().map_err(damaged)?;
         let matlab = self.matlab;
         // Text of MATLAB is stored as integers; so are truths.
@@ -95,7 +84,7 @@ impl Collector<'_> {
             matches!(class.trim_start_matches('u'), "double" | "single" | "int8" | "int16" | "int32" | "int64")
         };
         if class.is_some_and(|class| !number(&class)) || attributes.contains_key("MATLAB_empty") {
-            return Ok(None);
+            return Ok(());
         }
         let shape = dataset.shape().map_err(damaged)?;
         let sides: Vec<usize> = shape.iter().map(|side| usize::try_from(*side).unwrap_or(usize::MAX)).collect();
@@ -106,11 +95,11 @@ impl Collector<'_> {
             [columns, rows] if matlab => [rows, columns],
             [rows, columns] => [rows, columns],
             // More dimensions are no record.
-            _ => return Ok(None),
+            _ => return Ok(()),
         };
         let single = rows == 1 && columns == 1;
-        if self.room.take_all(&[rows, columns, fields.len()])? == 0 {
-            return Ok(None);
+        if self.table.take(&[rows, columns, fields.len()])? == 0 {
+            return Ok(());
         }
         let size = usize::try_from(dataset.element_size().map_err(damaged)?).unwrap_or(usize::MAX);
         self.bounded(dataset, path)?;
@@ -131,10 +120,12 @@ impl Collector<'_> {
             _ => fields.iter().map(|field| field.column(path, &bytes, size, rows * columns)).collect(),
         };
         if single {
-            return Ok(found.first().and_then(|column| match &column.values {
-                Values::Float(values) => values.first().copied(),
-                Values::Integer(_) => None,
-            }));
+            if let Some(Values::Float(values)) = found.first().map(|column| &column.values)
+                && let Some(value) = values.first()
+            {
+                self.table.number(group, name, *value);
+            }
+            return Ok(());
         }
         let unit = text(&attributes, &["unit", "units", "unit_string"]);
         let interval = rate(&attributes);
@@ -143,8 +134,8 @@ impl Collector<'_> {
             column.sampled_s = interval.map(|interval| [0.0, interval]);
             unpack(&mut column.values, &attributes);
         }
-        self.columns.extend(found);
-        Ok(None)
+        self.table.extend(group, found);
+        Ok(())
     }
 
     /// Refuses a chunk that would take more memory than all values that are allowed.
@@ -152,7 +143,7 @@ impl Collector<'_> {
         let Some(chunk) = dataset.chunk_shape().map_err(damaged)? else { return Ok(()) };
         let size = dataset.element_size().map_err(damaged)?;
         let bytes = chunk.iter().try_fold(size, |product, side| product.checked_mul(*side)).unwrap_or(u64::MAX);
-        let most = self.room.most.saturating_mul(8).saturating_add(1 << 20) as u64;
+        let most = self.table.most.saturating_mul(8).saturating_add(1 << 20) as u64;
         if bytes > most {
             return Err(refuse(format!("HDF5 file, {path:?}: its chunks of {bytes} bytes are beyond what is read")));
         }

@@ -1,4 +1,4 @@
-//! What a file is, by its first bytes.
+//! Kinds of files are told by their first bytes.
 
 use super::mat::level4::is_level4;
 use super::refuse;

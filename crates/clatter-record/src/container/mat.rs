@@ -6,8 +6,8 @@ pub(super) mod level4;
 
 use super::bytes::Bytes;
 use super::number::Number;
-use super::{Matrix, Metadata, Naming, Room, agreed, codec, interval_s, refuse};
-use crate::{Column, Error, Values};
+use super::{Matrix, Naming, TableBuilder, codec, refuse};
+use crate::{Error, Values};
 
 const PART: &str = "MAT file";
 const MATRIX: u32 = 14;
@@ -15,87 +15,54 @@ const COMPRESSED: u32 = 15;
 /// Structures in structures.
 const DEEPEST: usize = 8;
 
-/// What is found on the way.
-#[derive(Debug, Default)]
-struct Found {
-    columns: Vec<Column>,
-    /// Structures, or the file by an empty name, and the time between samples that each tells.
-    intervals_s: Vec<(String, f64)>,
-    /// Why variables of numbers are left out.
-    left_out: Vec<String>,
+/// Adds a variable of numbers.
+fn numbers(name: &str, matrix: Matrix<'_>, is_complex: bool, table: &mut TableBuilder) -> Result<(), Error> {
+    let Matrix { rows, columns, bytes, number, big_endian, .. } = matrix;
+    let values = rows.checked_mul(columns);
+    if values.and_then(|values| values.checked_mul(number.size())) != Some(bytes.len()) {
+        return Err(refuse(format!(
+            "MAT file: {name:?} should hold {rows} times {columns} numbers, but has {} bytes",
+            bytes.len()
+        )));
+    }
+    let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
+    match values {
+        None | Some(0) => {}
+        Some(1) => {
+            if let Values::Float(values) = number.values(bytes, big_endian) {
+                table.number(group, own, values[0]);
+            }
+        }
+        Some(_) if is_complex => {
+            table.leave_out(format!("{name:?}, which is complex; a record is real: save its real part"));
+        }
+        Some(_) => {
+            table.take(&[rows, columns])?;
+            table.extend(group, matrix.split(name, Naming::Matlab));
+        }
+    }
+    Ok(())
 }
 
-impl Found {
-    /// Adds a variable of numbers.
-    fn numbers(&mut self, name: &str, matrix: Matrix<'_>, is_complex: bool, room: &mut Room) -> Result<(), Error> {
-        let Matrix { rows, columns, bytes, number, big_endian, .. } = matrix;
-        let values = rows.checked_mul(columns);
-        if values.and_then(|values| values.checked_mul(number.size())) != Some(bytes.len()) {
-            return Err(refuse(format!(
-                "MAT file: {name:?} should hold {rows} times {columns} numbers, but has {} bytes",
-                bytes.len()
-            )));
-        }
-        let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
-        match values {
-            None | Some(0) => {}
-            Some(1) => {
-                if let Values::Float(value) = number.values(bytes, big_endian)
-                    && let Some(interval) = interval_s(own, value[0])
-                {
-                    let before = self.intervals_s.iter().rfind(|(other, _)| other == group);
-                    let interval = agreed(before.map(|(_, before)| *before), interval);
-                    self.intervals_s.push((group.to_owned(), interval));
-                }
-            }
-            Some(_) if is_complex => {
-                self.left_out.push(format!("{name:?}, which is complex; a record is real: save its real part"));
-            }
-            Some(_) => {
-                room.take_all(&[rows, columns])?;
-                let begin = self.columns.len();
-                self.columns.extend(matrix.split(name, Naming::Matlab));
-                self.columns[begin..].iter_mut().for_each(|column| group.clone_into(&mut column.group));
-            }
-        }
-        Ok(())
-    }
-
-    /// The columns, each with the rate that its structure tells, or one around it.
-    fn columns(mut self, beside: &mut Metadata) -> Vec<Column> {
-        for column in &mut self.columns {
-            let holds = |group: &str| {
-                let rest = column.group.strip_prefix(group);
-                group.is_empty() || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-            };
-            let around = self.intervals_s.iter().filter(|(group, _)| holds(group));
-            column.sampled_s = around.max_by_key(|(group, _)| group.len()).map(|(_, interval_s)| [0.0, *interval_s]);
-        }
-        beside.left_out.append(&mut self.left_out);
-        self.columns
-    }
-}
-
-pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let mut bytes = Bytes::new(bytes, PART);
     bytes.take(126)?;
     bytes.big_endian = bytes.take(2)? == b"MI";
-    let mut found = Found::default();
     while bytes.left() > 0 {
         let Element { kind, data } = Element::read(&mut bytes)?;
         if kind == COMPRESSED {
-            let unpacked = codec::zlib(data, room.bytes(), "MAT file, a compressed variable")?;
-            let mut inner = Bytes::new(&unpacked, "MAT file, a compressed variable");
-            inner.big_endian = bytes.big_endian;
-            let inner_element = Element::read(&mut inner)?;
-            if inner_element.kind == MATRIX {
-                variable(inner_element.data, bytes.big_endian, None, 0, &mut found, room)?;
+            let part = "MAT file, a compressed variable";
+            let unpacked = codec::zlib(data, table.bytes(), part)?;
+            let inner = Element::read(&mut bytes.part(&unpacked, part))?;
+            if inner.kind == MATRIX {
+                variable(inner.data, bytes.big_endian, None, 0, table)?;
             }
         } else if kind == MATRIX {
-            variable(data, bytes.big_endian, None, 0, &mut found, room)?;
+            variable(data, bytes.big_endian, None, 0, table)?;
         }
     }
-    Ok(found.columns(beside))
+    table.spread_intervals('.');
+    Ok(())
 }
 
 /// A tagged part of the file.
@@ -150,8 +117,7 @@ fn variable(
     big_endian: bool,
     given: Option<&str>,
     depth: usize,
-    found: &mut Found,
-    room: &mut Room,
+    table: &mut TableBuilder,
 ) -> Result<(), Error> {
     const STRUCTURE: u32 = 2;
     const OPAQUE: u32 = 17;
@@ -162,9 +128,8 @@ fn variable(
     if data.is_empty() {
         return Ok(());
     }
-    let mut flags = Bytes::new(Element::read(&mut bytes)?.data, "MAT file, the flags of a variable");
-    flags.big_endian = big_endian;
-    let flags = flags.u32()?;
+    let flags = Element::read(&mut bytes)?.data;
+    let flags = bytes.part(flags, "MAT file, the flags of a variable").u32()?;
     let class = flags & 0xff;
     if class == OPAQUE {
         return Ok(());
@@ -173,7 +138,7 @@ fn variable(
     let own = Element::read(&mut bytes)?.data;
     let own = String::from_utf8_lossy(own);
     let name = given.unwrap_or(&own);
-    // What MATLAB keeps for itself has no name.
+    // Variables that MATLAB keeps for itself have no name.
     if name.is_empty() {
         return Ok(());
     }
@@ -196,13 +161,13 @@ fn variable(
         };
     };
     match class {
-        STRUCTURE if rows == 1 && columns == 1 && depth < DEEPEST => fields(&mut bytes, name, depth, found, room),
+        STRUCTURE if rows == 1 && columns == 1 && depth < DEEPEST => fields(&mut bytes, name, depth, table),
         6..=15 => {
             let real = Element::read(&mut bytes)?;
             let number =
                 real.number().ok_or_else(|| refuse(format!("MAT file: {name:?} has no numbers of a known kind")))?;
             let matrix = Matrix { rows, columns, column_by_column: true, bytes: real.data, number, big_endian };
-            found.numbers(name, matrix, flags & COMPLEX != 0, room)
+            numbers(name, matrix, flags & COMPLEX != 0, table)
         }
         // Text, cells, sparse matrices, arrays of structures.
         _ => Ok(()),
@@ -210,18 +175,17 @@ fn variable(
 }
 
 /// The fields of one structure: the length of a name, the names, then a variable each.
-fn fields(bytes: &mut Bytes, name: &str, depth: usize, found: &mut Found, room: &mut Room) -> Result<(), Error> {
-    let big_endian = bytes.big_endian;
-    let mut length = Bytes::new(Element::read(bytes)?.data, "MAT file, the fields of a structure");
-    length.big_endian = big_endian;
-    let length = usize::try_from(length.u32()?).unwrap_or(usize::MAX).max(1);
+fn fields(bytes: &mut Bytes, name: &str, depth: usize, table: &mut TableBuilder) -> Result<(), Error> {
+    let length = Element::read(bytes)?.data;
+    let length = bytes.part(length, "MAT file, the fields of a structure").u32()?;
+    let length = usize::try_from(length).unwrap_or(usize::MAX).max(1);
     let names = Element::read(bytes)?.data;
     for field in names.chunks(length) {
         let end = field.iter().position(|byte| *byte == 0).unwrap_or(field.len());
         let field = String::from_utf8_lossy(&field[..end]);
         let Element { kind, data } = Element::read(bytes)?;
         if kind == MATRIX {
-            variable(data, big_endian, Some(&format!("{name}.{field}")), depth + 1, found, room)?;
+            variable(data, bytes.big_endian, Some(&format!("{name}.{field}")), depth + 1, table)?;
         }
     }
     Ok(())

@@ -4,14 +4,14 @@
 
 use super::bytes::Bytes;
 use super::number::Number;
-use super::{Matrix, Naming, Room, column, refuse};
+use super::{Matrix, Naming, TableBuilder, column, refuse};
 use crate::{Column, Error, Values};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// A hundred times what NumPy itself reads.
 const LONGEST_HEADER: u32 = 1 << 20;
 
-pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let mut bytes = Bytes::new(bytes, "NPY file");
     bytes.take(MAGIC.len())?;
     let version = bytes.u8()?;
@@ -27,14 +27,13 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
     let header = bytes.take_u64(length.into())?;
     let header = Header::read(header)?;
     let [rows, columns] = header.shape()?;
-    let fields = header.fields()?;
-    let size = header.size()?;
-    let values = room.take_all(&[rows, columns, fields.len()])?;
+    let (fields, size) = header.fields()?;
+    let values = table.take(&[rows, columns, fields.len()])?;
     // As many bytes as the header says: all of them are there, or the file is refused.
     let count = rows.checked_mul(columns).and_then(|count| count.checked_mul(size)).unwrap_or(usize::MAX);
     let data = bytes.take(count)?;
     if values == 0 {
-        return Ok(Vec::new());
+        return Ok(());
     }
     if let [Field { name, element, .. }] = fields.as_slice()
         && name.is_empty()
@@ -43,9 +42,13 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
         let Element { number, big_endian, .. } = *element;
         let column_by_column = header.fortran_order();
         let matrix = Matrix { rows, columns, column_by_column, bytes: data, number, big_endian };
-        return Ok(matrix.split("", Naming::None));
+        table.extend("", matrix.split("", Naming::None));
+        return Ok(());
     }
-    fields.iter().map(|field| field.column(data, size, rows * columns)).collect()
+    for field in fields {
+        table.extend("", [field.column(data, size, rows * columns)?]);
+    }
+    Ok(())
 }
 
 /// A number of a row.
@@ -68,9 +71,7 @@ struct Element {
 impl Element {
     /// From a name such as `<f8`, `|i1`, `>M8[ns]`.
     fn named(text: &str) -> Result<Self, Error> {
-        let not_known = || {
-            refuse(format!("NPY file: numbers of the type {text:?} are not read; save them as float64, float32 or int"))
-        };
+        let not_known = || not_known(text);
         let (order, rest) = text.split_at_checked(1).ok_or_else(not_known)?;
         let (kind, size) = rest.split_at_checked(1).ok_or_else(not_known)?;
         let (size, tick) = match size.split_once('[') {
@@ -101,7 +102,7 @@ impl Field {
         let Element { number, big_endian, tick_ns } = self.element;
         let values = number.placed(data, big_endian, self.offset, size, length);
         let Some(tick) = tick_ns else { return Ok(column(self.name.as_str(), None, values)) };
-        let mut times = super::whole(values);
+        let mut times = values.into_integers();
         for time in &mut times {
             // The smallest integer stands for no time at all.
             *time = time.checked_mul(tick).filter(|time| *time != i64::MIN).ok_or_else(|| {
@@ -160,17 +161,12 @@ impl Header {
             }
         }
     }
-    fn descr(&self) -> Result<&Literal, Error> {
-        self.entry("descr").ok_or_else(|| refuse("NPY file: its header has no \"descr\""))
-    }
-    /// Bytes from one row to the next, or from one number to the next.
-    fn size(&self) -> Result<usize, Error> {
-        size(self.descr()?)
-    }
-    fn fields(&self) -> Result<Vec<Field>, Error> {
-        let mut fields = Vec::new();
-        flatten(self.descr()?, "", &mut 0, &mut fields)?;
-        Ok(fields)
+    /// The numbers of a row, or the one number, and the bytes from one to the next.
+    fn fields(&self) -> Result<(Vec<Field>, usize), Error> {
+        let descr = self.entry("descr").ok_or_else(|| refuse("NPY file: its header has no \"descr\""))?;
+        let (mut fields, mut size) = (Vec::new(), 0);
+        flatten(descr, "", &mut size, &mut fields)?;
+        Ok((fields, size))
     }
 }
 
@@ -178,28 +174,19 @@ fn damaged() -> Error {
     refuse("NPY file: the \"descr\" of its header is damaged")
 }
 
-/// Bytes of one element.
-fn size(descr: &Literal) -> Result<usize, Error> {
-    match descr {
-        Literal::Text(text) => match Element::named(text) {
-            Ok(element) => Ok(element.number.size()),
-            // Text and padding, which have a length and no numbers: `|V4`, `<U8` (4 bytes a letter).
-            Err(error) => {
-                let count = |from: usize| text.get(from..).and_then(|digits| digits.parse::<usize>().ok());
-                match text.get(1..2) {
-                    Some("V" | "S") => count(2).ok_or(error),
-                    Some("U") => count(2).and_then(|letters| letters.checked_mul(4)).ok_or(error),
-                    _ => Err(error),
-                }
-            }
-        },
-        Literal::List(fields) => fields.iter().try_fold(0_usize, |sum, field| {
-            let Literal::List(field) = field else { return Err(damaged()) };
-            let [_, descr, shape @ ..] = field.as_slice() else { return Err(damaged()) };
-            size(descr)?.checked_mul(repeats(shape)?).and_then(|size| sum.checked_add(size)).ok_or_else(damaged)
-        }),
-        _ => Err(damaged()),
-    }
+fn not_known(text: &str) -> Error {
+    refuse(format!("NPY file: numbers of the type {text:?} are not read; save them as float64, float32 or int"))
+}
+
+/// Bytes of text and padding, which have a length and no numbers: `|V4`, `<U8` (4 bytes a letter).
+fn skipped(text: &str) -> Option<Result<usize, Error>> {
+    let each = match text.get(1..2)? {
+        "V" | "S" => 1,
+        "U" => 4,
+        _ => return None,
+    };
+    let count = text.get(2..).and_then(|digits| digits.parse::<usize>().ok());
+    Some(count.and_then(|count| count.checked_mul(each)).ok_or_else(|| not_known(text)))
 }
 
 /// How often a field stands in a row: the product of its shape.
@@ -246,11 +233,14 @@ fn flatten(descr: &Literal, name: &str, offset: &mut usize, fields: &mut Vec<Fie
                 };
                 let full = if name.is_empty() { own.clone() } else { format!("{name}.{own}") };
                 let count = repeats(shape)?;
+                if let Literal::Text(text) = descr
+                    && let Some(size) = skipped(text)
+                {
+                    let size = size?.checked_mul(count).ok_or_else(damaged)?;
+                    *offset = offset.checked_add(size).ok_or_else(damaged)?;
+                    continue;
+                }
                 match (descr, shape) {
-                    (Literal::Text(text), _) if matches!(text.get(1..2), Some("V" | "S" | "U")) => {
-                        let skipped = size(descr)?.checked_mul(count).ok_or_else(damaged)?;
-                        *offset = offset.checked_add(skipped).ok_or_else(damaged)?;
-                    }
                     (_, []) => flatten(descr, &full, offset, fields)?,
                     (Literal::Text(_), _) if count <= MOST_FIELDS => {
                         for i in 0..count {
@@ -322,7 +312,7 @@ fn literal(text: &mut &str, depth: usize) -> Option<Literal> {
     }
 }
 
-/// Whether the list ends here, which takes its bracket.
+/// Returns whether the list ends here, which takes its bracket.
 fn ended(text: &mut &str, close: char) -> Option<bool> {
     *text = text.trim_start();
     let next = text.chars().next()?;

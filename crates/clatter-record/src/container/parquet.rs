@@ -12,8 +12,9 @@ pub use groups::RowGroups;
 pub use write::{RowGroupWriter, Series, write};
 
 use super::number::Number;
-use super::{Room, arrow, column, joined, nulls, refuse};
-use crate::{Column, Error, Values};
+use super::stored::Stored;
+use super::{TableBuilder, arrow, column, refuse};
+use crate::{Error, Values};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use polars_parquet_format::thrift::protocol::TCompactInputProtocol;
@@ -28,10 +29,9 @@ const ARROW_SCHEMA: &str = "ARROW:schema";
 /// Fields within fields.
 const DEEPEST: usize = 32;
 
-pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let metadata = metadata(bytes)?;
     let units = units(metadata.key_value_metadata.as_deref().unwrap_or_default());
-    let mut columns = Vec::new();
     for (place, leaf) in leaves(&metadata.schema)?.into_iter().enumerate() {
         let Some(stored) = leaf.stored() else { continue };
         let name = leaf.path;
@@ -42,15 +42,15 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
             let rows = group.num_rows;
             let rows =
                 usize::try_from(rows).map_err(|_| refuse(format!("Parquet file: {rows} is no number of rows")))?;
-            room.take(rows)?;
+            table.take(&[rows])?;
             let shape = pages::Shape { rows, width: stored.width(), bits: false, levels: leaf.levels };
             let rows = pages::read(bytes, chunk, shape, &name)?;
-            values = joined(values, stored.values(&rows, &name)?);
+            values.append(rows.values(stored, &name)?);
         }
-        let unit = if stored.is_time() { Some("ns".to_owned()) } else { units.get(&name).cloned() };
-        columns.push(column(name, unit, values));
+        let unit = stored.unit().or_else(|| units.get(&name).cloned());
+        table.extend("", [column(name, unit, values)]);
     }
-    Ok(columns)
+    Ok(())
 }
 
 fn damaged(error: impl std::fmt::Display) -> Error {
@@ -59,7 +59,7 @@ fn damaged(error: impl std::fmt::Display) -> Error {
 
 /// The metadata at the end of the file, before their length and four letters.
 fn metadata(bytes: &[u8]) -> Result<FileMetaData, Error> {
-    /// What lists and texts in it may take together. A list of so many entries would be beyond any record.
+    /// Lists and texts in it may take so much together. A list of so many entries would be beyond any record.
     const MOST: usize = 1 << 23;
     let cut = || refuse("Parquet file: it does not end with PAR1; the file is cut short or damaged");
     let (rest, magic) = bytes.split_last_chunk::<4>().ok_or_else(cut)?;
@@ -91,7 +91,7 @@ struct Leaf<'a> {
     element: &'a SchemaElement,
     /// How many of the fields on the way may be missing: a value that is there has so many levels.
     levels: u32,
-    /// Whether it is in a list.
+    /// Tells whether it is in a list.
     repeated: bool,
 }
 
@@ -130,16 +130,6 @@ fn leaves(schema: &[SchemaElement]) -> Result<Vec<Leaf<'_>>, Error> {
     Ok(leaves)
 }
 
-/// How the numbers of a column are stored.
-#[derive(Debug, Clone, Copy)]
-enum Stored {
-    Number(Number),
-    /// Times in ticks of so many nanoseconds.
-    Time(i64),
-    /// Nanoseconds of the day and the day, as old programs write times.
-    Int96,
-}
-
 impl Leaf<'_> {
     /// None for what holds no numbers: text, lists, decimals, dates.
     fn stored(&self) -> Option<Stored> {
@@ -170,45 +160,4 @@ impl Leaf<'_> {
             _ => None,
         }
     }
-}
-
-impl Stored {
-    fn is_time(self) -> bool {
-        !matches!(self, Self::Number(_))
-    }
-    /// Bytes of one.
-    fn width(self) -> usize {
-        match self {
-            Self::Number(number) => number.size(),
-            Self::Time(_) => 8,
-            Self::Int96 => 12,
-        }
-    }
-    fn values(self, rows: &pages::Rows, name: &str) -> Result<Values, Error> {
-        let is_valid = |row: usize| rows.valid.is_empty() || rows.valid.get(row) == Some(&true);
-        match self {
-            Self::Number(number) => nulls::marked(number.values(&rows.bytes, false), is_valid, name),
-            Self::Time(tick) => {
-                let times = Number::I64.values(&rows.bytes, false);
-                nulls::times(times, tick, is_valid, name).map(Values::Integer)
-            }
-            Self::Int96 => {
-                let beyond = || refuse(format!("column {name:?}: a time is beyond the year 2262"));
-                let stamps = rows.bytes.as_chunks::<12>().0;
-                let times = stamps.iter().enumerate().map(|(row, stamp)| {
-                    // A row without a time is told below.
-                    if is_valid(row) { day_and_time(*stamp).ok_or_else(beyond) } else { Ok(0) }
-                });
-                let times = times.collect::<Result<_, _>>()?;
-                nulls::times(Values::Integer(times), 1, is_valid, name).map(Values::Integer)
-            }
-        }
-    }
-}
-
-/// Nanoseconds since 1970 from nanoseconds of a day and the number of the day since 4713 BC.
-fn day_and_time([a, b, c, d, e, f, g, h, day @ ..]: [u8; 12]) -> Option<i64> {
-    const DAY_OF_1970: i64 = 2_440_588;
-    let time = i64::from_le_bytes([a, b, c, d, e, f, g, h]);
-    (i64::from(u32::from_le_bytes(day)) - DAY_OF_1970).checked_mul(86_400_000_000_000)?.checked_add(time)
 }

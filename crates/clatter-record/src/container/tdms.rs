@@ -7,7 +7,7 @@ mod meta;
 mod scale;
 
 use super::bytes::Bytes;
-use super::{Metadata, Room, joined, refuse};
+use super::{TableBuilder, column, refuse};
 use crate::unit::{Kind, Unit};
 use crate::{Column, Error, Values};
 use daqmx::Daqmx;
@@ -47,11 +47,11 @@ struct File {
     is_active: HashSet<usize>,
     /// How often a channel was gone to in a segment.
     visits: usize,
-    /// Whether data are missing at the end of a segment.
+    /// Tells whether data are missing at the end of a segment.
     is_cut: bool,
 }
 
-pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let mut bytes = Bytes::new(bytes, PART);
     let mut file = File::default();
     // Channels have bytes in each segment, save empty ones: only a made-up file has many more channels than bytes.
@@ -61,19 +61,19 @@ pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Resu
             file.is_cut = true;
             break;
         }
-        file.segment(&mut bytes, room)?;
+        file.segment(&mut bytes, table)?;
         if file.visits > most_visits {
             return Err(refuse("TDMS file: its segments list more channels than they have bytes; the file is damaged"));
         }
     }
     if file.is_cut {
-        beside.notes.push("the file ends within its last segment: samples are missing there".to_owned());
+        table.table.notes.push("the file ends within its last segment: samples are missing there".to_owned());
     }
-    file.columns(&mut beside.left_out)
+    file.columns(table)
 }
 
 impl File {
-    fn segment(&mut self, bytes: &mut Bytes<'_>, room: &mut Room) -> Result<(), Error> {
+    fn segment(&mut self, bytes: &mut Bytes<'_>, table: &mut TableBuilder) -> Result<(), Error> {
         bytes.big_endian = false;
         let begins = bytes.at();
         if bytes.take(4)? != b"TDSm" {
@@ -108,7 +108,7 @@ impl File {
         }
         // Where the length was never entered, nothing says that all is there.
         self.is_cut |= next != UNFINISHED && unfinished;
-        self.chunks(raw, Order { big_endian, interleaved: contents & INTERLEAVED != 0, unfinished }, room)
+        self.chunks(raw, Order { big_endian, interleaved: contents & INTERLEAVED != 0, unfinished }, table)
     }
 
     fn has_data(&self) -> bool {
@@ -165,10 +165,10 @@ impl File {
 
     /// The raw data of a segment: chunks of one layout, one behind the other. The last one may be cut short: then channels have as
     /// many values of it as are there where the segment was not finished, else all the same share.
-    fn chunks(&mut self, raw: &[u8], order: Order, room: &mut Room) -> Result<(), Error> {
+    fn chunks(&mut self, raw: &[u8], order: Order, table: &mut TableBuilder) -> Result<(), Error> {
         self.visits += self.active.len();
         if self.active.iter().any(|object| self.objects[*object].daqmx.is_some()) {
-            let whole = daqmx::chunks(raw, &mut self.objects, &self.active, order.big_endian, room)?;
+            let whole = daqmx::chunks(raw, &mut self.objects, &self.active, order.big_endian, table)?;
             self.is_cut |= !whole;
             return Ok(());
         }
@@ -180,7 +180,7 @@ impl File {
         }
         for chunk in raw.chunks(size) {
             if chunk.len() == size {
-                self.chunk(chunk, &layouts, order, room)?;
+                self.chunk(chunk, &layouts, order, table)?;
                 continue;
             }
             self.is_cut = true;
@@ -189,7 +189,7 @@ impl File {
                 continue;
             }
             if order.unfinished && !order.interleaved {
-                self.chunk(chunk, &layouts, order, room)?;
+                self.chunk(chunk, &layouts, order, table)?;
                 continue;
             }
             let share = |count: usize| count as u128 * chunk.len() as u128 / size as u128;
@@ -198,12 +198,12 @@ impl File {
                 Layout { count, bytes: count.saturating_mul(layout.kind.size().unwrap_or(0)), ..*layout }
             };
             let layouts: Vec<Layout> = layouts.iter().map(part).collect();
-            self.chunk(chunk, &layouts, order, room)?;
+            self.chunk(chunk, &layouts, order, table)?;
         }
         Ok(())
     }
 
-    fn chunk(&mut self, chunk: &[u8], layouts: &[Layout], order: Order, room: &mut Room) -> Result<(), Error> {
+    fn chunk(&mut self, chunk: &[u8], layouts: &[Layout], order: Order, table: &mut TableBuilder) -> Result<(), Error> {
         let row = layouts.iter().filter(|layout| layout.count > 0).map(|layout| layout.kind.size().unwrap_or(0)).sum();
         let mut offset = 0;
         for (object, layout) in self.active.iter().zip(layouts) {
@@ -221,27 +221,23 @@ impl File {
             offset = offset.saturating_add(if order.interleaved { size } else { layout.bytes });
             // Rows whose last one may be cut within.
             let count = if bytes.len() < size { 0 } else { ((bytes.len() - size) / stride + 1).min(layout.count) };
+            if let Stored::Skipped(_) = layout.kind {
+                continue;
+            }
+            table.take(&[count])?;
             let values = match layout.kind {
-                Stored::Skipped(_) => continue,
-                Stored::Number(number) => {
-                    room.take(count)?;
-                    number.placed(bytes, order.big_endian, 0, stride, count)
-                }
-                Stored::Time => {
-                    room.take(count)?;
-                    times(bytes, order.big_endian, stride, count)?
-                }
+                Stored::Number(number) => number.placed(bytes, order.big_endian, 0, stride, count),
+                _ => times(bytes, order.big_endian, stride, count)?,
             };
-            let object = &mut self.objects[*object];
-            object.values = Some(match object.values.take() {
-                None => values,
-                Some(before) => joined(before, values),
-            });
+            match &mut self.objects[*object].values {
+                Some(before) => before.append(values),
+                none => *none = Some(values),
+            }
         }
         Ok(())
     }
 
-    fn columns(mut self, left_out: &mut Vec<String>) -> Result<Vec<Column>, Error> {
+    fn columns(mut self, table: &mut TableBuilder) -> Result<(), Error> {
         let found: Vec<_> = self
             .objects
             .iter_mut()
@@ -259,7 +255,6 @@ impl File {
         // Channels that began later than others did.
         let began = self.objects.iter().zip(&found).filter(|(_, values)| values.is_some());
         let first = began.filter_map(|(object, _)| object.began()).min();
-        let mut columns = Vec::new();
         for (object, values) in self.objects.iter().zip(found) {
             let Some((values, scalers)) = values else { continue };
             // A name that several groups have goes with its group.
@@ -268,7 +263,7 @@ impl File {
             let sampled_s = match object.sampled_s(first) {
                 Ok(sampled_s) => sampled_s,
                 Err(unit) => {
-                    left_out.push(format!("{name}, whose abscissa is in {unit}: it is no record over time"));
+                    table.leave_out(format!("{name}, whose abscissa is in {unit}: it is no record over time"));
                     continue;
                 }
             };
@@ -279,12 +274,12 @@ impl File {
             let unit = || object.text("unit_string").or_else(|| object.text("NI_UnitDescription"));
             let unit = if time { Some("ns".to_owned()) } else { unit() };
             if values.is_empty() {
-                left_out.push(format!("{name}, which has no samples"));
+                table.leave_out(format!("{name}, which has no samples"));
                 continue;
             }
-            columns.push(Column { name, group: group.join("/"), unit, sampled_s, values });
+            table.extend(&group.join("/"), [Column { sampled_s, ..column(name, unit, values) }]);
         }
-        Ok(columns)
+        Ok(())
     }
 }
 

@@ -3,14 +3,13 @@
 //! Source: Universal File Dataset 58, Structural Dynamics Research Laboratory, University of Cincinnati.
 
 use super::number::Number;
-use super::{Metadata, Room, column, refuse};
+use super::{TableBuilder, column, refuse};
 use crate::unit::{Kind, Unit};
-use crate::{Column, Error, Values};
+use crate::{Column, Error, Table, Values};
 use std::borrow::Cow;
 
-pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let mut lines = Lines { bytes, at: 0, line: 0 };
-    let mut columns: Vec<Column> = Vec::new();
     // Blocks of one recorder share their times, and lie in a group with them.
     let (mut last_times, mut groups) = (None, 0_usize);
     while let Some(line) = lines.next() {
@@ -19,33 +18,28 @@ pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Resu
         }
         let Some(head) = lines.next() else { break };
         let (set, binary) = (head.get(..6).unwrap_or(&head).trim(), head.get(6..7) == Some("b"));
-        if set == "58" {
-            match block(&mut lines, binary.then_some(&head), room)? {
-                Ok((times, mut values)) => {
-                    if values.name.is_empty() {
-                        values.name = format!("channel {}", columns.len() + 1);
-                    }
-                    if let Some(mut times) = times {
-                        if last_times.as_ref() != Some(&times) {
-                            last_times = Some(times.clone());
-                            groups += 1;
-                            times.group = groups.to_string();
-                            columns.push(times);
-                        }
-                        values.group = groups.to_string();
-                    }
-                    columns.push(values);
-                }
-                Err(reason) => beside.left_out.push(reason),
+        if set == "58"
+            && let Some((times, mut values)) = block(&mut lines, binary.then_some(&head), table)?
+        {
+            if values.name.is_empty() {
+                values.name = format!("channel {}", table.table.columns.len() + 1);
             }
+            let is_even = times.is_none();
+            if let Some(times) = times.filter(|times| last_times.as_ref() != Some(times)) {
+                groups += 1;
+                last_times = Some(times.clone());
+                table.extend(&groups.to_string(), [times]);
+            }
+            table.extend(&if is_even { String::new() } else { groups.to_string() }, [values]);
         }
         // Other data sets: to the line that ends them.
         while lines.next().is_some_and(|line| line.trim() != "-1") {}
     }
-    if columns.is_empty() && beside.left_out.is_empty() {
+    let Table { columns, left_out, .. } = &table.table;
+    if columns.is_empty() && left_out.is_empty() {
         return Err(refuse("universal file: it has no data set 58 or 58b, which holds records"));
     }
-    Ok(columns)
+    Ok(())
 }
 
 /// Lines of a file that may hold binary parts.
@@ -90,9 +84,6 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// What a data set gives: times, where they are uneven, and values; else why it is no record of times: a spectrum, say.
-type Block = Result<(Option<Column>, Column), String>;
-
 /// The header of a data set 58.
 #[derive(Debug)]
 struct Head {
@@ -117,35 +108,40 @@ struct Axis {
 
 const TIME: u32 = 17;
 
-fn block(lines: &mut Lines<'_>, binary: Option<&str>, room: &mut Room) -> Result<Block, Error> {
+/// The times of a data set, where they are uneven, and its values; none where it is left out.
+fn block(
+    lines: &mut Lines<'_>,
+    binary: Option<&str>,
+    table: &mut TableBuilder,
+) -> Result<Option<(Option<Column>, Column)>, Error> {
     let head = match Head::read(lines)? {
         Ok(head) => head,
         Err(reason) => {
+            table.leave_out(reason);
             // Its binary part may hold anything, a line of -1 too.
             if let Some(binary) = binary {
                 lines.take(Binary::read(binary, lines)?.bytes)?;
             }
-            return Ok(Err(reason));
+            return Ok(None);
         }
     };
-    let per_value = if head.even { 1 } else { 2 };
-    room.take_all(&[head.count, per_value])?;
+    table.take(&[head.count, if head.even { 1 } else { 2 }])?;
     let (times, values) = match binary {
         Some(binary) => head.binary(lines, &Binary::read(binary, lines)?)?,
         None => head.text(lines)?,
     };
-    Ok(Ok(head.columns(times, values)))
+    Ok(Some(head.columns(times, values)))
 }
 
 impl Head {
-    /// The eleven lines before the numbers; within, why a data set is left out.
+    /// The eleven lines before the numbers; within, why the data set is no record of times and left out.
     fn read(lines: &mut Lines<'_>) -> Result<Result<Self, String>, Error> {
         for _ in 0..5 {
             lines.expect()?;
         }
         let line = lines.expect()?;
-        let (function, place) =
-            (line.get(..5).and_then(|text| text.trim().parse::<u32>().ok()).unwrap_or(0), place(&line));
+        let function: u32 = line.get(..5).and_then(|text| text.trim().parse().ok()).unwrap_or(0);
+        let place = place(&line);
         let form = &lines.expect()?;
         let fields: Option<Vec<f64>> = fixed(form, &[10, 10, 10, 13, 13, 13]).or_else(|| blanks(form));
         let &[kind, count, even, start, step, ..] = fields.as_deref().unwrap_or_default() else {
@@ -187,8 +183,7 @@ impl Head {
         if time.kind == 0 && function > 1 {
             return told(&format!("functions of kind {function} are no responses over time: a spectrum is no record"));
         }
-        let factor = if even { time.seconds() } else { Some(1.0) };
-        let Some(factor) = factor else {
+        let Some(factor) = (if even { time.seconds() } else { Some(1.0) }) else {
             return told(&format!(
                 "the unit {:?} of the abscissa is none of time, such as s, ms or us",
                 time.unit.unwrap_or_default()
@@ -261,8 +256,7 @@ impl Head {
     }
 
     fn columns(self, times: Vec<f64>, values: Vec<f64>) -> (Option<Column>, Column) {
-        let name =
-            [self.value.name(), self.place].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ");
+        let name = joined([self.value.name(), &self.place], " ");
         let mut values = column(name, self.value.unit, Values::Float(values));
         if self.even {
             values.sampled_s = Some([self.start, self.step]);
@@ -286,21 +280,20 @@ impl Axis {
         Self { kind: word(0, 10).parse().unwrap_or(0), label: word(26, 46), unit: (!unit.is_empty()).then_some(unit) }
     }
     /// Its label, or what its kind is.
-    fn name(&self) -> String {
-        let kind = match self.kind {
+    fn name(&self) -> &str {
+        match self.kind {
             _ if !self.label.is_empty() => self.label.as_str(),
             8 => "displacement",
             9 | 13 => "force",
             11 => "velocity",
             12 => "acceleration",
             _ => "",
-        };
-        kind.to_owned()
+        }
     }
     /// Seconds of its unit. Data sets are in SI where they do not say otherwise.
     fn seconds(&self) -> Option<f64> {
         let Some(unit) = &self.unit else { return Some(1.0) };
-        Unit::of(unit).filter(|unit| unit.kind == Kind::Time).map(|unit| unit.size)
+        Unit::of_kind(unit, Kind::Time).map(|unit| unit.size)
     }
 }
 
@@ -343,8 +336,12 @@ fn place(line: &str) -> String {
     };
     let entity = if entity.eq_ignore_ascii_case("none") { "" } else { entity };
     let node = if node == "0" { "" } else { node };
-    let place = [entity, node].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(":");
-    format!("{place}{sign}{axis}")
+    format!("{}{sign}{axis}", joined([entity, node], ":"))
+}
+
+/// Two parts of a name, of which one may be empty.
+fn joined([one, other]: [&str; 2], between: &str) -> String {
+    if one.is_empty() || other.is_empty() { format!("{one}{other}") } else { format!("{one}{between}{other}") }
 }
 
 /// Numbers of fields of these widths, to the end of the line; none where one of them is no number.

@@ -5,10 +5,10 @@
 
 use super::bytes::Bytes;
 use super::number::Number;
-use super::{Room, refuse};
+use super::{TableBuilder, column, refuse};
 use crate::{Column, Error, Values};
 
-/// What `fmt ` says.
+/// The contents of `fmt `.
 #[derive(Debug, Clone, Copy)]
 struct Format {
     coding: Coding,
@@ -35,7 +35,7 @@ impl Coding {
     }
 }
 
-pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let mut bytes = Bytes::new(bytes, "WAV file");
     let form = bytes.take(4)?;
     bytes.big_endian = match form {
@@ -66,7 +66,7 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
                     (0 | u32::MAX, _) => bytes.rest(),
                     (length, _) => bytes.take_u64(length.into())?,
                 };
-                return format.columns(data, bytes.big_endian, room);
+                return format.columns(data, bytes.big_endian, table);
             }
             _ => {
                 bytes.take_u64(length.into())?;
@@ -119,25 +119,26 @@ impl Format {
         Ok(Self { coding, channels, rate_hz })
     }
 
-    fn columns(self, data: &[u8], big_endian: bool, room: &mut Room) -> Result<Vec<Column>, Error> {
+    fn columns(self, data: &[u8], big_endian: bool, table: &mut TableBuilder) -> Result<(), Error> {
         let Self { coding, channels, rate_hz } = self;
         let length = data.len() / (channels * coding.size());
-        if room.take_all(&[channels, length])? == 0 {
-            return Ok(Vec::new());
+        if table.take(&[channels, length])? == 0 {
+            return Ok(());
         }
         let unit = match coding {
             Coding::Float(_) => None,
-            _ => Some("full scale".to_owned()),
+            _ => Some(crate::FULL_SCALE.to_owned()),
         };
-        Ok((0..channels)
-            .map(|channel| Column {
-                name: format!("channel {}", channel + 1),
-                group: String::new(),
-                unit: unit.clone(),
-                sampled_s: Some([0.0, 1.0 / f64::from(rate_hz)]),
-                values: coding.channel(data, big_endian, channel, channels, length),
-            })
-            .collect())
+        let channel = |channel| Column {
+            sampled_s: Some([0.0, 1.0 / f64::from(rate_hz)]),
+            ..column(
+                format!("channel {}", channel + 1),
+                unit.clone(),
+                coding.channel(data, big_endian, channel, channels, length),
+            )
+        };
+        table.extend("", (0..channels).map(channel));
+        Ok(())
     }
 }
 

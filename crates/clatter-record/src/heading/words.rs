@@ -1,176 +1,31 @@
 //! Words that names of columns have.
 
 /// Of times.
-pub(super) const TIMES: [&str; 22] = [
-    "t",
-    "uhrzeit",
-    "time",
-    "times",
-    "zeit",
-    "zeitstempel",
-    "timestamp",
-    "temps",
-    "tiempo",
-    "tid",
-    "tijd",
-    "tempo",
-    "datetime",
-    "clock",
-    "elapsed",
-    "время",
-    "時間",
-    "時刻",
-    "时间",
-    "시간",
-    "epoch",
-    "epoc",
-];
+pub(super) const TIMES: &str = "\
+    t uhrzeit time times zeit zeitstempel timestamp temps tiempo tid tijd tempo datetime clock elapsed время 時間 時刻 时间 \
+    시간 epoch epoc";
 /// They count.
-pub(super) const INDICES: [&str; 23] = [
-    "index",
-    "idx",
-    "sample",
-    "samples",
-    "n",
-    "no",
-    "nr",
-    "num",
-    "number",
-    "row",
-    "#",
-    "id",
-    "count",
-    "unnamed",
-    "frame",
-    "point",
-    "counter",
-    "packet",
-    "packetcounter",
-    "seq",
-    "sequence",
-    "record",
-    "loopiteration",
-];
-pub(super) const ACCELERATIONS: [&str; 11] =
-    ["ax", "ay", "az", "ar", "beschleunigung", "shock", "gforce", "ускорение", "加速度", "가속도", "versnelling"];
+pub(super) const INDICES: &str = "\
+    index idx sample samples n no nr num number row # id count unnamed frame point counter packet packetcounter seq \
+    sequence record loopiteration";
+pub(super) const ACCELERATIONS: &str = "ax ay az ar beschleunigung shock gforce ускорение 加速度 가속도 versnelling";
 /// Beside an acceleration they say where it was measured.
-pub(super) const PLACES: [&str; 4] = ["height", "position", "distance", "displacement"];
-/// What is measured beside an acceleration; a unit of acceleration outweighs them.
-pub(super) const OTHERS: [&str; 70] = [
-    "accelerator",
-    "pedal",
-    "status",
-    "range",
-    "load",
-    "field",
-    "mag",
-    "magx",
-    "magy",
-    "magz",
-    "magnetometer",
-    "sensitivity",
-    "mass",
-    "masse",
-    "weight",
-    "velocity",
-    "speed",
-    "force",
-    "temperature",
-    "temp",
-    "voltage",
-    "current",
-    "power",
-    "pressure",
-    "angular",
-    "rotation",
-    "strain",
-    "magnetic",
-    "humidity",
-    "comment",
-    "trigger",
-    "roll",
-    "pitch",
-    "yaw",
-    "heading",
-    "azimuth",
-    "course",
-    "battery",
-    "batt",
-    "rssi",
-    "setpoint",
-    "throttle",
-    "lat",
-    "lon",
-    "lng",
-    "latitude",
-    "longitude",
-    "altitude",
-    "alt",
-    "baro",
-    "wx",
-    "wy",
-    "wz",
-    "omegax",
-    "omegay",
-    "omegaz",
-    "qw",
-    "qx",
-    "qy",
-    "qz",
-    "duration",
-    "dauer",
-    "delay",
-    "latency",
-    "width",
-    "flags",
-    "event",
-    "marker",
-    "angle",
-    "gyr",
-];
+pub(super) const PLACES: &str = "height position distance displacement";
+/// These words name other quantities, which are measured beside an acceleration; a unit of acceleration outweighs them.
+pub(super) const OTHERS: &str = "\
+    accelerator pedal status range load field mag magx magy magz magnetometer sensitivity mass masse weight velocity \
+    speed force temperature temp voltage current power pressure angular rotation strain magnetic humidity comment \
+    trigger roll pitch yaw heading azimuth course battery batt rssi setpoint throttle lat lon lng latitude longitude \
+    altitude alt baro wx wy wz omegax omegay omegaz qw qx qy qz duration dauer delay latency width flags event marker \
+    angle gyr";
 /// A date beside a time of day.
-pub(super) const DATES: [&str; 3] = ["date", "datum", "fecha"];
+pub(super) const DATES: &str = "date datum fecha";
 /// Words that begin so name what is no acceleration: `gyroX`, `motor[0]`, `vbatLatest`, `quaternion`.
-pub(super) const BEGINNINGS: [&str; 7] = ["gyro", "motor", "vbat", "quat", "magn", "rcdata", "baro"];
+pub(super) const BEGINNINGS: &str = "gyro motor vbat quat magn rcdata baro";
 /// In grams and gausses, whose signs are those of gravity.
-pub(super) const GRAMS: [&str; 10] =
-    ["mass", "masse", "weight", "gewicht", "magx", "magy", "magz", "mag", "magnetometer", "magnetic"];
-/// What is made of accelerations and is none: functions of them, and bounds.
-pub(super) const FUNCTIONS: [&str; 36] = [
-    "log",
-    "log10",
-    "ln",
-    "lg",
-    "db",
-    "psd",
-    "asd",
-    "fft",
-    "spectrum",
-    "spectral",
-    "srs",
-    "squared",
-    "square",
-    "sqrt",
-    "rms",
-    "variance",
-    "jerk",
-    "cumulative",
-    "integral",
-    "inverse",
-    "reciprocal",
-    "normalized",
-    "normalised",
-    "accuracy",
-    "uncertainty",
-    "limit",
-    "limits",
-    "grenze",
-    "grenzwert",
-    "threshold",
-    "tolerance",
-    "stdev",
-    "sigma",
-    "kurtosis",
-    "negated",
-    "inverted",
-];
+pub(super) const GRAMS: &str = "mass masse weight gewicht magx magy magz mag magnetometer magnetic";
+/// These words name functions of accelerations, and bounds: neither is an acceleration.
+pub(super) const FUNCTIONS: &str = "\
+    log log10 ln lg db psd asd fft spectrum spectral srs squared square sqrt rms variance jerk cumulative integral \
+    inverse reciprocal normalized normalised accuracy uncertainty limit limits grenze grenzwert threshold tolerance \
+    stdev sigma kurtosis negated inverted";

@@ -11,20 +11,13 @@ impl Preview {
         /// So many columns may be two records side by side, or, without times, one channel that goes on from line to line.
         const MANY: usize = 4;
         let count = self.headings.len();
-        let rises = |column: &usize| {
-            let values = || self.rows.iter().filter_map(|row| row.get(*column));
-            values().zip(values().skip(1)).all(|(a, b)| a < b)
-        };
-        let span = |column: usize| {
-            let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).copied();
-            Some(at(self.rows.last())? - at(self.rows.first())?)
-        };
+        let rises = |column: usize| self.steps(column).all(|(a, b)| a < b);
         let is_like = |column: &usize| {
-            let ratio = time.and_then(|time| Some(span(*column)? / span(time)?));
-            rises(column) && ratio.is_some_and(|ratio| (0.5..2.0).contains(&ratio))
+            let ratio = time.and_then(|time| Some(self.span(*column)? / self.span(time)?));
+            rises(*column) && ratio.is_some_and(|ratio| (0.5..2.0).contains(&ratio))
         };
         let other = (time.map_or(count, |time| time + 1)..count).find(is_like);
-        let sure = count >= MANY && self.rows.len() >= SURE && time.is_some_and(|time| rises(&time));
+        let sure = count >= MANY && self.rows.len() >= SURE && time.is_some_and(rises);
         if let Some(other) = other.filter(|_| sure) {
             return Err(Error::Columns(format!(
                 "column {} rises from line to line as a time does, beside column {}: name the columns of one record, by --time and \
@@ -45,14 +38,9 @@ impl Preview {
     /// The column of times of those without names.
     pub(super) fn time_by_place(&self, none: bool) -> Result<Option<usize>, Error> {
         let count = self.headings.len();
-        let rises = |column: usize| {
-            let values = || self.rows.iter().filter_map(|row| row.get(column));
-            self.rows.len() > 1 && values().zip(values().skip(1)).all(|(a, b)| a < b)
-        };
-        let is_index = |column: usize| {
-            let values = || self.rows.iter().filter_map(|row| row.get(column));
-            self.rows.len() > 1 && values().zip(values().skip(1)).all(|(a, b)| (b - a).to_bits() == 1.0_f64.to_bits())
-        };
+        let all = |column: usize, is: fn((f64, f64)) -> bool| self.rows.len() > 1 && self.steps(column).all(is);
+        let rises = |column| all(column, |(a, b)| a < b);
+        let is_index = |column| all(column, |(a, b)| (b - a).to_bits() == 1.0_f64.to_bits());
         match count {
             1 if none => Ok(None),
             1 => Err(Error::Columns("the file has one column: give the sample rate of its samples".to_owned())),

@@ -15,15 +15,15 @@ pub(super) struct Numbers {
     pub(super) columns: Vec<usize>,
     /// Cells that are numbers, in 1000 of the last lines.
     pub(super) share: usize,
-    /// Whether the unit stands behind each number of a column.
+    /// Tells whether the unit stands behind each number of a column.
     pub(super) measured: Vec<bool>,
-    /// Whether the first column counts the rows, or is of words none of which comes twice.
+    /// Tells whether the first column counts the rows, or is of words none of which comes twice.
     pub(super) counts: bool,
 }
 
 /// Where the numbers are.
 ///
-/// What the columns are is told by the last lines: as many cells as most have, and those columns that are numbers in most. The
+/// The last lines tell what the columns are: as many cells as most have, and those columns that are numbers in most. The
 /// numbers begin with the first line that has as many cells and nothing else in those columns; a line right above with a number
 /// in the first of them is one too, with a fault.
 pub(super) fn begin(lines: &[String], form: Form) -> Option<Numbers> {

@@ -11,34 +11,26 @@ use crate::unit::Unit;
 pub(super) struct Form {
     /// None for blanks.
     pub(super) separator: Option<u8>,
-    /// What separates the fraction of a number.
+    /// The mark that separates the fraction of a number.
     pub(super) point: u8,
-    /// What is first in dates of which it is not clear by themselves.
+    /// The order of day and month in dates that may be read in both.
     pub(super) order: Option<Order>,
-    /// Whether an arrow stands behind the first cell, as monitors of serial ports set it.
+    /// Tells whether an arrow stands behind the first cell, as monitors of serial ports set it.
     pub(super) arrow: bool,
 }
 
 /// Cells that stand for no value.
-const MISSING: [&str; 10] = ["nan", "na", "n/a", "#n/a", "#nv", "null", "none", "nil", "-nan", "-nan(ind)"];
+const MISSING: &str = "nan na n/a #n/a #nv null none nil -nan -nan(ind)";
 /// Cells that stand for a value beyond the range of an instrument.
-const BEYOND: [&str; 13] = [
-    "inf",
-    "-inf",
-    "+inf",
-    "infinity",
-    "-infinity",
-    "∞",
-    "-∞",
-    "ol",
-    "-ol",
-    "over",
-    "overload",
-    "overflow",
-    "overrange",
-];
+const BEYOND: &str = "inf -inf +inf infinity -infinity ∞ -∞ ol -ol over overload overflow overrange";
 /// The arrow between time and numbers.
 pub(super) const ARROW: &str = " -> ";
+
+impl Default for Form {
+    fn default() -> Self {
+        Self::new(None, b'.')
+    }
+}
 
 impl Form {
     pub(super) const fn new(separator: Option<u8>, point: u8) -> Self {
@@ -103,7 +95,7 @@ impl Form {
         Unit::of(&cell[end..]).map(|_| (number, &cell[end..]))
     }
 
-    /// Whether a cell can stand in a line of numbers.
+    /// Returns whether a cell can stand in a line of numbers.
     pub(super) fn is_data(self, cell: &str) -> bool {
         cell.is_empty() || is_missing(cell) || is_beyond(cell) || self.number(cell).is_some()
     }
@@ -134,20 +126,25 @@ impl Form {
             .then(|| format!("{sign}{}{fraction}", groups.concat()))
     }
 
-    /// Whether a cell is a number by its groups of digits alone.
+    /// Returns whether a cell is a number by its groups of digits alone.
     pub(super) fn is_grouped(self, cell: &str) -> bool {
         self.whole(cell).is_none() && self.ungrouped(cell).is_some()
     }
 }
 
-/// Whether a cell says that there is no value.
-pub(super) fn is_missing(cell: &str) -> bool {
-    MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word))
+/// Returns whether a cell is one of some words, by bytes, as cells are many.
+fn is_among(words: &str, cell: &str) -> bool {
+    words.as_bytes().split(|byte| *byte == b' ').any(|word| cell.as_bytes().eq_ignore_ascii_case(word))
 }
 
-/// Whether a cell says that the value is beyond what the instrument can tell.
+/// Returns whether a cell says that there is no value.
+pub(super) fn is_missing(cell: &str) -> bool {
+    is_among(MISSING, cell)
+}
+
+/// Returns whether a cell says that the value is beyond what the instrument can tell.
 pub(super) fn is_beyond(cell: &str) -> bool {
-    BEYOND.iter().any(|word| cell.eq_ignore_ascii_case(word))
+    is_among(BEYOND, cell)
 }
 
 /// A number of more digits than are kept, cut to those that floats can tell apart.
@@ -169,6 +166,7 @@ mod tests {
         let comma = Form::new(Some(b','), b'.');
         assert_eq!(comma.cells(r#""time, s","a ""x"" [g]", 5 "#), ["time, s", "a \"x\" [g]", "5"]);
         assert_eq!(Form::new(None, b'.').cells("  1   2 "), ["1", "2"]);
+        assert_eq!(Form { arrow: true, ..comma }.cells("a->b -> 1,2"), ["a->b", "1", "2"]);
         let number = |text: &str| comma.number(text).map(Decimal::float);
         for (text, value) in [
             ("29'700", Some(29_700.0)),

@@ -1,9 +1,7 @@
-//! Whether a file ends inside a number: `1.25E-05` cut to `1.25E-0` is a number as well, and another one.
-
-use encoding_rs::Encoding;
+//! A file may end inside a number: `1.25E-05` cut to `1.25E-0` is a number as well, and another one.
 
 use super::cells::Form;
-use super::encoding;
+use super::encoding::Letters;
 
 /// Bytes of the last lines that a cut one is held against.
 const HELD: usize = 1 << 12;
@@ -44,15 +42,15 @@ pub(super) fn last_lines(text: &[u8]) -> Option<&[u8]> {
 }
 
 /// Why the last line, which has no end, is none that can be used, if its last number is printed shorter than all above it.
-pub(super) fn within(above: &[u8], line: &[u8], form: Form, letters: &'static Encoding) -> Option<String> {
-    let line = encoding::text(line, letters);
+pub(super) fn within(above: &[u8], line: &[u8], form: Form, letters: Letters) -> Option<String> {
+    let line = letters.text(line);
     let cells = form.cells(line.trim_end_matches('\r'));
     let last = cells.last().filter(|cell| !cell.is_empty())?;
     form.number(last)?;
     let others: Vec<Print> = above
         .split(|byte| *byte == b'\n')
         .filter_map(|line| {
-            let line = encoding::text(line, letters);
+            let line = letters.text(line);
             let others = form.cells(line.trim_end_matches('\r'));
             let cell = others.get(cells.len() - 1).filter(|cell| form.number(cell).is_some())?;
             Some(Print::of(cell, form.point))

@@ -1,4 +1,4 @@
-//! Whether digits stand in groups: `1.391` may be 1391, beside `704`.
+//! Digits may stand in groups: `1.391` may be 1391, beside `704`.
 
 use crate::decimal::Decimal;
 

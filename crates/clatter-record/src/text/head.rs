@@ -1,9 +1,9 @@
-//! What the lines above the numbers tell beside the names of columns: rates, the settings of instruments, lines of numbers.
+//! The lines above the numbers tell more than the names of columns: rates, the settings of instruments, lines of numbers.
 
 use super::layout::uncommented;
 use crate::decimal::Decimal;
 use crate::moment;
-use crate::unit::{Kind, Unit};
+use crate::unit::{FREQUENCY, Kind, Unit};
 
 /// Lines over which a quoted name may go.
 const LONGEST_NAME: usize = 8;
@@ -62,49 +62,14 @@ pub(super) fn numbers(line: &str) -> usize {
 }
 
 /// Words that a line of a sampling rate begins with.
-const RATES: [&str; 22] = [
-    "sample rate",
-    "samplerate",
-    "sampling rate",
-    "samplingrate",
-    "sample frequency",
-    "sampling frequency",
-    "sampling freq",
-    "sample freq",
-    "sample_rate",
-    "sampling_rate",
-    "sampling_frequency",
-    "samples per second",
-    "abtastrate",
-    "abtastfrequenz",
-    "messrate",
-    "update rate",
-    "scan rate",
-    "data rate",
-    "output data rate",
-    "fs",
-    "frecuencia de muestreo",
-    "fréquence d'échantillonnage",
-];
+const RATES: &str = "\
+    sample rate, samplerate, sampling rate, samplingrate, sample frequency, sampling frequency, sampling freq, sample \
+    freq, sample_rate, sampling_rate, sampling_frequency, samples per second, abtastrate, abtastfrequenz, messrate, \
+    update rate, scan rate, data rate, output data rate, fs, frecuencia de muestreo, fréquence d'échantillonnage";
 /// The same of the time between samples.
-const INTERVALS: [&str; 16] = [
-    "sample interval",
-    "sampling interval",
-    "sample_interval",
-    "sampling_interval",
-    "sample period",
-    "sampling period",
-    "time interval",
-    "time step",
-    "timestep",
-    "delta t",
-    "delta_t",
-    "dt",
-    "interval",
-    "abtastintervall",
-    "abtastzeit",
-    "abtastperiode",
-];
+const INTERVALS: &str = "\
+    sample interval, sampling interval, sample_interval, sampling_interval, sample period, sampling period, time \
+    interval, time step, timestep, delta t, delta_t, dt, interval, abtastintervall, abtastzeit, abtastperiode";
 
 /// The time between samples that lines above the numbers tell, and the line, from 1; nothing where they tell several.
 pub(super) fn step(lines: &[String]) -> Option<(f64, usize)> {
@@ -121,13 +86,13 @@ pub(super) fn step(lines: &[String]) -> Option<(f64, usize)> {
 
 fn step_of(line: &str) -> Option<f64> {
     let text = uncommented(line).0.trim_start_matches([';', '"', '*', ' ']).to_lowercase();
-    let key = |keys: &[&str]| {
+    let key = |keys: &str| {
         let ends = |rest: &&str| rest.starts_with(|c: char| !c.is_alphanumeric() && c != '_');
-        keys.iter().filter_map(|key| text.strip_prefix(key)).find(ends).map(str::to_owned)
+        keys.split(", ").filter_map(|key| text.strip_prefix(key)).find(ends).map(str::to_owned)
     };
-    let (rest, is_rate) = match key(&RATES) {
+    let (rest, is_rate) = match key(RATES) {
         Some(rest) => (rest, true),
-        None => (key(&INTERVALS)?, false),
+        None => (key(INTERVALS)?, false),
     };
     let mut numbers: Vec<f64> = Vec::new();
     let mut unit = None;
@@ -145,7 +110,7 @@ fn step_of(line: &str) -> Option<f64> {
                 "sps" | "s/s" | "sa/s" | "samples/s" | "samples/sec" | "samples/second" => Some(1.0),
                 "ksps" | "ks/s" | "ksa/s" => Some(1e3),
                 _ => Unit::of(spelled).and_then(|unit| match (unit.kind, is_rate) {
-                    (Kind::Other("a frequency"), true) | (Kind::Time, false) => Some(unit.size),
+                    (FREQUENCY, true) | (Kind::Time, false) => Some(unit.size),
                     _ => None,
                 }),
             };
@@ -162,7 +127,7 @@ fn step_of(line: &str) -> Option<f64> {
     (step_s > 0.0 && step_s.is_normal()).then_some(step_s)
 }
 
-/// What an oscilloscope tells of its columns.
+/// The columns of an oscilloscope, as its settings tell them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Scope {
     /// Name of each column.
@@ -222,23 +187,15 @@ pub(super) fn axes(lines: &[String]) -> Option<[String; 2]> {
 
 /// The units of time and acceleration that lines such as `Units: g` and `Time unit: ms` tell; empty where one is not told.
 pub(super) fn units(lines: &[String]) -> Option<[String; 2]> {
-    const KEYS: [&str; 9] = [
-        "unit",
-        "units",
-        "einheit",
-        "acceleration unit",
-        "acceleration units",
-        "unit of acceleration",
-        "units of acceleration",
-        "time unit",
-        "time units",
-    ];
+    const KEYS: &str = "\
+        unit, units, einheit, acceleration unit, acceleration units, unit of acceleration, units of acceleration, \
+        time unit, time units";
     let mut found = [String::new(), String::new()];
     for line in lines.iter().take(60) {
         let text = uncommented(line).0;
         let Some((key, value)) = text.split_once([':', '=', ',', ';', '\t']) else { continue };
         let (key, value) = (key.trim().to_lowercase(), value.trim().trim_matches(['"', ',', ';']).trim());
-        if !KEYS.contains(&key.as_str()) {
+        if !KEYS.split(", ").any(|other| other == key) {
             continue;
         }
         match Unit::of(value).map(|unit| unit.kind) {

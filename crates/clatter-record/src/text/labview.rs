@@ -8,10 +8,10 @@ mod segment;
 use std::collections::HashMap;
 
 use clatter_shock::samples::float;
-use encoding_rs::Encoding;
 
+use super::Rows;
 use super::cells::Form;
-use super::{Rows, encoding};
+use super::encoding::Letters;
 use crate::roles::Roles;
 use crate::{Error, Options};
 
@@ -20,7 +20,7 @@ const END: &str = "***End_of_Header***";
 /// Times that follow on others are a step after them, to this share of a step.
 const FOLLOWS: f64 = 0.01;
 
-/// Whether a text is such a file.
+/// Returns whether a text is such a file.
 pub(super) fn is_labview(begin: &[u8]) -> bool {
     begin.starts_with(BEGINS)
 }
@@ -30,7 +30,7 @@ pub(super) fn is_labview(begin: &[u8]) -> bool {
 /// # Errors
 /// [`Error::File`] for a file without data, or with columns that its heading does not tell of, [`Error::Records`] where one of
 /// several records has to be chosen.
-pub(super) fn read(bytes: &[u8], letters: &'static Encoding, options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
+pub(super) fn read(bytes: &[u8], letters: Letters, options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
     let file = File::of(&lines, letters)?;
     let mut records = file.records(&lines)?;
@@ -52,11 +52,11 @@ pub(super) fn read(bytes: &[u8], letters: &'static Encoding, options: &Options) 
     records.swap_remove(number - 1).read(&file, &lines, options)
 }
 
-/// What the heading of the file says.
+/// The heading of the file, and its segments.
 #[derive(Debug)]
 struct File {
     form: Form,
-    letters: &'static Encoding,
+    letters: Letters,
     columns: Columns,
     segments: Vec<Segment>,
 }
@@ -81,12 +81,12 @@ struct Segment {
     channels: Vec<Channel>,
 }
 
-/// What a segment says of a channel.
+/// A channel as its segment tells of it.
 #[derive(Debug, Clone, PartialEq)]
 struct Channel {
     samples: Option<usize>,
     unit: String,
-    /// Whether its abscissa is a time.
+    /// Tells whether its abscissa is a time.
     is_timed: bool,
     /// Date and time of day, in seconds.
     date_s: Option<f64>,
@@ -103,12 +103,12 @@ fn is_blank(line: &[u8]) -> bool {
 }
 
 impl File {
-    fn of(lines: &[&[u8]], letters: &'static Encoding) -> Result<Self, Error> {
+    fn of(lines: &[&[u8]], letters: Letters) -> Result<Self, Error> {
         let end = lines.iter().position(|line| line.starts_with(END.as_bytes())).ok_or_else(|| {
             Error::File(format!("the heading of this LabVIEW measurement does not end: there is no line {END}"))
         })?;
         let value = |key: &str| {
-            let line = lines[..end].iter().map(|line| encoding::text(line, letters)).find(|line| {
+            let line = lines[..end].iter().map(|line| letters.text(line)).find(|line| {
                 line.strip_prefix(key).is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
             })?;
             Some(line[key.len()..].trim_matches(['\r', '\n', '\t', ' ']).to_owned())
@@ -145,7 +145,7 @@ impl File {
 
     /// The cells of a line.
     fn cells(&self, line: &[u8]) -> Vec<String> {
-        let text = encoding::text(line, self.letters);
+        let text = self.letters.text(line);
         self.form.cells(text.trim_end_matches(['\r', '\n'])).into_iter().map(std::borrow::Cow::into_owned).collect()
     }
 
@@ -159,7 +159,7 @@ impl File {
             return Ok(None);
         }
         let end = (begin..lines.len()).find(|line| lines[*line].starts_with(END.as_bytes())).ok_or_else(|| {
-            let line = encoding::text(lines[begin], self.letters);
+            let line = self.letters.text(lines[begin]);
             Error::File(format!("line {}: '{}' begins no segment: no line {END} follows", begin + 1, line.trim()))
         })?;
         let names = lines.get(end + 1).map(|line| self.cells(line)).unwrap_or_default();
@@ -188,7 +188,7 @@ impl File {
                 count.map_or("unknown".to_owned(), |count| count.to_string())
             )));
         };
-        // What is told of each channel stands in the column of the channel or, by some writers, side by side.
+        // The settings of each channel stand in the column of the channel or, by some writers, side by side.
         let told: HashMap<String, Vec<String>> = told
             .into_iter()
             .map(|(name, mut cells)| {
@@ -285,7 +285,7 @@ impl File {
         Ok(parts)
     }
 
-    /// Whether a segment goes on where another ends, with the same channels.
+    /// Returns whether a segment goes on where another ends, with the same channels.
     fn follows(&self, before: &Segment, after: &Segment, lines: &[&[u8]]) -> bool {
         let rows = before.rows();
         let time = |line: usize, column: usize| {

@@ -7,10 +7,10 @@ use super::cells::{ARROW, Form};
 use super::head;
 use crate::Error;
 use crate::heading::{Heading, Named, unbracketed};
-use crate::unit::{Kind, Unit};
+use crate::unit::Unit;
 
-/// What the beginning of a text tells.
-#[derive(Debug)]
+/// The layout of a text, as its beginning tells it.
+#[derive(Debug, Default)]
 pub(super) struct Layout {
     pub(super) form: Form,
     /// Number of the first line of numbers, from 0.
@@ -88,12 +88,9 @@ impl Layout {
         let mut layout = Self {
             form,
             begin,
-            headings: Vec::new(),
-            named: false,
-            sampled_s: None,
             told_s: head::step(&lines[..begin]),
-            count: None,
             measured: found.measured.clone(),
+            ..Self::default()
         };
         layout.count = layout.refuse_numbers(lines, columns)?;
         layout.read_above(lines, columns, found.counts, !found.columns.contains(&0))?;
@@ -124,17 +121,14 @@ impl Layout {
         let headings: Vec<Heading> = scope.names.iter().zip(&scope.units).map(heading).collect();
         Self {
             form: Form::new(Some(b','), b'.'),
-            begin: 0,
             measured: vec![false; headings.len()],
             headings,
             named: true,
-            sampled_s: None,
-            told_s: None,
-            count: None,
+            ..Self::default()
         }
     }
 
-    /// What oscilloscopes tell of units and times.
+    /// Takes in what oscilloscopes tell of units and times.
     fn read_scope(&mut self, lines: &[String]) {
         let above = &lines[..self.begin];
         if let Some(scope) = head::rigol(above) {
@@ -251,7 +245,7 @@ impl Layout {
                 units = Some(cells);
                 continue;
             }
-            // What is said of columns in numbers is no name: `Min,-20`, `10000 Hz`, `Float64`.
+            // A setting of columns is no name: `Min,-20`, `10000 Hz`, `Float64`.
             if names.is_none() && self.is_setting(&cells) {
                 continue;
             }
@@ -289,7 +283,7 @@ impl Layout {
 }
 
 impl Layout {
-    /// Whether cells are settings of columns, and no names.
+    /// Returns whether cells are settings of columns, and no names.
     fn is_setting(&self, cells: &[String]) -> bool {
         let types = ["float64", "float32", "double", "single", "int16", "int32", "real", "float", "f64", "smp", "avg"];
         let is_type = |cell: &String| types.contains(&cell.to_lowercase().as_str());
@@ -300,13 +294,9 @@ impl Layout {
         };
         let is_rule = |cell: &String| cell.len() > 1 && cell.chars().all(|c| matches!(c, '-' | '+' | '=' | '_' | ':'));
         let filled = || cells.iter().filter(|cell| !cell.is_empty());
-        let telling = |cell: &String| {
-            let heading = Heading::of(cell);
-            heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration)
-        };
         let numbers = filled().filter(|cell| is_number(cell)).count();
         filled().all(|cell| is_type(cell) || is_labelled(cell) || is_rule(cell))
-            || numbers > 0 && !filled().any(|cell| !is_number(cell) && telling(cell))
+            || numbers > 0 && !filled().any(|cell| !is_number(cell) && Heading::of(cell).is_telling())
     }
 }
 
@@ -314,11 +304,8 @@ impl Layout {
 fn other_names(form: Form, line: &str) -> Option<usize> {
     form.separator?;
     let cells = form.cells(line);
-    let telling = |cell: &Cow<'_, str>| {
-        let heading = Heading::of(cell);
-        let is_number = cell.starts_with(|c: char| c.is_ascii_digit());
-        !is_number && (heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration))
-    };
+    let telling =
+        |cell: &Cow<'_, str>| !cell.starts_with(|c: char| c.is_ascii_digit()) && Heading::of(cell).is_telling();
     (cells.len() > 1 && cells.iter().any(telling)).then_some(cells.len())
 }
 
@@ -371,24 +358,21 @@ fn joined(text: &str) -> Vec<String> {
     cells
 }
 
-/// Whether every cell is a unit or empty, and one is a unit.
+/// Returns whether every cell is a unit or empty, and one is a unit.
 fn all_units(cells: &[String]) -> bool {
     let unit = |cell: &String| Unit::of(unbracketed(cell)).is_some();
     // `t,a` are names, though `a` is a unit of current.
-    let telling = |cell: &String| Unit::of(unbracketed(cell)).is_some_and(|unit| !matches!(unit.kind, Kind::Other(_)));
+    let telling = |cell: &String| Unit::of(unbracketed(cell)).is_some_and(|unit| unit.kind.is_recorded());
     cells.iter().all(|cell| cell.is_empty() || cell == "-" || unit(cell)) && cells.iter().any(telling)
 }
 
 impl Layout {
-    /// Whether some cells are units, and no other one is a number, or a name that says something.
+    /// Returns whether some cells are units, and no other one is a number, or a name that says something.
     fn some_units(&self, cells: &[String]) -> bool {
-        let is_unit = |cell: &&String| {
-            Unit::of(unbracketed(cell)).is_some_and(|unit| matches!(unit.kind, Kind::Time | Kind::Acceleration))
-        };
+        let is_unit = |cell: &&String| Unit::of(unbracketed(cell)).is_some_and(|unit| unit.kind.is_recorded());
         let telling = |cell: &String| {
             let heading = Heading::of(cell);
-            heading.spelled.as_ref().is_some_and(|unit| *unit != heading.name)
-                || matches!(heading.named(), Named::Time | Named::Acceleration)
+            heading.spelled.as_ref().is_some_and(|unit| *unit != heading.name) || heading.names_time_or_acceleration()
         };
         let said = |cell: &&String| self.form.number(cell).is_some() || !is_unit(cell) && telling(cell);
         cells.iter().any(|cell| is_unit(&cell)) && !cells.iter().any(|cell| said(&cell))

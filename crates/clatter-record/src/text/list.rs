@@ -2,12 +2,11 @@
 
 use std::io::Read;
 
-use encoding_rs::Encoding;
-
 use super::cells::Form;
 use super::digits::Digits;
+use super::encoding::Letters;
 use super::layout::uncommented;
-use super::{BLOCK, LONGEST, decoded, encoding, fill, first_lines, head, to_end};
+use super::{BLOCK, LONGEST, decoded, first_lines, head, read_block, to_end};
 use crate::error::Bad;
 use crate::heading::{Heading, Named, unbracketed};
 use crate::unit::Unit;
@@ -46,9 +45,8 @@ pub fn read_list<const N: usize>(
     names: [&str; N],
     mut each: impl FnMut([Cell<'_>; N]) -> Result<(), String>,
 ) -> Result<(), Error> {
-    let mut buffer = vec![0; BLOCK];
-    let length = fill(&mut input, &mut buffer)?;
-    buffer.truncate(length);
+    let mut buffer = Vec::new();
+    read_block(&mut input, &mut buffer)?;
     if let Some(decode) = decoded(&buffer) {
         to_end(&mut buffer, &mut input, &Options::default())?;
         buffer = decode(&buffer);
@@ -67,11 +65,7 @@ pub fn read_list<const N: usize>(
         if buffer.len() > LONGEST {
             return Err(told(line + 1, format!("longer than {LONGEST} bytes, or a quote is opened and not closed")));
         }
-        let kept = buffer.len();
-        buffer.resize(kept + BLOCK, 0);
-        let read = fill(&mut input, &mut buffer[kept..])?;
-        buffer.truncate(kept + read);
-        if read == 0 {
+        if read_block(&mut input, &mut buffer)? == 0 {
             break;
         }
     }
@@ -85,20 +79,20 @@ pub fn read_list<const N: usize>(
     list.close()
 }
 
-/// Whether a text begins with a line that names all of these columns, as [`read_list`] finds them.
+/// Returns whether a text begins with a line that names all of these columns, as [`read_list`] finds them.
 #[must_use]
 pub fn names_columns<const N: usize>(begin: &[u8], names: [&str; N]) -> bool {
     let begin = decoded(begin).map_or_else(|| begin.to_vec(), |decode| decode(begin));
     List::of(&begin, names).is_ok()
 }
 
-/// What the lines above the rows tell.
+/// A list, as the lines above its rows tell it.
 #[derive(Debug)]
 struct List<const N: usize> {
     form: Form,
-    /// Whether a number has shown what its decimal mark is.
+    /// Tells whether a number has shown what its decimal mark is.
     is_sure: bool,
-    letters: &'static Encoding,
+    letters: Letters,
     /// Lines down to the names or the units.
     above: usize,
     columns: usize,
@@ -144,7 +138,7 @@ impl<const N: usize> List<N> {
     /// Of the beginning of a text.
     fn of(begin: &[u8], names: [&str; N]) -> Result<Self, Error> {
         let begin = begin.strip_prefix("\u{feff}".as_bytes()).unwrap_or(begin);
-        let letters = encoding::of(&begin[..begin.len().min(BLOCK)]);
+        let letters = Letters::of(&begin[..begin.len().min(BLOCK)]);
         let lines = first_lines(begin, letters)?;
         let mut filled = lines.iter().enumerate().filter(|(_, line)| is_row(line)).take(ABOVE).peekable();
         let mut missing: Option<(usize, usize, String)> = None;
@@ -202,7 +196,7 @@ impl<const N: usize> List<N> {
                 None => {
                     let above = below.filter(|_| is_below).map_or(0, |(below, _)| below + 1);
                     let digits = std::array::from_fn(|_| Digits::default());
-                    let letters = encoding_rs::WINDOWS_1252;
+                    let letters = Letters::default();
                     return Ok(Self {
                         form,
                         is_sure: separator == Some(b','),
@@ -228,7 +222,7 @@ impl<const N: usize> List<N> {
         line: usize,
         each: &mut impl FnMut([Cell<'_>; N]) -> Result<(), String>,
     ) -> Result<bool, Error> {
-        let text = encoding::text(row, self.letters);
+        let text = self.letters.text(row);
         let text = text.trim_end_matches(['\r', '\n']).trim_start_matches('\u{feff}');
         if line < self.above || !is_row(text) {
             return Ok(false);
@@ -301,7 +295,7 @@ fn count(text: &[u8], byte: u8) -> usize {
     text.split(|other| *other == byte).count() - 1
 }
 
-/// Whether a line is one of names or a row.
+/// Returns whether a line is one of names or a row.
 fn is_row(line: &str) -> bool {
     let (text, commented) = uncommented(line.trim_start_matches('\u{feff}'));
     !text.is_empty() && !commented
@@ -311,7 +305,7 @@ fn no_rows<const N: usize>(line: usize, names: [&str; N]) -> Error {
     told(line.max(1), format!("no rows; the first line is {}, a row for each follows", names.join(",")))
 }
 
-/// What is wrong with a line, from 1.
+/// An error of one line, from 1.
 fn told(line: usize, what: String) -> Error {
     let mut bad = Bad::default();
     bad.add(At::Line(line), || what);

@@ -47,7 +47,7 @@ fn parts(lines: &[&[u8]]) -> Vec<(usize, usize)> {
     begins.into_iter().zip(ends).collect()
 }
 
-/// Whether a line is one of numbers: digits are most of it, or it is nothing else.
+/// Returns whether a line is one of numbers: digits are most of it, or it is nothing else.
 fn is_numbers(line: &[u8]) -> bool {
     let text = String::from_utf8_lossy(line);
     let text = text.trim();

@@ -7,7 +7,7 @@ mod shape;
 use super::cells::is_missing;
 use super::digits::Digits;
 use super::layout::uncommented;
-use super::{cut, encoding, head, visible};
+use super::{cut, head, visible};
 use crate::account::Lines;
 use crate::decimal::Decimal;
 use crate::error::Bad;
@@ -21,7 +21,7 @@ pub(super) use shape::Shape;
 /// Instruments write 9.9E37 for a value beyond their range and 9.91E37 for none (SCPI 1999).
 const NO_VALUE: f64 = 9.8e37;
 
-/// What is made of a column.
+/// The uses that a column has.
 #[derive(Debug, Clone, Copy)]
 enum Use {
     Nothing,
@@ -36,10 +36,10 @@ enum Use {
 }
 
 /// Lines of numbers, as far as they are read.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Rows {
     shape: Shape,
-    /// What is made of each column, up to the last that is used.
+    /// The use of each column, up to the last that has one.
     uses: Vec<Use>,
     sizes: Vec<f64>,
     names: Vec<String>,
@@ -47,7 +47,7 @@ pub(crate) struct Rows {
     most_values: usize,
     skip_bad: bool,
     line: usize,
-    /// Whether the channels may end before the lines do, as others have times of their own.
+    /// Tells whether the channels may end before the lines do, as others have times of their own.
     ends_early: bool,
     /// The numbers of one line, in the order of its columns.
     row: Vec<f64>,
@@ -106,30 +106,13 @@ impl Rows {
             time_size: roles.time.or(roles.checked).map_or(1.0, |(_, size)| size),
             most_values: options.most_values,
             skip_bad: options.skip_bad,
-            line: 0,
             ends_early: roles.beside_others,
-            row: Vec::new(),
-            time: None,
-            day: None,
-            first_time: None,
-            first_day: None,
-            first_date: None,
-            days_s: 0.0,
-            text: Bad::default(),
-            heading: None,
-            empty: None,
-            breaks: (0, 0),
             digits: vec![Digits::default(); roles.channels.len() + 1],
             open: true,
-            lines: Lines::default(),
-            doubled: Vec::new(),
             sampled_s: shape.sampled_s,
-            times: Vec::new(),
-            printed: Printed::default(),
             channels: vec![Vec::new(); roles.channels.len()],
-            bad: Bad::default(),
-            numbering: Vec::new(),
             shape,
+            ..Self::default()
         }
     }
 
@@ -176,7 +159,7 @@ impl Rows {
     pub(crate) fn told(&self) -> Option<(f64, usize)> {
         self.shape.told.filter(|_| !self.times.is_empty())
     }
-    /// What became of each line.
+    /// Returns how many lines were taken for what.
     pub(crate) fn lines(&self) -> Lines {
         self.lines
     }
@@ -204,7 +187,7 @@ impl Rows {
                 continue;
             }
             let length = text[at..end].iter().position(|byte| *byte == b'\n').unwrap_or(end - at - 1);
-            let line = encoding::text(&text[at..at + length], self.shape.letters);
+            let line = self.shape.letters.text(&text[at..at + length]);
             let rows = self.lines.rows;
             self.any(&line)?;
             let line = &text[at..at + length];
@@ -303,7 +286,7 @@ impl Rows {
         Ok(())
     }
 
-    /// Whether all lines that were read go together.
+    /// Checks that all lines that were read go together.
     pub(super) fn close(&mut self) -> Result<(), Error> {
         let has_point = self.digits.iter().any(Digits::has_point);
         for (k, digits) in self.digits.iter().enumerate() {

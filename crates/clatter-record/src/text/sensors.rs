@@ -7,7 +7,7 @@ use super::layout::Layout;
 use super::visible;
 use crate::moment::{self, CLOCK, DATED};
 use crate::roles::{Preview, Roles};
-use crate::unit::Unit;
+use crate::unit::{Unit, lists};
 use crate::{Error, Options};
 
 /// A column in which one word has to stand in every line.
@@ -15,42 +15,17 @@ use crate::{Error, Options};
 pub(super) struct Word {
     pub(super) column: usize,
     pub(super) expected: String,
-    /// Whether it tells sensors apart; else it is a unit.
+    /// Tells whether it tells sensors apart; else it is a unit.
     pub(super) tells: bool,
-    /// Whether rows of other sensors are passed over, as one was asked for.
+    /// Tells whether rows of other sensors are passed over, as one was asked for.
     pub(super) chosen: bool,
 }
 
 /// Names of columns that tell sensors apart.
-const SENSORS: [&str; 26] = [
-    "sensor",
-    "sensortype",
-    "sensorname",
-    "sensorid",
-    "device",
-    "deviceid",
-    "source",
-    "tag",
-    "kanal",
-    "channel",
-    "channelid",
-    "ch",
-    "type",
-    "id",
-    "node",
-    "nodeid",
-    "axis",
-    "imu",
-    "address",
-    "addr",
-    "mac",
-    "name",
-    "signal",
-    "variable",
-    "quantity",
-    "parameter",
-];
-const UNITS: [&str; 6] = ["unit", "units", "einheit", "unité", "unidad", "uom"];
+const SENSORS: &str = "\
+    sensor sensortype sensorname sensorid device deviceid source tag kanal channel channelid ch type id node nodeid \
+    axis imu address addr mac name signal variable quantity parameter";
+const UNITS: &str = "unit units einheit unité unidad uom";
 /// Rows that show whether words come in turns.
 const LEAST: usize = 6;
 
@@ -63,11 +38,11 @@ pub(super) fn words(layout: &Layout, rows: &[Vec<Cow<'_, str>>], options: &Optio
         let name: String = heading.name.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect();
         let Some(first) = cells.first().filter(|first| !first.is_empty()) else { continue };
         let word = |expected: &str, tells, chosen| Word { column, expected: expected.to_owned(), tells, chosen };
-        if heading.is_text && UNITS.contains(&name.as_str()) && Unit::of(first).is_some() {
+        if heading.is_text && lists(UNITS, &name) && Unit::of(first).is_some() {
             words.push(word(first, false, false));
             continue;
         }
-        let is_named = SENSORS.contains(&name.as_str());
+        let is_named = lists(SENSORS, &name);
         let changes = cells.windows(2).filter(|pair| pair[0] != pair[1]).count();
         let mut all: Vec<&str> = Vec::new();
         for cell in &cells {

@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 
-use encoding_rs::WINDOWS_1252;
+use clatter_shock::samples::float;
 
 use super::cells::Form;
+use super::encoding::Letters;
+use super::head;
 use super::rows::{Rows, Shape};
-use super::{encoding, head};
 use crate::decimal::Decimal;
 use crate::heading::Heading;
 use crate::roles::{Preview, Roles};
@@ -70,11 +71,9 @@ impl Series {
         let heading = Heading::named_alone("acceleration").with_unit(self.unit.as_deref().unwrap_or_default());
         let seen = Preview { headings: vec![heading], named: true, sampled: true, ..Preview::default() };
         let roles = seen.roles(options)?;
-        let shape =
-            Shape { sampled_s: Some([0.0, self.step_s]), ..Shape::plain(Form::new(None, b'.'), WINDOWS_1252, 1) };
+        let shape = Shape { sampled_s: Some([0.0, self.step_s]), columns: 1, ..Shape::default() };
         let mut rows = Rows::new(shape, &roles, options);
-        let lines: Vec<String> =
-            text.split(|byte| *byte == b'\n').map(|line| encoding::text(line, WINDOWS_1252)).collect();
+        let lines: Vec<String> = text.split(|byte| *byte == b'\n').map(|line| Letters::default().text(line)).collect();
         rows.skip_heading(&lines[..self.begin]);
         for line in &lines[self.begin..] {
             rows.values(&apart(line))?;
@@ -106,11 +105,7 @@ pub(super) fn refuse_lines(rows: &[Vec<f64>], all: &[Vec<Cow<'_, str>>], form: F
     if rows.len() < 4 || rows.len() + 1 < all.len() {
         return Ok(());
     }
-    let mean = |steps: &[f64]| {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let count = steps.len().max(1) as f64;
-        steps.iter().sum::<f64>() / count
-    };
+    let mean = |steps: &[f64]| steps.iter().sum::<f64>() / float(steps.len().max(1));
     let within: Vec<f64> = rows.iter().flat_map(|row| row.windows(2).map(|pair| (pair[1] - pair[0]).abs())).collect();
     let over: Vec<f64> = rows.windows(2).map(|pair| (pair[1][0] - pair[0][count - 1]).abs()).collect();
     let down: Vec<f64> =

@@ -2,6 +2,7 @@
 
 use super::damaged;
 use crate::container::number::Number;
+use crate::container::stored::Stored;
 use crate::container::{column, refuse};
 use crate::{Column, Error, Values};
 use crate::{Field as WrittenField, FieldKind};
@@ -23,26 +24,18 @@ pub(super) struct Schema {
 pub(super) struct Field {
     pub(super) name: String,
     unit: Option<String>,
-    pub(super) stored: Stored,
-    /// Nanoseconds of one, where it is a time.
-    pub(super) tick_ns: Option<i64>,
+    /// None for what holds no numbers.
+    pub(super) stored: Option<Stored>,
     /// Buffers that it takes in a batch, those of its children too.
     pub(super) buffers: usize,
     /// Columns of views in it, whose number of buffers each batch tells.
     pub(super) variadic: usize,
 }
 
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Stored {
-    Number(Number),
-    Other,
-}
-
 impl Field {
     /// The column it becomes, where it holds numbers.
     pub(super) fn empty_column(&self) -> Option<Column> {
-        let Stored::Number(_) = self.stored else { return None };
-        let unit = if self.tick_ns.is_some() { Some("ns".to_owned()) } else { self.unit.clone() };
+        let unit = self.stored?.unit().or_else(|| self.unit.clone());
         Some(column(self.name.as_str(), unit, Values::Float(Vec::new())))
     }
 }
@@ -59,12 +52,12 @@ impl Schema {
 fn read_field(field: FieldRef<'_>, left: &mut usize) -> Result<Field, Error> {
     let name = field.name().map_err(damaged)?.unwrap_or_default().to_owned();
     let encoded = field.dictionary().map_err(damaged)?.is_some();
-    let (stored, tick_ns) = match field.type_().map_err(damaged)? {
+    let stored = match field.type_().map_err(damaged)? {
         Some(kind) if !encoded => numbers(&kind)?,
-        _ => (Stored::Other, None),
+        _ => None,
     };
     let (buffers, variadic) = count(&field, left, 0)?;
-    Ok(Field { unit: unit(&field)?, name, stored, tick_ns, buffers, variadic })
+    Ok(Field { unit: unit(&field)?, name, stored, buffers, variadic })
 }
 
 /// The unit that the metadata of a field give.
@@ -79,29 +72,29 @@ fn unit(field: &FieldRef<'_>) -> Result<Option<String>, Error> {
     Ok(None)
 }
 
-/// How the numbers of a type are stored, and the nanoseconds of one where they are times.
-fn numbers(kind: &TypeRef<'_>) -> Result<(Stored, Option<i64>), Error> {
-    let tick = |unit| match unit {
-        TimeUnit::Second => 1_000_000_000,
-        TimeUnit::Millisecond => 1_000_000,
-        TimeUnit::Microsecond => 1000,
-        TimeUnit::Nanosecond => 1,
+/// How the numbers of a type are stored; none for what holds no numbers.
+fn numbers(kind: &TypeRef<'_>) -> Result<Option<Stored>, Error> {
+    let time = |unit| {
+        Some(Stored::Time(match unit {
+            TimeUnit::Second => 1_000_000_000,
+            TimeUnit::Millisecond => 1_000_000,
+            TimeUnit::Microsecond => 1000,
+            TimeUnit::Nanosecond => 1,
+        }))
     };
-    let time = Stored::Number(Number::I64);
     Ok(match kind {
         TypeRef::Int(int) => {
             let bits = u64::try_from(int.bit_width().map_err(damaged)?).unwrap_or_default();
-            let number = Number::integer(bits / 8, int.is_signed().map_err(damaged)?);
-            (number.map_or(Stored::Other, Stored::Number), None)
+            Number::integer(bits / 8, int.is_signed().map_err(damaged)?).map(Stored::Number)
         }
         TypeRef::FloatingPoint(float) => match float.precision().map_err(damaged)? {
-            Precision::Single => (Stored::Number(Number::F32), None),
-            Precision::Double => (Stored::Number(Number::F64), None),
-            Precision::Half => (Stored::Other, None),
+            Precision::Single => Some(Stored::Number(Number::F32)),
+            Precision::Double => Some(Stored::Number(Number::F64)),
+            Precision::Half => None,
         },
-        TypeRef::Timestamp(stamp) => (time, Some(tick(stamp.unit().map_err(damaged)?))),
-        TypeRef::Duration(duration) => (time, Some(tick(duration.unit().map_err(damaged)?))),
-        _ => (Stored::Other, None),
+        TypeRef::Timestamp(stamp) => time(stamp.unit().map_err(damaged)?),
+        TypeRef::Duration(duration) => time(duration.unit().map_err(damaged)?),
+        _ => None,
     })
 }
 

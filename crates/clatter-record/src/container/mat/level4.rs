@@ -2,11 +2,11 @@
 //!
 //! Source: MAT-File Format, The MathWorks, chapter 2 (Level 4).
 
-use super::Found;
+use super::numbers;
+use crate::Error;
 use crate::container::bytes::Bytes;
 use crate::container::number::Number;
-use crate::container::{Matrix, Metadata, Room, refuse};
-use crate::{Column, Error};
+use crate::container::{Matrix, TableBuilder, refuse};
 
 const PART: &str = "MAT file of version 4";
 
@@ -54,7 +54,7 @@ fn words(bytes: &[u8]) -> Option<[[u8; 4]; 5]> {
     Some(words)
 }
 
-/// Whether a file begins as one of MATLAB 4: with a head that holds, and a name that ends where it says.
+/// Returns whether a file begins as one of MATLAB 4: with a head that holds, and a name that ends where it says.
 pub(in crate::container) fn is_level4(beginning: &[u8]) -> bool {
     let name = || {
         let head = words(beginning).and_then(Head::read).filter(|head| head.rows > 0 && head.columns > 0)?;
@@ -66,9 +66,8 @@ pub(in crate::container) fn is_level4(beginning: &[u8]) -> bool {
     })
 }
 
-pub(in crate::container) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
+pub(in crate::container) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let mut bytes = Bytes::new(bytes, PART);
-    let mut found = Found::default();
     while bytes.left() > 0 {
         let at = bytes.at();
         let head = words(bytes.take(20)?).and_then(Head::read);
@@ -85,8 +84,9 @@ pub(in crate::container) fn read(bytes: &[u8], room: &mut Room, beside: &mut Met
         if head.class == 0 {
             let Head { number, big_endian, is_complex, .. } = head;
             let matrix = Matrix { rows, columns, column_by_column: true, bytes: real, number, big_endian };
-            found.numbers(&name, matrix, is_complex, room)?;
+            numbers(&name, matrix, is_complex, table)?;
         }
     }
-    Ok(found.columns(beside))
+    table.spread_intervals('.');
+    Ok(())
 }

@@ -1,8 +1,9 @@
 //! Parquet files read row group by row group: files that are larger than memory.
 
-use super::{ARROW_SCHEMA, Leaf, Stored, damaged, leaves, metadata, pages};
+use super::{ARROW_SCHEMA, Leaf, damaged, leaves, metadata, pages};
 use crate::container::number::Number;
 use crate::container::refuse;
+use crate::container::stored::Stored;
 use crate::{Error, Values};
 use polars_parquet_format::{FileMetaData, Type};
 use std::io::{Read, Seek, SeekFrom};
@@ -19,7 +20,7 @@ pub struct RowGroups<R> {
 
 /// Rows of a group that are read together at most.
 const MOST_ROWS: usize = 1 << 20;
-/// What stands behind the metadata: their length and the four letters.
+/// The length of the metadata and the four letters stand behind them.
 const END: u64 = 8;
 /// Metadata of more bytes are none.
 const MOST_METADATA: u64 = 1 << 28;
@@ -59,7 +60,7 @@ impl<R: Read + Seek> RowGroups<R> {
         &self.rows
     }
 
-    /// What the file says of itself by this name.
+    /// Returns what the file says of itself by this name.
     #[must_use]
     pub fn note(&self, name: &str) -> Option<&str> {
         let entries = self.metadata.key_value_metadata.as_deref().unwrap_or_default();
@@ -86,7 +87,7 @@ impl<R: Read + Seek> RowGroups<R> {
         let stored = if bits { Some(Stored::Number(Number::U8)) } else { leaf.stored() };
         let stored = stored.ok_or_else(|| refuse(format!("Parquet file: column {:?} holds no numbers", leaf.path)))?;
         let shape = pages::Shape { rows, width: stored.width(), bits, levels: leaf.levels };
-        match stored.values(&pages::read(&bytes, &chunk, shape, &leaf.path)?, &leaf.path)? {
+        match pages::read(&bytes, &chunk, shape, &leaf.path)?.values(stored, &leaf.path)? {
             Values::Float(values) if values.len() == rows => Ok(values),
             _ => Err(damaged(format!("column {:?} has numbers that no float holds", leaf.path))),
         }

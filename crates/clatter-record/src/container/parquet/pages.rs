@@ -2,19 +2,20 @@
 
 use super::encoding::{Dictionary, delta, hybrid, plain_bits, split_streams};
 use super::refuse;
-use crate::Error;
 use crate::container::codec;
+use crate::container::stored::Stored;
+use crate::{Error, Values};
 use polars_parquet_format::thrift::protocol::TCompactInputProtocol;
 use polars_parquet_format::{ColumnMetaData, CompressionCodec, Encoding, PageHeader, PageType};
 use std::borrow::Cow;
 
-/// What the schema says of the rows to read.
+/// The rows to read, as the schema tells of them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape {
     pub(super) rows: usize,
     /// Bytes of a number.
     pub(super) width: usize,
-    /// Whether a plain page has eight of them in a byte, as of flags.
+    /// Tells whether a plain page has eight of them in a byte, as of flags.
     pub(super) bits: bool,
     /// Levels of a value that is there.
     pub(super) levels: u32,
@@ -26,6 +27,13 @@ pub(super) struct Rows {
     pub(super) bytes: Vec<u8>,
     /// Which rows have a number; empty where all have to.
     pub(super) valid: Vec<bool>,
+}
+
+impl Rows {
+    /// As the values of a column.
+    pub(super) fn values(&self, stored: Stored, name: &str) -> Result<Values, Error> {
+        stored.values(&self.bytes, false, |row| self.valid.is_empty() || self.valid.get(row) == Some(&true), name)
+    }
 }
 
 /// All rows of a column in a row group.
@@ -58,7 +66,7 @@ struct Chunk<'a> {
 
 impl Chunk<'_> {
     fn read(mut self, bytes: &[u8]) -> Result<Rows, Fault> {
-        /// What texts in the head of a page may take: smallest and largest value.
+        /// Texts in the head of a page may take so much: smallest and largest value.
         const MOST: usize = 1 << 16;
         let start = match self.told.dictionary_page_offset {
             Some(dictionary) if (1..self.told.data_page_offset).contains(&dictionary) => dictionary,

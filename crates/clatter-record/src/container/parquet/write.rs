@@ -102,7 +102,7 @@ impl<W: Write> RowGroupWriter<W> {
     /// Begins a file with these columns.
     ///
     /// # Errors
-    /// What the writer says.
+    /// An error of the writer.
     pub fn new(out: W, fields: Vec<Field>) -> io::Result<Self> {
         Self::begin(out, fields, true)
     }
@@ -115,7 +115,7 @@ impl<W: Write> RowGroupWriter<W> {
     /// Writes a group of rows, column by column.
     ///
     /// # Errors
-    /// What the writer says, or where the columns are not those of the file or differ in length.
+    /// An error of the writer, or one where the columns are not those of the file or differ in length.
     pub fn write(&mut self, columns: &[&[f64]]) -> io::Result<()> {
         let rows = equal_length(columns).map_err(io::Error::other)?;
         if columns.len() != self.fields.len() {
@@ -133,15 +133,8 @@ impl<W: Write> RowGroupWriter<W> {
             chunks.push(chunk(&self.fields[i], [rows, start, self.at - start]));
         }
         let bytes = self.at - begin;
-        self.groups.push(RowGroup {
-            columns: chunks,
-            total_byte_size: bytes,
-            num_rows: rows,
-            sorting_columns: None,
-            file_offset: Some(begin),
-            total_compressed_size: Some(bytes),
-            ordinal: i16::try_from(self.groups.len()).ok(),
-        });
+        let number = i16::try_from(self.groups.len()).ok();
+        self.groups.push(RowGroup::new(chunks, bytes, rows, None, begin, bytes, number));
         self.rows += rows;
         Ok(())
     }
@@ -149,7 +142,7 @@ impl<W: Write> RowGroupWriter<W> {
     /// Ends the file, with notes about it by their names.
     ///
     /// # Errors
-    /// What the writer says.
+    /// An error of the writer.
     pub fn finish(mut self, notes: &[(&str, &str)]) -> io::Result<W> {
         let arrow = STANDARD.encode(arrow::schema_message(&self.fields));
         let mut entries = vec![KeyValue::new(ARROW_SCHEMA.to_owned(), arrow)];
@@ -233,35 +226,13 @@ fn stored(kind: FieldKind) -> Type {
 /// Where the pages of a column are.
 fn chunk(field: &Field, [rows, start, size]: [i64; 3]) -> ColumnChunk {
     let with_levels = field.kind == FieldKind::FloatOrNone;
-    let metadata = ColumnMetaData {
-        type_: stored(field.kind),
-        encodings: if with_levels { vec![Encoding::PLAIN, Encoding::RLE] } else { vec![Encoding::PLAIN] },
-        path_in_schema: vec![field.name.clone()],
-        codec: CompressionCodec::UNCOMPRESSED,
-        num_values: rows,
-        total_uncompressed_size: size,
-        total_compressed_size: size,
-        key_value_metadata: None,
-        data_page_offset: start,
-        index_page_offset: None,
-        dictionary_page_offset: None,
-        statistics: None,
-        encoding_stats: None,
-        bloom_filter_offset: None,
-        bloom_filter_length: None,
-        size_statistics: None,
-    };
-    ColumnChunk {
-        file_path: None,
-        file_offset: start,
-        meta_data: Some(metadata),
-        offset_index_offset: None,
-        offset_index_length: None,
-        column_index_offset: None,
-        column_index_length: None,
-        crypto_metadata: None,
-        encrypted_column_metadata: None,
-    }
+    let encodings = if with_levels { vec![Encoding::PLAIN, Encoding::RLE] } else { vec![Encoding::PLAIN] };
+    let (path, codec) = (vec![field.name.clone()], CompressionCodec::UNCOMPRESSED);
+    let kind = stored(field.kind);
+    let metadata = ColumnMetaData::new(
+        kind, encodings, path, codec, rows, size, size, None, start, None, None, None, None, None, None, None,
+    );
+    ColumnChunk::new(None, start, metadata, None, None, None, None, None, None)
 }
 
 /// The root of the schema, with so many children.
@@ -273,20 +244,7 @@ fn root(children: i32) -> SchemaElement {
 /// A column in the schema.
 fn element(field: &Field) -> SchemaElement {
     let may_be_missing = field.kind == FieldKind::FloatOrNone;
-    SchemaElement {
-        type_: Some(stored(field.kind)),
-        type_length: None,
-        repetition_type: Some(if may_be_missing {
-            FieldRepetitionType::OPTIONAL
-        } else {
-            FieldRepetitionType::REQUIRED
-        }),
-        name: field.name.clone(),
-        num_children: None,
-        converted_type: None,
-        scale: None,
-        precision: None,
-        field_id: None,
-        logical_type: None,
-    }
+    let repetition = if may_be_missing { FieldRepetitionType::OPTIONAL } else { FieldRepetitionType::REQUIRED };
+    let (kind, name) = (stored(field.kind), field.name.clone());
+    SchemaElement::new(kind, None, repetition, name, None, None, None, None, None, None)
 }

@@ -5,7 +5,7 @@
 use super::{Object, PART};
 use crate::container::bytes::Bytes;
 use crate::container::number::Number;
-use crate::container::{Room, joined, refuse};
+use crate::container::{TableBuilder, refuse};
 use crate::{Error, Values};
 
 /// How the raw data of a channel lie in a chunk.
@@ -101,7 +101,7 @@ pub(super) fn chunks(
     objects: &mut [Object],
     active: &[usize],
     big_endian: bool,
-    room: &mut Room,
+    table: &mut TableBuilder,
 ) -> Result<bool, Error> {
     let daqmx: Vec<Daqmx> = active.iter().filter_map(|index| objects[*index].daqmx.clone()).collect();
     if daqmx.len() < active.len() {
@@ -124,14 +124,10 @@ pub(super) fn chunks(
             for (index, daqmx) in active.iter().zip(&daqmx) {
                 let rows = (part.len() / buffer.1.max(1)).min(daqmx.count);
                 for scaler in daqmx.scalers.iter().filter(|scaler| scaler.buffer == number) {
-                    room.take(rows)?;
+                    table.take(&[rows])?;
                     let values = scaler.values(&part[..rows * buffer.1], buffer.1, rows, big_endian);
-                    let scalers = &mut objects[*index].scalers;
-                    let values = match scalers.remove(&scaler.id) {
-                        None => values,
-                        Some(before) => joined(before, values),
-                    };
-                    scalers.insert(scaler.id, values);
+                    let empty = || Values::Float(Vec::new());
+                    objects[*index].scalers.entry(scaler.id).or_insert_with(empty).append(values);
                 }
             }
         }
@@ -143,7 +139,7 @@ impl Scaler {
     fn values(self, rows: &[u8], width: usize, count: usize, big_endian: bool) -> Values {
         let values = self.number.placed(rows, big_endian, self.offset, width, count);
         let Some(bit) = self.bit else { return values };
-        let bits = super::super::whole(values);
+        let bits = values.into_integers();
         Values::Float(bits.into_iter().map(|value| f64::from(u8::from(value >> bit & 1 == 1))).collect())
     }
 }

@@ -1,4 +1,4 @@
-//! What the lists of a TDMS file are made of: texts, properties, types of data.
+//! The lists of a TDMS file are made of texts, properties and types of data.
 
 use std::collections::HashMap;
 
@@ -95,9 +95,7 @@ pub(super) fn property(meta: &mut Bytes<'_>) -> Result<Property, Error> {
     let Some(size) = kind.size() else { return Ok(Property::Text(text(meta)?)) };
     let bytes = meta.take(size)?;
     if let Stored::Time = kind {
-        let mut time = Bytes::new(bytes, "TDMS file, a property");
-        time.big_endian = meta.big_endian;
-        let (seconds, fraction) = stamp(&mut time)?;
+        let (seconds, fraction) = stamp(&mut meta.part(bytes, "TDMS file, a property"))?;
         return Ok(Property::Time((i128::from(seconds) << 64) + i128::from(fraction)));
     }
     let Stored::Number(number) = kind else { return Ok(Property::Other) };

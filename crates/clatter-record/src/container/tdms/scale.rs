@@ -112,7 +112,7 @@ impl Scales<'_> {
             Some(kind) => vec![source(&format!("{kind}_Input_Source"))],
         }
     }
-    /// Whether the last of the scales takes it, by way of others.
+    /// Returns whether the last of the scales takes it, by way of others.
     fn is_needed(&self, index: usize, count: usize) -> bool {
         let mut needed = vec![false; count];
         needed[count - 1] = true;
@@ -125,7 +125,7 @@ impl Scales<'_> {
         }
         needed[index]
     }
-    /// What a scale takes.
+    /// Returns the values that a scale takes.
     fn source(&self, index: usize, source: usize, done: &[Option<Vec<f64>>]) -> Result<Vec<f64>, Error> {
         if source == RAW {
             let raw = self.values.ok_or_else(|| self.fault(index, "takes raw data, of which DAQmx has several"))?;
@@ -143,61 +143,52 @@ impl Scales<'_> {
             let scaler = scaler.ok_or_else(|| self.fault(index, "has no type, and no source of that number"))?;
             return floats(scaler).ok_or_else(|| self.fault(index, "takes integers beyond 2^53"));
         };
-        let mut sources = self
-            .sources(index)
-            .into_iter()
-            .map(|source| self.source(index, source, done))
-            .collect::<Result<Vec<_>, _>>()?;
+        let sources = self.sources(index).into_iter().map(|source| self.source(index, source, done));
+        let mut sources = sources.collect::<Result<Vec<_>, _>>()?;
         let mut values = sources.swap_remove(0);
-        match (kind, sources.pop()) {
-            ("Add", Some(right)) => values.iter_mut().zip(right).for_each(|(left, right)| *left += right),
-            // The left one is taken off the right one, as programs of NI do.
-            ("Subtract", Some(right)) => values.iter_mut().zip(right).for_each(|(left, right)| *left = right - *left),
-            ("AdvancedAPI", _) => {}
+        let scale: Box<dyn Fn(f64) -> f64> = match (kind, sources.pop()) {
+            ("Add" | "Subtract", Some(right)) => {
+                // The left one is taken off the right one, as programs of NI do.
+                let joined = |left: f64, right: f64| if kind == "Add" { left + right } else { right - left };
+                values.iter_mut().zip(right).for_each(|(left, right)| *left = joined(*left, right));
+                return Ok(values);
+            }
+            ("AdvancedAPI", _) => return Ok(values),
             ("Linear", _) => {
                 let offset = self.coefficient(index, "Linear_Y_Intercept")?;
                 let slope = self.coefficient(index, "Linear_Slope")?;
-                for value in &mut values {
-                    *value = *value * slope + offset;
-                }
+                Box::new(move |value| value * slope + offset)
             }
             ("Polynomial", _) => {
                 let count = self.number(index, "Polynomial_Coefficients_Size").map_or(Some(4), whole);
                 let count = count.ok_or_else(|| self.fault(index, "has no number of coefficients"))?;
                 let coefficients = self.list(index, "Polynomial_Coefficients", count)?;
-                let at = |x: f64| coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient);
-                for value in &mut values {
-                    *value = at(*value);
-                }
+                Box::new(move |x| coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient))
             }
             ("Table", _) => {
-                let size = |name: &str| self.number(index, name).and_then(whole);
-                let sizes = [size("Table_Pre_Scaled_Values_Size"), size("Table_Scaled_Values_Size")];
-                let [Some(count), Some(other)] = sizes else {
-                    return Err(self.fault(index, "has no size of its table"));
-                };
-                if count != other || count == 0 {
-                    return Err(self.fault(index, &format!("has a table of {count} and {other} values")));
-                }
-                let from = self.list(index, "Table_Pre_Scaled_Values", count)?;
-                let to = self.list(index, "Table_Scaled_Values", count)?;
-                let table = self.table(index, from, to)?;
-                for value in &mut values {
-                    *value = between(&table, *value);
-                }
+                let table = self.table(index)?;
+                Box::new(move |value| between(&table, value))
             }
             (other, _) => {
-                return Err(self.fault(
-                    index,
-                    &format!("is of the kind {other:?}; Linear, Polynomial, Table, Add and Subtract are read"),
-                ));
+                let fault = format!("is of the kind {other:?}; Linear, Polynomial, Table, Add and Subtract are read");
+                return Err(self.fault(index, &fault));
             }
-        }
-        Ok(values)
+        };
+        Ok(values.into_iter().map(scale).collect())
     }
 
     /// The points of a table in the order of what it is entered with.
-    fn table(&self, index: usize, from: Vec<f64>, to: Vec<f64>) -> Result<Vec<(f64, f64)>, Error> {
+    fn table(&self, index: usize) -> Result<Vec<(f64, f64)>, Error> {
+        let size = |name: &str| self.number(index, name).and_then(whole);
+        let sizes = [size("Table_Pre_Scaled_Values_Size"), size("Table_Scaled_Values_Size")];
+        let [Some(count), Some(other)] = sizes else {
+            return Err(self.fault(index, "has no size of its table"));
+        };
+        if count != other || count == 0 {
+            return Err(self.fault(index, &format!("has a table of {count} and {other} values")));
+        }
+        let from = self.list(index, "Table_Pre_Scaled_Values", count)?;
+        let to = self.list(index, "Table_Scaled_Values", count)?;
         let mut table: Vec<(f64, f64)> = from.into_iter().zip(to).collect();
         let rises = |table: &[(f64, f64)]| table.windows(2).all(|pair| pair[0].0 < pair[1].0);
         if !rises(&table) {

@@ -71,7 +71,8 @@ impl Segment {
             // One time for all may begin and step otherwise for each.
             for Group { sampled_s, samples, roles } in self.by_rate(roles, file, &options)? {
                 let roles = Roles { beside_others: true, ..roles };
-                let shape = Shape { sampled_s, ..Shape::plain(file.form, file.letters, seen.headings.len()) };
+                let File { form, letters, .. } = *file;
+                let shape = Shape { form, letters, columns: seen.headings.len(), sampled_s, ..Shape::default() };
                 let mut rows = Rows::new(shape, &roles, &options);
                 for (first, last) in &self.lines {
                     file.pass_over(&mut rows, lines, *first);

@@ -7,13 +7,13 @@ use clatter_shock::samples::LARGEST;
 use super::{NO_VALUE, Rows, Use};
 use crate::Error;
 use crate::decimal::Decimal;
-use crate::heading::{Heading, Named};
+use crate::heading::Heading;
 use crate::moment::{self, CLOCK, DATED};
 use crate::text::cells::{is_beyond, is_missing};
 use crate::text::visible;
 use crate::unit::{Kind, Unit};
 
-/// What a line is.
+/// The kinds of lines.
 pub(super) enum Row {
     Whole,
     /// Of a sensor that was not asked for.
@@ -59,7 +59,7 @@ impl Rows {
         }
     }
 
-    /// What a line is by a word that has to be the same in all, if it is another one.
+    /// Returns what a line is by a word that has to be the same in all, if it is another one.
     fn word(&self, cell: &str, word: usize) -> Result<Option<Row>, Error> {
         let word = &self.shape.words[word];
         let (shown, expected, number) = (visible(cell), visible(&word.expected), word.column + 1);
@@ -200,7 +200,7 @@ impl Rows {
         }
     }
 
-    /// Whether a line is one word and numbers that it tells of: `Max,50`.
+    /// Returns whether a line is one word and numbers that it tells of: `Max,50`.
     pub(super) fn is_labelled(&self, cells: &[Cow<'_, str>]) -> bool {
         let time = self.uses.iter().position(|use_of| matches!(use_of, Use::Time | Use::Acceleration(_))).unwrap_or(0);
         let Some(cell) = cells.get(time).filter(|_| cells.len() > 1) else { return false };
@@ -212,16 +212,12 @@ impl Rows {
         is_word && !is_missing(cell) && !is_beyond(cell)
     }
 
-    /// Whether cells are names of columns.
+    /// Returns whether cells are names of columns.
     pub(super) fn is_heading(cells: &[Cow<'_, str>]) -> bool {
-        let telling = |cell: &Cow<'_, str>| {
-            let heading = Heading::of(cell);
-            heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration)
-        };
-        cells.len() > 1 && cells.iter().any(telling)
+        cells.len() > 1 && cells.iter().any(|cell| Heading::of(cell).is_telling())
     }
 
-    /// Whether a text is a heading by which a column goes on in another unit.
+    /// Returns whether a text is a heading by which a column goes on in another unit.
     pub(super) fn is_other_unit(&self, cell: &str, use_of: Use) -> bool {
         let (kind, size) = match use_of {
             Use::Nothing | Use::Word(_) | Use::Date => return false,

@@ -1,16 +1,15 @@
-//! What the lines of numbers of a text are like.
-
-use encoding_rs::Encoding;
+//! The form of the lines of numbers of a text.
 
 use crate::text::cells::Form;
+use crate::text::encoding::Letters;
 use crate::text::sensors::Word;
 
-/// What the lines of numbers are like.
-#[derive(Debug, Clone)]
+/// The form of the lines of numbers.
+#[derive(Debug, Clone, Default)]
 pub(in crate::text) struct Shape {
     pub(in crate::text) form: Form,
-    /// What text is written in that is no UTF-8.
-    pub(in crate::text) letters: &'static Encoding,
+    /// The letters of text that is no UTF-8.
+    pub(in crate::text) letters: Letters,
     pub(in crate::text) columns: usize,
     /// Time of the first sample, and between samples, where lines above the numbers tell it.
     pub(in crate::text) sampled_s: Option<[f64; 2]>,
@@ -23,21 +22,4 @@ pub(in crate::text) struct Shape {
     /// The column of dates beside times of day.
     pub(in crate::text) date: Option<usize>,
     pub(in crate::text) words: Vec<Word>,
-}
-
-impl Shape {
-    /// Numbers alone.
-    pub(in crate::text) fn plain(form: Form, letters: &'static Encoding, columns: usize) -> Self {
-        Self {
-            form,
-            letters,
-            columns,
-            sampled_s: None,
-            told: None,
-            count: None,
-            measured: vec![false; columns],
-            date: None,
-            words: Vec::new(),
-        }
-    }
 }
