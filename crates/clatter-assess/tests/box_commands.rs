@@ -205,7 +205,11 @@ fn boxes_fail_as_often_as_in_plain_sampling() {
     let fails = (1..=drops).filter(|&k| {
         // A point of the disk of the slopes.
         let [r, turn, e] = shares(k);
-        let drop = single(&file, [0.0, 0.0, 1.0], [v, 2.0 * r.sqrt(), 360.0 * turn, 0.2 + 0.4 * e, 4e-4]);
+        let drop = single(
+            &file,
+            [0.0, 0.0, 1.0],
+            [v, (2.0 * r.sqrt()).to_radians(), std::f64::consts::TAU * turn, 0.2 + 0.4 * e, 4e-4],
+        );
         asked(&file, &drop, 120.0)[0] > 1.0
     });
     #[expect(clippy::cast_precision_loss, reason = "a small count")]
