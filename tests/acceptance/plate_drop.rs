@@ -158,7 +158,7 @@ fn a_part_on_a_plate_is_answered() {
     assert_eq!(
         names(&stiff),
         "acceleration_m_s2 angular_velocity_change_rad_s answers at center_of_mass clatter_free contact_law contact_time_s damping \
-         direction_deg e first gaps_m gravity_m_s2 gyration_m length_m model omega omega_peak_relative_displacement \
+         direction_deg e first gain gaps_m gravity_m_s2 gyration_m length_m model omega omega_peak_relative_displacement \
          peak_absolute_acceleration_over_omega peaks speed_m_s standard tilt_deg time_of_peak tolerance velocity_change_m_s width_m"
     );
     let felt = number(&stiff, "peak_absolute_acceleration_over_omega") * 1e7;
