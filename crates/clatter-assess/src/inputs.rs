@@ -74,6 +74,14 @@ pub struct Optional {
     pub(crate) put: fn(&mut DropRanges, Spread),
 }
 
+impl Optional {
+    /// Whether this value is that of a file that leaves it out.
+    #[must_use]
+    pub fn is_left_out(&self, value: f64) -> bool {
+        value - self.without == 0.0
+    }
+}
+
 /// How the range of an input is searched.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Search {
@@ -265,7 +273,7 @@ impl Input {
     #[must_use]
     pub fn is_there(self, product: &Product, drop: &DropRanges) -> bool {
         let left_out = |given: Spread| {
-            self.row().optional.is_some_and(|optional| given.is_value() && given.lo() == optional.without)
+            self.row().optional.is_some_and(|optional| given.is_value() && optional.is_left_out(given.lo()))
         };
         self.given(product, drop).is_some_and(|given| !left_out(given))
     }

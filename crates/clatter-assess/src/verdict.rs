@@ -375,7 +375,7 @@ impl WorstCase {
     /// Inputs that a file may leave out, with their values where they count.
     pub fn optional(&self) -> impl Iterator<Item = (&'static Row, Optional, f64)> + '_ {
         let value = |(row, optional): (&'static Row, Optional)| Some((row, optional, row.input.value(&self.drop)?));
-        optional_inputs().filter_map(value).filter(|(_, optional, value)| *value != optional.without)
+        optional_inputs().filter_map(value).filter(|(_, optional, value)| !optional.is_left_out(*value))
     }
     /// Along which axis of a box the part is shaken; none of a bar and of a plate.
     #[must_use]
@@ -413,7 +413,7 @@ impl Serialize for WorstCase {
                 (Input::First, _) => map.serialize_entry(&title, if drop.first() == End::A { "a" } else { "b" })?,
                 (Input::Direction, _) => self.direction_deg().map_or(Ok(()), |at| map.serialize_entry(&title, &at))?,
                 (Input::Gyration, _) => map.serialize_entry(&title, &self.gyration_m())?,
-                (_, Some(value)) if row.optional.is_some_and(|optional| optional.without == value) => {}
+                (_, Some(value)) if row.optional.is_some_and(|optional| optional.is_left_out(value)) => {}
                 (input, Some(value)) if input.is_angle() => map.serialize_entry(&title, &value.to_degrees())?,
                 (_, value) => map.serialize_entry(&title, &value)?,
             }

@@ -442,7 +442,7 @@ mod tests {
         let body = Body::from(Profile::new(0.15, 0.043).unwrap()).with_width(side(0.07)).with_thickness(side(0.02));
         let drop = Drop { is_level: false, contact_time_s: Some(1e-4), ..Drop::new(body, 3.0, 0.05, 0.4) };
         for (restitution, gravity_m_s2) in [(0.0, 0.0), (0.5, 0.0), (1.0, 9.81), (0.0, 9.81)] {
-            let settled_s = Drop { restitution, gravity_m_s2, ..drop }.settled_s();
+            let settled_s = Drop { gravity_m_s2, restitution, ..drop }.settled_s();
             assert!(settled_s > 0.3, "{restitution}, {gravity_m_s2}: {settled_s}");
         }
     }

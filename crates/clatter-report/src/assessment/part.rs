@@ -148,7 +148,8 @@ fn drop(worst: &WorstCase) -> String {
 /// Inputs that a file may leave out, where they count.
 fn optional(worst: &WorstCase) -> String {
     let each = worst.optional();
-    each.map(|(row, optional, x)| format!(", {} {}", optional.phrase, span([x; 2], 1.0, row.unit))).collect()
+    let told = each.map(|(row, optional, x)| format!(", {} {}", optional.phrase, span([x; 2], 1.0, row.unit)));
+    told.collect::<Vec<_>>().concat()
 }
 
 /// Up to which tilt both ends land as one.
