@@ -95,6 +95,13 @@ pub(crate) fn check_drop(drop: &Drop, place: &Place) -> Result<(), Error> {
     if !(0.0..=FRAC_PI_2).contains(&drop.tilt_rad) {
         return Err(Error::Setting { name: "tilt in rad", value: drop.tilt_rad, allowed: "in [0, pi/2]" });
     }
+    let sides = [Some(drop.body.length), drop.body.width, drop.body.thickness].into_iter().flatten();
+    for value in sides.flat_map(|side| side.ends_m) {
+        if !(0.0..=1e30).contains(&value) {
+            let (name, allowed) = ("distance of an end from the center of mass in m", "0 or more");
+            return Err(Error::Setting { name, value, allowed });
+        }
+    }
     for (name, value) in drop.body.feet.iter().flat_map(|feet| {
         let [x, y] = feet.inset_m;
         [("inset of the feet in m", x), ("inset of the feet in m", y), ("height of the feet in m", feet.height_m)]

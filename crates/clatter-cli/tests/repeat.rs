@@ -146,7 +146,7 @@ fn a_drop_that_is_none_is_refused() {
     with(&|drop| drop["drop"]["speed_m_s"] = (-3.0).into(), "speed in m/s = -3.0");
     with(&|drop| drop["drop"]["restitution"] = 1.5.into(), "1.5 is not in [0, 1]");
     with(&|drop| drop["drop"]["contact_time_s"] = 0.0.into(), "contact time in s is 0.0");
-    with(&|drop| drop["drop"]["body"]["length"]["ends_m"][0] = (-1.0).into(), " in m = -1.0");
+    with(&|drop| drop["drop"]["body"]["length"]["ends_m"][0] = (-1.0).into(), "from the center of mass in m is -1.0");
     with(&|drop| drop["place"]["at_m"][0] = 9.0.into(), "position of the part in m is 9.0");
     with(&|drop| drop["tolerance"] = 7.0.into(), "the tolerance is 7.0");
     for (text, said) in cases {
