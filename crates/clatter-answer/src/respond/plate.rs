@@ -128,7 +128,7 @@ pub struct Answer {
     /// Corners with a contact of their own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<ContactAt>,
-    /// OneDrop for.
+    /// How exact the answer is for the model, as a share of it.
     pub tolerance: Json,
     /// The place that is answered.
     pub at: [Json; 2],

@@ -1,6 +1,6 @@
 //! HDF5, and MATLAB 7.3, which is HDF5 with the sides of a matrix exchanged.
 //!
-//! Groups are collectored; a column goes by the path of its data set. Attributes of a data set, or of a group it lies in,
+//! A column goes by the path of its data set. Attributes of a data set, or of a group it lies in,
 //! give its unit and its rate.
 
 use super::number::Number;
