@@ -157,7 +157,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance, requires = "followed")]
     tolerance: f64,
     /// One drop with its part as JSON, as `clatter assess` writes it (`worst_case.drop`): a file, or - for standard input
-    #[arg(long = "drop", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER, conflicts_with_all = ["shocks_file", "pulses_file", "output", "omega", "frequency"])]
+    #[arg(long = "drop", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER, conflicts_with_all = ["shocks_file", "pulses_file", "output", "omega", "frequency", "damping", "q_factor", "equivalent_pulse", "product", "worst"])]
     case: Option<PathBuf>,
     /// Velocity shocks instead of a clatter: a table with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER)]

@@ -2,21 +2,18 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::respond::Largest;
 use clatter_answer::respond::block::{self, Answer, Question};
 use clatter_assess::WorstCase;
 use clatter_flight::Contact;
 use clatter_shock::Suspension;
 
-use super::peaks::doubts;
+use super::peaks::{largest_values, place};
 use super::{Args, limits};
 use crate::block::{Axis, Setup};
 use crate::drop_args::BesideBlock;
 use crate::inputs::Format;
-use crate::numbers::{figures, given};
 use crate::one_drop::{OneDrop, PartSetup};
-use crate::quantities::{Show, neat};
-use crate::words::in_words;
+use crate::quantities::Show;
 use crate::{Failure, Streams};
 
 impl Args {
@@ -122,27 +119,9 @@ fn table(answer: &Answer, setup: &Setup, of_file: Option<(&PartSetup, Show)>, ou
     if !own.is_empty() {
         writeln!(out, "Contacts of their own{}", own.replacen(';', ":", 1))?;
     }
-    let [x, y, z] = answer.at_m.map(|x| given(neat(1e3 * x.0)));
-    let axis = if answer.axis == "any" { "in magnitude".to_owned() } else { format!("along {}", answer.axis) };
-    writeln!(out, "Place at {x}, {y}, {z} mm from the middle, {axis}")?;
+    place(answer.at_m.map(|x| x.0), answer.axis, out)?;
     if let Some(((part, time), limits)) = of_file.zip(answer.place.limits.as_ref()) {
         limits::table(part, limits, time, out)?;
     }
-    let row = |out: &mut dyn Write, name: &str, largest: Option<Largest>| {
-        let Some(Largest { value, unit, time_s, impact, .. }) = largest else { return Ok(()) };
-        let (value, when) = (in_words(unit, None, value.0), figures(1e3 * time_s.0));
-        writeln!(out, "  {name:<26}{value:>18}{when:>13}  at impact {impact}")
-    };
-    let of = &answer.place.answers;
-    writeln!(out, "\nLargest at this place                             when, ms")?;
-    row(out, "change of velocity", of.velocity_change)?;
-    row(out, "acceleration", of.acceleration)?;
-    row(out, "change of angular velocity", of.angular_velocity_change)?;
-    if let Some(part) = &answer.place.part {
-        let [omega, damping] = [part.omega, part.damping].map(|of| given(super::six(of.0)));
-        writeln!(out, "\nPeak of the part, W = {omega} rad/s, damping ratio {damping}")?;
-        row(out, "acceleration", of.part_acceleration)?;
-        row(out, "relative displacement", of.part_displacement)?;
-    }
-    doubts(answer.tolerance.0, of, out)
+    largest_values(&answer.place, answer.tolerance.0, out)
 }
