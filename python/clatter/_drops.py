@@ -23,7 +23,7 @@ STANDARD_GRAVITY = 9.80665
 
 
 def _impacts(answer: Answer) -> Rows:
-    points = "ab" if "length_m" in answer and "width_m" not in answer else "abcd"
+    points = "" if "size_m" in answer else "abcd" if "width_m" in answer else "ab"
     return [flat(impact, points) for impact in answer.impacts]
 
 
@@ -88,7 +88,7 @@ def simulate(
         What the ground does meanwhile; hysteretic unless given.
     time_limit_s : float, optional
         Time for which the motion is followed, in s.
-    impact_limit : int
+    impact_limit : int, optional
         Strikes that are followed at most: 100 000, of a plate by map 1000 unless given.
     at : list of float or of (float, float)
         Positions in [-1, 1] whose velocity shocks are asked for.
@@ -108,78 +108,27 @@ def simulate(
     >>> drop.impacts[0].end, drop.impacts[0].approach_m_s, drop.stop.reason
     ('a', -4.43, 'at-rest')
     """
-    limit = impact_limit or (1000 if width_m is not None and model == "map" else 100_000)
-    si = _floats(
+    inputs = _inputs(
         length_m=length_m, width_m=width_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m,
         tilt_deg=tilt_deg, direction_deg=direction_deg, gravity_m_s2=gravity_m_s2, contact_time_s=contact_time_s,
-        time_limit_s=time_limit_s,
+        gyration_m=gyration_m, center_of_mass=center_of_mass, center_of_mass_m=center_of_mass_m, gaps_m=gaps_m,
+        orientation=orientation, spin_rad_s=spin_rad_s, contact_law=contact_law,
     )  # fmt: skip
-    rest = (si["time_limit_s"], whole("impact_limit", limit, 1, 10**8))
-    if width_m is not None and (thickness_m is not None or orientation is not None):
-        if model != "compliant":
-            raise ValueError("a box is followed by model='compliant' alone")
-        if len(at) or history or gaps_m is not None or center_of_mass is not None:
-            raise ValueError("at, history, gaps_m and center_of_mass are not those of a box")
-        box = _box(si, gyration_m, center_of_mass_m, orientation, spin_rad_s)
-        return told(_clatter.simulate_box(*[*box, si["contact_time_s"], contact_law, *rest]), _box_impacts)
-    if center_of_mass_m is not None or orientation is not None:
-        raise ValueError("center_of_mass_m and orientation are those of a box: give width_m and thickness_m")
-    places: Any = positions(at) or []
-    if width_m is not None:
-        if spin_rad_s is not None or history:
-            raise ValueError("spin_rad_s and history are not those of a plate")
-        plate = _plate(si, gyration_m, center_of_mass, gaps_m)
-        contacts = (model, si["contact_time_s"], contact_law)
-        return told(_clatter.simulate_plate(*[*plate, *contacts, *rest, places]), _impacts)
-    if gaps_m is not None or direction_deg is not None:
-        raise ValueError("gaps_m and direction_deg are those of a plate: give width_m")
-    bar, spin = _bar(si, gyration_m, center_of_mass), 0.0 if spin_rad_s is None else number("spin_rad_s", spin_rad_s)
-    contact = (si["contact_time_s"], contact_law)
-    return told(_clatter.simulate(bar, model, *contact, spin, *rest, places, history), _impacts)
+    limit = None if impact_limit is None else whole("impact_limit", impact_limit, 1, 10**8)
+    places = [place if isinstance(place, tuple) else (place, 0.0) for place in positions(at) or []]
+    limits = (optional("time_limit_s", time_limit_s), limit)
+    return told(_clatter.simulate(inputs, model, *limits, places, history), _impacts)
 
 
-def _box_impacts(answer: Answer) -> Rows:
-    return [flat(impact, "") for impact in answer.impacts]
+_LISTS = {"gyration_m": (), "center_of_mass": (), "center_of_mass_m": (3,), "gaps_m": (2,), "orientation": (4,), "spin_rad_s": ()}
 
 
-def _floats(**given: Any) -> dict[str, Any]:
-    return {name: optional(name, value) for name, value in given.items()}
-
-
-def _need(si: dict[str, Any], *names: str) -> None:
-    missing = [name for name in names if si[name] is None]
-    if missing:
-        raise ValueError(f"the drop is not whole: give {', '.join(missing)}")
-
-
-def _bar(si: dict[str, Any], gyration_m: Any, center_of_mass: Any) -> dict[str, Any]:
-    _need(si, "e", "tilt_deg")
-    names = ("length_m", "e", "speed_m_s", "height_m", "tilt_deg", "gravity_m_s2")
-    return {
-        **{name: si[name] for name in names},
-        "gyration_m": numbers("gyration_m", gyration_m, 1)[0],
-        "center_of_mass": 0.0 if center_of_mass is None else numbers("center_of_mass", center_of_mass, 1)[0],
-        "thickness_m": si["thickness_m"] or 0.0,
-    }
-
-
-def _plate(si: dict[str, Any], gyration_m: Any, center_of_mass: Any, gaps_m: Any) -> tuple[Any, ...]:
-    if si["tilt_deg"]:
-        _need(si, "direction_deg")
-    center = [0.0] * 2 if center_of_mass is None else numbers("center_of_mass", center_of_mass, 2)
-    body = ([si["length_m"], si["width_m"]], numbers("gyration_m", gyration_m, 2), center, si["e"])
-    gaps = None if gaps_m is None else numbers("gaps_m", gaps_m, 2)
-    return (*body, si["speed_m_s"], si["height_m"], si["gravity_m_s2"], gaps, si["tilt_deg"], si["direction_deg"] or 0.0)
-
-
-def _box(si: dict[str, Any], gyration_m: Any, center_m: Any, orientation: Any, spin_rad_s: Any) -> tuple[Any, ...]:
-    _need(si, "thickness_m", "contact_time_s")
-    center = [0.0] * 3 if center_m is None else numbers("center_of_mass_m", center_m, 3)
-    spin = [0.0] * 3 if spin_rad_s is None else numbers("spin_rad_s", spin_rad_s, 3)
-    turn = None if orientation is None else numbers("orientation", orientation, 4)
-    size = [si["length_m"], si["width_m"], si["thickness_m"]]
-    fall = (si["speed_m_s"], si["height_m"], si["gravity_m_s2"], turn, si["tilt_deg"], si["direction_deg"] or 0.0)
-    return (size, numbers("gyration_m", gyration_m, 3), center, si["e"], *fall, spin)
+def _inputs(**given: Any) -> dict[str, Any]:
+    """The inputs of one drop: numbers, but for lists, names and whether it lands flat."""
+    plain = {name: given.pop(name, None) for name in ("contact_law", "first", "flat")}
+    lists = {name: given.pop(name, None) for name in _LISTS}
+    values = {name: None if value is None else numbers(name, value, *_LISTS[name]) for name, value in lists.items()}
+    return {**plain, **values, **{name: optional(name, value) for name, value in given.items()}}
 
 
 def respond(
@@ -189,22 +138,29 @@ def respond(
     e: float | None = None,
     q: float | None = None,
     gyration_ratio: float | None = None,
-    center_of_mass: float | None = None,
+    center_of_mass: float | Sequence[float] | None = None,
     masses: Sequence[Piece] | None = None,
     velocity: tuple[float, float] | None = None,
     height_gap: float | None = None,
-    at: float | None = None,
+    at: float | Sequence[float] | None = None,
+    axis: Literal["x", "y", "z", "any"] | None = None,
     omega: float | None = None,
     frequency_hz: float | None = None,
     damping: float | None = None,
     q_factor: float | None = None,
     model: Model | None = None,
     length_m: float | None = None,
-    gyration_m: float | None = None,
+    width_m: float | None = None,
     thickness_m: float | None = None,
+    gyration_m: float | Sequence[float] | None = None,
     speed_m_s: float | None = None,
     height_m: float | None = None,
     tilt_deg: float | None = None,
+    direction_deg: float | None = None,
+    gaps_m: tuple[float, float] | None = None,
+    orientation: tuple[float, float, float, float] | None = None,
+    center_of_mass_m: Triple | None = None,
+    spin_rad_s: float | Sequence[float] | None = None,
     gravity_m_s2: float = STANDARD_GRAVITY,
     contact_time_s: float | None = None,
     contact_law: Law | None = None,
@@ -222,14 +178,16 @@ def respond(
         Velocity shocks in the order of time.
     e, q, gyration_ratio, center_of_mass, masses, velocity, height_gap
         Else a bar as in :func:`impacts`, in v0 and h0 or all in SI.
-    at : float
-        Where the part is on the bar, in [-1, 1].
+    at : float, (float, float) or (float, float, float)
+        Where the part is in half-sides from the middle, in [-1, 1]: one value of a bar, two of a plate, three of a box.
+    axis : {'x', 'y', 'z', 'any'}, optional
+        Of a box: the axis along which the part moves, z unless given; any is the magnitude, of a part that is mounted rigidly.
     omega, frequency_hz : float
         Natural angular frequency in v0/h0 or rad/s, or natural frequency in Hz.
     damping, q_factor : float
         Damping ratio, or 1/(2 damping); Q = 10 unless given.
-    length_m, gyration_m, thickness_m, speed_m_s, height_m, tilt_deg, gravity_m_s2, model, contact_time_s, contact_law
-        Else a drop of a bar as in :func:`simulate`, with e and center_of_mass.
+    length_m, gyration_m and others, model, contact_time_s, contact_law
+        Else a drop as in :func:`simulate`, with e and center_of_mass.
     first : {'a', 'b'}, optional
         Of a drop: the end that touches first.
     flat : bool
@@ -255,22 +213,25 @@ def respond(
             raise ValueError(
                 "length_m makes a drop in SI units: pulses, shocks, q, gyration_ratio and masses do not go with it"
             )
-        si = _floats(
-            length_m=length_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m, tilt_deg=tilt_deg,
-            gravity_m_s2=gravity_m_s2, gyration_m=gyration_m, at=at, contact_time_s=contact_time_s,
-            frequency_hz=frequency_hz if omega is None else number("omega", omega) / _TAU,
+        inputs = _inputs(
+            length_m=length_m, width_m=width_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m,
+            tilt_deg=tilt_deg, direction_deg=direction_deg, gravity_m_s2=gravity_m_s2, contact_time_s=contact_time_s,
+            gyration_m=gyration_m, center_of_mass=center_of_mass, center_of_mass_m=center_of_mass_m, gaps_m=gaps_m,
+            orientation=orientation, spin_rad_s=spin_rad_s, contact_law=contact_law, first=first, flat=flat,
         )  # fmt: skip
-        _need(si, "gyration_m", "at")
-        drop, contact = _bar(si, gyration_m, center_of_mass), (si["contact_time_s"], contact_law, first, flat)
-        part = (si["at"], si["frequency_hz"], optional("damping", damping), optional("q_factor", q_factor))
-        return told(_clatter.respond_drop(drop, model, *contact, *part, number("tolerance", tolerance)))
+        if at is None:
+            raise ValueError("the drop is not whole: give at")
+        hz = optional("frequency_hz", frequency_hz) if omega is None else number("omega", omega) / _TAU
+        part = (hz, optional("damping", damping), optional("q_factor", q_factor))
+        return told(_clatter.respond_drop(inputs, model, numbers("at", at), axis, *part, number("tolerance", tolerance)))
     if (omega is None) == (frequency_hz is None):
         raise ValueError("one of omega and frequency_hz says how the part swings")
     swing = _TAU * number("frequency_hz", frequency_hz) if omega is None else number("omega", omega)
-    si = _floats(q=q, gyration_ratio=gyration_ratio, center_of_mass=center_of_mass)
+    given = {"q": q, "gyration_ratio": gyration_ratio, "center_of_mass": center_of_mass, "at": at}
+    *mass, place = [optional(name, value) for name, value in given.items()]
     pieces = None if masses is None else rows("masses", masses, 2, 3)
     start = (None if velocity is None else numbers("velocity", velocity, 2), optional("height_gap", height_gap))
-    bar = (optional("e", e), *si.values(), pieces, *start, optional("at", at))
+    bar = (optional("e", e), *mass, pieces, *start, place)
     damped = (optional("damping", damping), optional("q_factor", q_factor))
     return told(_clatter.respond(*[_shaken(pulses, shocks), *bar, swing, *damped]))
 

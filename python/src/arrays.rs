@@ -3,8 +3,8 @@
 use std::fmt::Display;
 
 use clatter::{Count, End, Error, PeakImpact, Plate, PlateCount, PlateStart, Start};
-use clatter_answer::simulate;
-use clatter_flight::{Block, BlockDrop, Contact};
+use clatter_answer::{DropInputs, simulate};
+use clatter_assess::Model;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -316,17 +316,29 @@ pub(crate) fn boxes<'py>(
     let law = bodies::law(contact_law)?;
     let row = move |i| {
         let triple = |columns: &[Column; 3]| [columns[0].at(i), columns[1].at(i), columns[2].at(i)];
-        let block = Block::new(triple(&size_m), triple(&center_of_mass_m), triple(&gyration_m))?;
-        let orientation = std::array::from_fn(|k| orientation[k].at(i));
-        let drop = BlockDrop::new(block, orientation, speed_m_s.at(i), gravity_m_s2.at(i))?;
-        let drop = drop.with_spin(triple(&spin_rad_s))?;
-        let contact = Contact::new(law, e.at(i), contact_time_s.at(i))?;
-        let answer = simulate::block::answer(&simulate::block::Question::new(drop, contact))?;
+        let [length_m, width_m, thickness_m] = triple(&size_m).map(Some);
+        let inputs = DropInputs {
+            length_m,
+            width_m,
+            thickness_m,
+            gyration_m: Some(triple(&gyration_m).to_vec()),
+            center_of_mass_m: Some(triple(&center_of_mass_m)),
+            orientation: Some(std::array::from_fn(|k| orientation[k].at(i))),
+            spin_rad_s: Some(triple(&spin_rad_s).to_vec()),
+            e: Some(e.at(i)),
+            speed_m_s: Some(speed_m_s.at(i)),
+            gravity_m_s2: Some(gravity_m_s2.at(i)),
+            contact_time_s: Some(contact_time_s.at(i)),
+            contact_law: Some(law),
+            ..DropInputs::default()
+        };
+        let question = simulate::Question::new(inputs.drop(Model::Compliant)?, Model::Compliant);
+        let simulate::Answer::Block(answer) = simulate::answer(&question)? else { return Ok([f64::NAN; 5]) };
         let largest = answer.impacts.iter().map(simulate::block::Impact::largest_m_s).fold(0.0, f64::max);
         #[expect(clippy::cast_precision_loss, reason = "a small number")]
         let count = answer.impacts.len() as f64;
         let at_rest = if answer.stop.reason() == "at-rest" { 1.0 } else { 0.0 };
-        Ok::<_, clatter_flight::Error>([count, largest, answer.stop.time_s(), at_rest, answer.energy_error.0])
+        Ok::<_, clatter_answer::Error>([count, largest, answer.stop.time_s(), at_rest, answer.energy_error.0])
     };
     let names = ["count", "largest_delta_v_m_s", "stop_time_s", "at_rest", "energy_error"];
     named(py, names, columns(py, shape, row)?)

@@ -37,7 +37,7 @@ mod _clatter {
     #[pymodule_export]
     use crate::arrays::{bars, boxes, plates, shocks, trains, zones};
     #[pymodule_export]
-    use crate::drops::{simulate, simulate_box, simulate_plate};
+    use crate::drops::simulate;
     #[pymodule_export]
     use crate::maps::map;
     #[pymodule_export]

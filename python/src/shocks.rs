@@ -2,15 +2,15 @@
 
 use clatter_answer::respond::{self as respond_of, Excitation, drop as drop_of};
 use clatter_answer::shape_name;
-use clatter_assess::Model;
+use clatter_assess::{Axis, Model};
 use clatter_shock::{Pulses, Shape, Suspension};
 use pyo3::prelude::*;
 
 use crate::answered::{Answered, json};
-use crate::bodies::{Body, Piece, Ratio, damping, law, model, start};
-use crate::drops::{Fall, scene};
+use crate::bodies::{Body, Piece, Ratio, damping, model, start};
+use crate::drops::Inputs;
 use crate::records::velocity_shocks;
-use crate::{refused, single, work};
+use crate::{refused, work};
 
 /// A pulse of acceleration.
 #[pyclass(frozen, module = "clatter._clatter", name = "PulseData")]
@@ -129,32 +129,21 @@ pub(crate) fn respond(
 #[pyfunction]
 pub(crate) fn respond_drop(
     py: Python<'_>,
-    fall: Fall,
+    inputs: Inputs,
     model_name: Option<&str>,
-    contact_time_s: Option<f64>,
-    contact_law: Option<&str>,
-    first: Option<&str>,
-    flat: bool,
-    at: f64,
+    at: Vec<f64>,
+    axis: Option<&str>,
     frequency_hz: Option<f64>,
     damping_ratio: Option<f64>,
     q_factor: Option<f64>,
     tolerance: f64,
 ) -> PyResult<Answered> {
     let model = model_name.map_or(Ok(Model::Compliant), model)?;
-    if model == Model::Compliant && contact_time_s.is_none() {
-        return Err(refused("the drop is not whole: give contact_time_s"));
-    }
-    if flat && model == Model::Compliant {
-        return Err(refused("flat goes with instant impacts: contacts that take time land flat with tilt_deg=0"));
-    }
-    let mut question = drop_of::Question::new(scene(&fall)?, model, at);
-    question.first = first.map_or(Ok(clatter::End::A), single::end)?;
-    (question.flat, question.contact_time_s, question.tolerance) = (flat, contact_time_s, tolerance);
-    question.contact_law = contact_law.map_or(Ok(question.contact_law), law)?;
+    let drop = inputs.drop(model)?;
+    let place = drop_of::place(&drop, &at, Axis::of(axis.unwrap_or("z"))).map_err(refused)?;
+    let mut question = drop_of::Question::new(drop, model, place);
     let suspension = frequency_hz.map(|hz| Suspension::from_hz(hz, damping(damping_ratio, q_factor)?).map_err(refused));
-    question.suspension = suspension.transpose()?;
-    (question.center_of_mass, question.tilt_deg) = (fall.center_of_mass, fall.tilt_deg);
+    (question.suspension, question.tolerance) = (suspension.transpose()?, tolerance);
     let told = work::done(py, move |_| json(&drop_of::answer(&question).map_err(|error| error.to_string())?));
     Ok((told?.map_err(refused)?, None))
 }

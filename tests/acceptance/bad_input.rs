@@ -129,7 +129,7 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--equivalent-pulse", "--shock-table=1,2,3"], &["--shock-table", "SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE"]),
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--equivalent-pulse", "--shock-table=2:1,3,4"], &["--shock-table", "2 ms, is longer than the longest, 1 ms"]),
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--equivalent-pulse", "--shock-table=1:2,nan,4"], &["--shock-table", "acceleration in gn = NaN is not finite and > 0"]),
-    (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--omega=1", "--contact-time-s=1e-4", "--spin-rad-s=0,0,1"], &["--spin-rad-s", "takes one value for a bar", "three"]),
+    (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--omega=1", "--contact-time-s=1e-4", "--spin-rad-s=0,0,1"], &["--spin-rad-s", "one value for a bar", "three"]),
     (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--omega=1", "--contact-time-s=1e-4", "--impact-limit=1"], &["unexpected argument '--impact-limit'"]),
     (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--omega=1", "--contact-time-s=1e-4", "--time-limit-s=1e-4"], &["unexpected argument '--time-limit-s'"]),
     (&["respond", "--q=0.5", "--e=0.3", "--at=1", "--omega=3", "--equivalent-pulse"], &["--equivalent-pulse", "SI units"]),

@@ -48,7 +48,7 @@ const REFUSED: &[(&str, &[&str], &[&str])] = &[
     ("map", &["--tilt-deg=-5"], &["--tilt-deg", "-5.0", "[1e-60, 90)"]),
     ("map", &["--speed-m-s=0"], &["--speed-m-s", "0.0", "[1e-30, 1e30]"]),
     ("map", &["--speed-m-s", "--height-m=-1"], &["--height-m", "-1.0", "[1e-30, 1e30]"]),
-    ("map", &["--speed-m-s", "--height-m=1", "--gravity-m-s2=0"], &["--height-m", "--gravity-m-s2 above 0"]),
+    ("map", &["--speed-m-s", "--height-m=1", "--gravity-m-s2=0"], &["--height-m", "gravity above 0"]),
     ("map", &["--height-m=1"], &["--speed-m-s", "--height-m", "cannot be used with"]),
     ("map", &["--gravity-m-s2=-9.81"], &["--gravity-m-s2", "-9.81", "[1e-60, 1e30]"]),
     ("map", &["--time-limit-s=0"], &["--time-limit-s", "0.0", "positive"]),

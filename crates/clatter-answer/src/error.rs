@@ -17,6 +17,17 @@ pub enum Error {
         /// The range that makes sense.
         allowed: &'static str,
     },
+    /// Inputs without which there is no drop.
+    #[error("the drop is not whole: give {}", .0.join(", "))]
+    Missing(Vec<&'static str>),
+    /// An input that no drop has, or not beside the others.
+    #[error("{name}: {reason}")]
+    Input {
+        /// Its name, with its unit.
+        name: &'static str,
+        /// The value and what is allowed.
+        reason: String,
+    },
     /// A pulse that no part is followed through.
     #[error("a pulse of {duration_s:?} s lasts more than 100000 periods of a component of {frequency_hz:?} Hz")]
     LongPulse {
@@ -76,6 +87,12 @@ pub enum Error {
     /// What a record does not hold.
     #[error(transparent)]
     Record(#[from] clatter_record::Error),
+}
+
+impl Error {
+    pub(crate) fn input(name: &'static str, reason: impl Into<String>) -> Self {
+        Self::Input { name, reason: reason.into() }
+    }
 }
 
 impl From<clatter_assess::Error> for Error {

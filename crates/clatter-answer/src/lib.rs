@@ -5,10 +5,9 @@
 //! - If you have a bar and how it falls, call [`impacts::answer`] for its impacts; of a plate [`impacts::plate::answer`].
 //! - If you have a bar and what velocity shock a part survives, call [`zone::answer`]; of a plate [`zone::plate::answer`].
 //! - If you want one quantity over all bars, call [`map::answer`].
-//! - If you have a drop in m and m/s and want its strikes in time, call [`simulate::answer`]; of a plate
-//!   [`simulate::plate::answer`], of a box [`simulate::block::answer`].
-//! - If you have a part and what shakes it, a bar, shocks or pulses, call [`respond::answer`]; of a drop in m and m/s
-//!   [`respond::drop::answer`], of a plate [`respond::plate::answer`], of a box [`respond::block::answer`].
+//! - If you have a drop in m and m/s, [`DropInputs`] makes it of numbers: call [`simulate::answer`] for its strikes in time, and
+//!   [`respond::drop::answer`] for what it does to a part.
+//! - If you have a part and what shakes it, a bar, shocks or pulses, call [`respond::answer`].
 //! - If you have a product file, call [`assess::answer`] for verdicts, [`scatter::answer`] for how likely its parts survive,
 //!   [`design::answer`] for what would make them safe; with records of a measured drop [`fit::answer`].
 //! - If you have a record of accelerations, call [`record::answer`] for what it holds, [`spectrum::answer`] for what parts make of it.
@@ -32,6 +31,7 @@
 pub mod assess;
 pub mod atlas;
 pub mod design;
+mod drop_inputs;
 mod error;
 pub mod explain;
 pub mod fit;
@@ -50,6 +50,7 @@ pub mod zone;
 use clatter::End;
 use clatter_assess::visible;
 use clatter_shock::Shape;
+pub use drop_inputs::DropInputs;
 pub use error::Error;
 pub use numbers::{Json, JsonCount, JsonWhole, figures, neat, significant, whole};
 pub use versioned::{VERSION, Versioned};
@@ -82,22 +83,6 @@ pub fn shape_name(shape: Shape) -> String {
 fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), clatter::Error> {
     match positions.into_iter().find(|s| !(-1.0..=1.0).contains(s)) {
         Some(value) => Err(clatter::Error::Quantity { name: "position", value, allowed: "in [-1, 1]" }),
-        None => Ok(()),
-    }
-}
-
-/// The same of a body so long that lands on feet: parts may lie beyond them.
-fn on_body_beyond(
-    positions: impl IntoIterator<Item = f64>,
-    length_m: f64,
-    inset_m: Option<f64>,
-) -> Result<(), clatter::Error> {
-    let Some(inset_m) = inset_m else { return on_body(positions) };
-    let most = (1.0 + 2.0 * inset_m / length_m) * (1.0 + 1e-9);
-    match positions.into_iter().find(|s| !(-most..=most).contains(s)) {
-        Some(value) => {
-            Err(clatter::Error::Quantity { name: "position", value, allowed: "up to the edges beyond its feet" })
-        }
         None => Ok(()),
     }
 }

@@ -12,48 +12,27 @@
 //! # Ok::<(), clatter_answer::Error>(())
 //! ```
 //!
-//! The drops of [`mod@drop`], [`plate`] and [`block`] are in SI units; [`rule`] has the same part at all natural frequencies.
+//! The drops of [`mod@drop`] are in SI units; [`rule`] has the same part at all natural frequencies.
 
-pub mod block;
-pub mod case;
 pub mod drop;
 mod limits;
 mod peaks;
-pub mod plate;
 pub mod rule;
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
 use clatter::{Bar, Start};
-use clatter_assess::OwnContacts;
 use clatter_shock::{Pulse, Pulses, Response, ShockTable, Suspension, VelocityShock, VelocityShocks};
 use serde::Serialize;
 
 use crate::error::within_periods;
 use crate::{Error, Json, on_body};
-pub use limits::{AtPlace, Limit, Position};
+pub use limits::{AtPlace, Limit};
 pub use peaks::{
     AllPeaks, Equivalent, Extreme, Extremes, Factors, HalfSine, Largest, LargestValues, NOTHING_FELT, Peaks,
     ServiceCondition,
 };
-
-/// A contact of its own, as the product has it.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct ContactAt {
-    /// The end or the corner.
-    pub at: &'static str,
-    /// Its restitution.
-    pub e: Json,
-    /// How long a lone contact takes there.
-    pub contact_time_s: Option<Json>,
-}
-
-/// Contacts of their own beside those of a product with this restitution and contact time.
-fn contacts(own: &OwnContacts, e: f64, contact_time_s: Option<f64>) -> Vec<ContactAt> {
-    let one = |(at, e, time_s): (_, f64, Option<f64>)| ContactAt { at, e: Json(e), contact_time_s: time_s.map(Json) };
-    own.told(e, contact_time_s).map(one).collect()
-}
 
 /// What shakes a part.
 #[derive(Debug, Clone)]

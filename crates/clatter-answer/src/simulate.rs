@@ -1,113 +1,82 @@
-//! One drop of a bar in time: its strikes, how hard they are, and how it comes to rest.
+//! One drop in time: its strikes, how hard they are, and how it comes to rest.
 //!
 //! ```
-//! use clatter_answer::simulate;
-//! use clatter_flight::{Profile, Model, Scene};
+//! use clatter_answer::simulate::{self, Answer};
+//! use clatter_assess::{Body, Drop, Model};
 //! // Mass spread evenly over 140 mm, at 4.43 m/s and a tilt of 5°.
-//! let scene = Scene::new(Profile::new(0.14, 0.0404)?, 0.3, 4.43, 5.0, 9.806_65)?;
-//! let answer = simulate::answer(&simulate::Question::new(scene, Model::FiniteTilt))?;
+//! let drop = Drop::new(Body::new(0.14, 0.0404)?, 4.43, 5_f64.to_radians(), 0.3);
+//! let Answer::Bar(answer) = simulate::answer(&simulate::Question::new(drop, Model::FiniteTilt))? else { panic!("a bar") };
 //! let first = answer.impacts.iter().next().expect("an impact");
 //! assert_eq!((first.end, first.approach_m_s.0, answer.stop.reason()), ("a", -4.43, "at-rest"));
-//! # Ok::<(), clatter_flight::Error>(())
+//! # Ok::<(), clatter_answer::Error>(())
 //! ```
 
+pub mod bar;
 pub mod block;
 pub mod plate;
 
-use clatter::End;
-use clatter_flight::{Contact, Error, Model, Motion, Scene, Stop, Strike};
+use clatter_assess::{Drop, Model};
+use clatter_flight::{Contact, Stop};
 use serde::{Serialize, Serializer};
 
-use crate::{Json, letter, on_body};
+use crate::{Error, Json};
 
-/// A drop of a bar, and the physics that is kept of it.
+/// A drop, and the physics that is kept of it.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Question {
     /// The drop.
-    pub scene: Scene,
+    pub drop: Drop,
     /// What is kept of it.
     pub model: Model,
-    /// Positions in [−1, 1] whose velocity shocks are asked for.
-    pub at: Vec<f64>,
-    /// From end to end, as it is told.
-    pub length_m: f64,
-    /// Center of mass in [−1, 1], as it is told.
-    pub center_of_mass: f64,
-    /// Tilt at the first touch in degrees, as it is told.
-    pub tilt_deg: f64,
+    /// Places of a bar or a plate whose velocity shocks are asked for, in half-lengths and half-widths from the middle, seen so that what
+    /// touches first is end a or corner a.
+    pub at: Vec<[f64; 2]>,
     /// Height from which it fell, where that was given.
     pub height_m: Option<f64>,
+    /// Until when it is followed, where that is limited.
+    pub time_limit_s: Option<f64>,
+    /// Strikes that are followed at most: 100 000 unless given, of a plate without gravity 1000.
+    pub impact_limit: Option<usize>,
 }
 
 impl Question {
-    /// All told as the scene has it, without a place but the ends.
+    /// Until it rests, without a place but its ends or corners.
     #[must_use]
-    pub fn new(scene: Scene, model: Model) -> Self {
-        let [a, b] = scene.body().arms_m();
-        Self {
-            scene,
-            model,
-            at: Vec::new(),
-            length_m: a + b,
-            center_of_mass: (a - b) / (a + b),
-            tilt_deg: scene.tilt_rad().to_degrees(),
-            height_m: None,
-        }
+    pub fn new(drop: Drop, model: Model) -> Self {
+        Self { drop, model, at: Vec::new(), height_m: None, time_limit_s: None, impact_limit: None }
     }
 }
 
-/// A drop of a bar in time.
+/// A drop in time, of each body as it strikes.
 #[derive(Debug, Clone, Serialize)]
-#[non_exhaustive]
-pub struct Answer {
-    /// What was kept of the drop.
-    pub model: &'static str,
-    /// From end to end.
-    pub length_m: Json,
-    /// Radius of gyration about the center of mass.
-    pub gyration_m: Json,
-    /// In [−1, 1].
-    pub center_of_mass: Json,
-    /// Of the body.
-    pub thickness_m: Json,
-    /// For strikes at end a and end b.
-    pub inertia_ratios: [Json; 2],
-    /// Coefficient of restitution.
-    pub e: Json,
-    /// From which it fell, where that was given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub height_m: Option<Json>,
-    /// At the first touch.
-    pub speed_m_s: Json,
-    /// At the first touch.
-    pub tilt_deg: Json,
-    /// Of end b as a touches.
-    pub height_gap_m: Json,
-    /// Of gravity.
-    pub gravity_m_s2: Json,
-    /// At the first touch, end b upward.
-    pub spin_rad_s: Json,
-    /// Where contacts take time.
-    #[serde(flatten)]
-    pub contact: Option<ContactAnswer>,
-    /// Until which it was followed, where that was limited.
-    pub time_limit_s: Option<Json>,
-    /// Strikes followed at most.
-    pub impact_limit: usize,
-    /// The positions asked for.
-    pub at: Vec<Json>,
-    /// Largest velocity shock of each end, in its own strikes and those of the other.
-    pub largest_delta_v_m_s: [Json; 2],
-    /// The same at the positions asked for.
-    pub largest_delta_v_at_m_s: Vec<Json>,
-    /// The strikes.
-    pub impacts: Impacts,
-    /// Times in which one end lay on the ground and the body turned about it.
-    pub pivots: Vec<PivotAnswer>,
-    /// Why the motion ends.
-    #[serde(serialize_with = "stop")]
-    pub stop: Stop,
+#[serde(untagged)]
+pub enum Answer {
+    /// Strikes of two ends.
+    Bar(Box<bar::Answer>),
+    /// Of four corners.
+    Plate(Box<plate::Answer>),
+    /// Of eight corners.
+    Block(Box<block::Answer>),
+}
+
+/// Follows one drop.
+///
+/// # Errors
+/// A place off the body, contacts of their own, and a model that does not follow the body; those of its flight.
+pub fn answer(question: &Question) -> Result<Answer, Error> {
+    let Question { drop, model, .. } = question;
+    if !drop.own_contacts.is_none() {
+        return Err(Error::input("contacts", "a drop is followed strike by strike with contacts that are alike"));
+    }
+    let physics = model.physics(drop)?;
+    if let Some(scene) = drop.of_level()? {
+        return plate::answer(question, scene, physics).map(Box::new).map(Answer::Plate);
+    }
+    if let Some(block) = drop.of_box()? {
+        return block::answer(question, &block, physics).map(Box::new).map(Answer::Block);
+    }
+    bar::answer(question, physics).map(Box::new).map(Answer::Bar)
 }
 
 /// Contacts that take time.
@@ -130,18 +99,6 @@ impl ContactAnswer {
             energy_error: Json(energy_error),
         }
     }
-}
-
-/// A time in which one end lay on the ground.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[non_exhaustive]
-pub struct PivotAnswer {
-    /// `"a"` or `"b"`.
-    pub end: &'static str,
-    /// Since the first touch.
-    pub from_s: Json,
-    /// Since the first touch.
-    pub until_s: Json,
 }
 
 #[derive(Serialize)]
@@ -170,191 +127,7 @@ fn stop<S: Serializer>(stop: &Stop, serializer: S) -> Result<S::Ok, S::Error> {
     StopJson { reason: stop.reason(), time_s: Json(stop.time_s()), rest }.serialize(serializer)
 }
 
-/// One strike of a bar.
-#[derive(Debug, Clone, Serialize)]
-#[non_exhaustive]
-pub struct Impact {
-    /// From 1.
-    pub number: u64,
-    /// The end that strikes, `"a"` or `"b"`.
-    pub end: &'static str,
-    /// Since the first touch.
-    pub time_s: Json,
-    /// Velocity of the end just before.
-    pub approach_m_s: Json,
-    /// Velocity shocks of both ends; none, as those at positions, where the contact is unfinished.
-    pub delta_v_m_s: [Option<Json>; 2],
-    /// Velocity shocks at the positions asked for.
-    pub delta_v_at_m_s: Vec<Option<Json>>,
-    /// Where contacts take time: when this one ends, infinite where the end stays down.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub until_s: Option<Json>,
-    /// Whether a limit has cut off the contact.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub unfinished: bool,
-}
-
-impl Impact {
-    /// The larger shock of the ends, 0 where it is not known.
-    #[must_use]
-    pub fn largest_m_s(&self) -> f64 {
-        self.delta_v_m_s.into_iter().flatten().fold(0.0, |most: f64, v| most.max(v.0.abs()))
-    }
-}
-
-/// The strikes of a motion, made while they are read.
-#[derive(Debug, Clone)]
-pub struct Impacts {
-    at: Vec<f64>,
-    motion: Motion,
-}
-
-impl Impacts {
-    /// The motion whose strikes they are.
-    #[must_use]
-    pub fn motion(&self) -> &Motion {
-        &self.motion
-    }
-    /// From the first strike on.
-    pub fn iter(&self) -> impl Iterator<Item = Impact> + '_ {
-        (0..self.motion.strikes.len()).map(|i| self.get(i))
-    }
-    /// How many begin while the other end still presses, and the number of the first of them.
-    #[must_use]
-    pub fn overlaps(&self) -> Option<(usize, u64)> {
-        let (mut parted_s, mut found) = (f64::NEG_INFINITY, None);
-        for (press, strike) in self.motion.presses.iter().zip(&self.motion.strikes) {
-            if press.from_s < parted_s {
-                found = Some(found.map_or((1, strike.number), |(count, first)| (count + 1, first)));
-            }
-            parted_s = parted_s.max(press.until_s);
-        }
-        found
-    }
-    fn get(&self, i: usize) -> Impact {
-        let strike = &self.motion.strikes[i];
-        let until_s = self.motion.presses.get(i).map(|press| press.until_s);
-        let unfinished = is_cut(&self.motion.stop) && until_s.is_some_and(f64::is_infinite);
-        let shock = |x: f64| (!unfinished).then_some(Json(x));
-        Impact {
-            number: strike.number,
-            end: letter(if strike.point == 0 { End::A } else { End::B }),
-            time_s: Json(strike.time_s),
-            approach_m_s: Json(strike.approach_m_s),
-            delta_v_m_s: strike.delta_v_m_s.map(shock),
-            delta_v_at_m_s: self.at.iter().map(|&s| shock(strike.delta_v_at(s))).collect(),
-            until_s: until_s.map(Json),
-            unfinished,
-        }
-    }
-    fn largest_m_s(&self, s: f64) -> Json {
-        let shock = |strike: &Strike| strike.delta_v_at(s).abs();
-        Json(self.motion.strikes.iter().map(shock).fold(0.0, f64::max))
-    }
-}
-
-impl Serialize for Impacts {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.iter())
-    }
-}
-
 /// Whether a limit has ended a motion, so that a contact that still presses is not known to its end.
 fn is_cut(stop: &Stop) -> bool {
     !matches!(stop, Stop::AtRest { .. } | Stop::BouncedClear { .. })
-}
-
-/// An answer with the rows of the whole motion after it, as `"history"`.
-#[derive(Debug, Serialize)]
-pub struct WithHistory<'a> {
-    #[serde(flatten)]
-    answer: &'a Answer,
-    history: History<'a>,
-}
-
-impl Answer {
-    /// With the rows of its motion: straight lines through them follow it.
-    #[must_use]
-    pub fn with_history(&self) -> WithHistory<'_> {
-        WithHistory { answer: self, history: History(&self.impacts) }
-    }
-}
-
-#[derive(Debug)]
-struct History<'a>(&'a Impacts);
-
-impl Serialize for History<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Impacts { at, motion } = self.0;
-        serializer.collect_seq(motion.rows().map(|row| Row {
-            time_s: Json(row.time_s),
-            height_m: row.height_m.map(Json),
-            velocity_m_s: row.velocity_m_s.map(Json),
-            velocity_at_m_s: at.iter().map(|s| Json(row.velocity_at(*s))).collect(),
-            forces: row.forces.map(|forces| Forces {
-                force_per_mass_m_s2: forces.force_per_mass_m_s2.map(Json),
-                acceleration_m_s2: forces.acceleration_m_s2.map(Json),
-                acceleration_at_m_s2: at.iter().map(|s| Json(forces.acceleration_at(*s))).collect(),
-            }),
-        }))
-    }
-}
-
-#[derive(Serialize)]
-struct Row {
-    time_s: Json,
-    height_m: [Json; 2],
-    velocity_m_s: [Json; 2],
-    velocity_at_m_s: Vec<Json>,
-    #[serde(flatten)]
-    forces: Option<Forces>,
-}
-
-#[derive(Serialize)]
-#[expect(clippy::struct_field_names, reason = "each name ends in its unit")]
-struct Forces {
-    force_per_mass_m_s2: [Json; 2],
-    acceleration_m_s2: [Json; 2],
-    acceleration_at_m_s2: Vec<Json>,
-}
-
-/// Follows one drop.
-///
-/// # Errors
-/// A position off the body; where contacts take time, those of [`Scene::fly`].
-pub fn answer(question: &Question) -> Result<Answer, Error> {
-    let Question { scene, model, ref at, .. } = *question;
-    on_body(at.iter().copied())?;
-    let (body, limit_s) = (scene.body(), scene.time_limit_s());
-    let impacts = Impacts { at: at.clone(), motion: scene.fly(model)? };
-    let motion = &impacts.motion;
-    let pivot = |pivot: &clatter_flight::Pivot| PivotAnswer {
-        end: letter(if pivot.point == 0 { End::A } else { End::B }),
-        from_s: Json(pivot.from_s),
-        until_s: Json(pivot.until_s),
-    };
-    Ok(Answer {
-        model: model.name(),
-        length_m: Json(question.length_m),
-        gyration_m: Json(body.gyration_m()),
-        center_of_mass: Json(question.center_of_mass),
-        thickness_m: Json(body.thickness_m()),
-        inertia_ratios: body.inertia_ratios().map(Json),
-        e: Json(scene.e()),
-        height_m: question.height_m.map(Json),
-        speed_m_s: Json(scene.speed_m_s()),
-        tilt_deg: Json(question.tilt_deg),
-        height_gap_m: Json(scene.height_gap_m()),
-        gravity_m_s2: Json(scene.gravity_m_s2()),
-        spin_rad_s: Json(scene.spin_rad_s()),
-        contact: motion.contact().map(|contact| ContactAnswer::new(&contact, motion.energy_error)),
-        time_limit_s: limit_s.is_finite().then_some(Json(limit_s)),
-        impact_limit: scene.impact_limit(),
-        at: at.iter().copied().map(Json).collect(),
-        largest_delta_v_m_s: [-1.0, 1.0].map(|s| impacts.largest_m_s(s)),
-        largest_delta_v_at_m_s: at.iter().map(|&s| impacts.largest_m_s(s)).collect(),
-        pivots: motion.pivots.iter().map(pivot).collect(),
-        stop: motion.stop,
-        impacts,
-    })
 }

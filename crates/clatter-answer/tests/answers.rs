@@ -14,8 +14,8 @@ use clatter_answer::{assess, atlas, fit, impacts, map, record, scatter, simulate
 use clatter_assess::design::Bounds;
 use clatter_assess::fit::{Known, Measured, MeasuredStrike};
 use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, ProductFile};
-use clatter_flight::{Block, BlockDrop, Contact, ContactLaw, Model, PlateScene, Profile, Scene};
+use clatter_assess::{Accuracy, Body, Drop, Model, Place, ProductFile, Side};
+use clatter_flight::{Block, BlockDrop, ContactLaw, PlateScene};
 use clatter_record::{Options, Record};
 use clatter_shock::{
     DampingRatio, Frequencies, LimitCurve, Pulse, Pulses, Search, Shape, ShockTable, SpectrumFilter, Suspension,
@@ -57,30 +57,37 @@ fn without_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
 }
 
 fn in_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
-    let body = Profile::off_center(0.08, 0.06, 0.041)?.with_thickness(0.012)?;
-    let scene = Scene::new(body, 0.6, 4.43, 17.0, 9.806_65)?.with_impact_limit(100)?;
-    let contact = |law| Contact::new(law, 0.6, 4e-4);
-    let [hysteretic, dashpot] = [contact(ContactLaw::Hysteretic)?, contact(ContactLaw::Dashpot)?];
-    for model in
-        [Model::Map, Model::Ballistic, Model::FiniteTilt, Model::Contacts(hysteretic), Model::Contacts(dashpot)]
-    {
-        let mut question = simulate::Question::new(scene, model);
-        question.at = vec![0.3];
+    let body = Body { thickness: Some(Side::even(0.012)), ..Body::off_center(0.08, 0.06, 0.041)? };
+    let bar = Drop { contact_time_s: Some(4e-4), ..Drop::new(body, 4.43, 17_f64.to_radians(), 0.6) };
+    let dashpot = Drop { contact_law: ContactLaw::Dashpot, ..bar };
+    let mut told = |drop: Drop, model, at: &[[f64; 2]], limit| {
+        let mut question = simulate::Question::new(drop, model);
+        (question.at, question.impact_limit) = (at.to_vec(), limit);
         lines.push(serde_json::to_string(&simulate::answer(&question)?)?);
+        Ok::<_, Box<dyn Error>>(())
+    };
+    for model in [Model::Map, Model::Ballistic, Model::FiniteTilt, Model::Compliant] {
+        told(bar, model, &[[0.3, 0.0]], Some(100))?;
     }
+    told(dashpot, Model::Compliant, &[[0.3, 0.0]], Some(100))?;
+    let phone = Drop { restitution: 0.6, ..plate()? };
+    told(phone, Model::Map, &[], None)?;
+    told(phone, Model::Ballistic, &[], Some(100))?;
+    told(phone, Model::Compliant, &[], None)?;
+    told(Drop { contact_law: ContactLaw::Dashpot, restitution: 0.6, ..handheld()? }, Model::Compliant, &[], None)
+}
+
+/// A plate, and a box, that fall.
+fn plate() -> Result<Drop, Box<dyn Error>> {
     let phone = clatter_flight::Plate::new([0.08, 0.07, 0.035, 0.035], [0.0433, 0.0202])?;
     let scene = PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?;
-    for (model, scene) in [
-        (simulate::plate::Model::Map { e: 0.6 }, scene),
-        (simulate::plate::Model::Ballistic { e: 0.6 }, scene.with_impact_limit(100)),
-        (simulate::plate::Model::Contacts(hysteretic), scene),
-    ] {
-        lines.push(serde_json::to_string(&simulate::plate::answer(&simulate::plate::Question::new(scene, model))?)?);
-    }
+    Ok(Drop { contact_time_s: Some(4e-4), ..Drop::of_plate(&scene, 0.4)? })
+}
+
+fn handheld() -> Result<Drop, Box<dyn Error>> {
     let handheld = Block::new([0.15, 0.07, 0.015], [0.002, 0.0, 0.001], [0.0207, 0.0435, 0.0478])?;
     let drop = BlockDrop::tilted(handheld, 0.7, 0.4, 4.43, 9.806_65)?;
-    lines.push(serde_json::to_string(&simulate::block::answer(&simulate::block::Question::new(drop, dashpot))?)?);
-    Ok(())
+    Ok(Drop { contact_time_s: Some(4e-4), ..Drop::of_block(&drop, 0.4) })
 }
 
 fn of_parts(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
@@ -126,27 +133,19 @@ fn responses(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
         question.shock_table = Some(table);
         lines.push(serde_json::to_string(&respond::answer(&question)?)?);
     }
-    let scene = Scene::new(Profile::off_center(0.08, 0.06, 0.041)?, 0.4, 4.43, 4.0, 9.806_65)?;
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.4, 4e-4)?;
-    for (model, suspension) in [
-        (clatter_assess::Model::Map, None),
-        (clatter_assess::Model::FiniteTilt, Some(board)),
-        (clatter_assess::Model::Compliant, Some(board)),
+    let bar = Drop::new(Body::off_center(0.08, 0.06, 0.041)?, 4.43, 4_f64.to_radians(), 0.4);
+    let bar = Drop { contact_time_s: Some(4e-4), ..bar };
+    for (drop, model, place, suspension) in [
+        (bar, Model::Map, [0.042, 0.0, 0.0], None),
+        (bar, Model::FiniteTilt, [0.042, 0.0, 0.0], Some(board)),
+        (bar, Model::Compliant, [0.042, 0.0, 0.0], Some(board)),
+        (plate()?, Model::Compliant, [0.0225, 0.007, 0.0], Some(board)),
+        (handheld()?, Model::Compliant, [0.01, 0.02, 0.0], Some(board)),
     ] {
-        let mut question = respond::drop::Question::new(scene, model, 0.6);
-        (question.suspension, question.contact_time_s) = (suspension, Some(contact.time_s()));
+        let mut question = respond::drop::Question::new(drop, model, Place::new(place));
+        question.suspension = suspension;
         lines.push(serde_json::to_string(&respond::drop::answer(&question)?)?);
     }
-    let phone = clatter_flight::Plate::new([0.08, 0.07, 0.035, 0.035], [0.0433, 0.0202])?;
-    let scene = PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?;
-    let mut question = respond::plate::Question::new(scene, contact, [0.3, 0.2]);
-    question.suspension = Some(board);
-    lines.push(serde_json::to_string(&respond::plate::answer(&question)?)?);
-    let handheld = Block::new([0.15, 0.07, 0.015], [0.002, 0.0, 0.001], [0.0207, 0.0435, 0.0478])?;
-    let drop = BlockDrop::tilted(handheld, 0.7, 0.4, 4.43, 9.806_65)?;
-    let mut question = respond::block::Question::new(drop, contact, [0.01, 0.02, 0.0], clatter_assess::Axis::Z);
-    question.suspension = Some(board);
-    lines.push(serde_json::to_string(&respond::block::answer(&question)?)?);
     Ok(())
 }
 

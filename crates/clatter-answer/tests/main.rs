@@ -3,9 +3,9 @@
 use clatter::{Axis, Bar, Plate, PlateStart, Quantity, Start};
 use clatter_answer::respond::{self, Excitation};
 use clatter_answer::{atlas, fit, impacts, map, simulate, spectrum, zone};
-use clatter_assess::ProductFile;
 use clatter_assess::fit::Measured;
-use clatter_flight::{Block, BlockDrop, Contact, ContactLaw, Model, PlateScene, Profile, Scene};
+use clatter_assess::{Body, Drop, Model, Place, ProductFile};
+use clatter_flight::{Block, BlockDrop, PlateScene};
 use clatter_record::{Options, Record};
 use clatter_shock::{DampingRatio, Pulse, Search, Shape, Suspension};
 use serde_json::{Value, json};
@@ -32,14 +32,13 @@ fn plate() -> Plate {
     Plate::uniform(0.3).expect("a plate")
 }
 
-fn scene() -> Scene {
-    let body = Profile::new(0.14, 0.0404).expect("a body");
-    Scene::new(body, 0.3, 4.43, 5.0, 9.806_65).expect("a drop")
+fn fall() -> Drop {
+    Drop::new(Body::new(0.14, 0.0404).expect("a body"), 4.43, 5_f64.to_radians(), 0.3)
 }
 
-fn plate_scene() -> PlateScene {
+fn plate_fall() -> Drop {
     let phone = clatter_flight::Plate::new([0.075, 0.075, 0.035, 0.035], [0.0433, 0.0202]).expect("a plate");
-    PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65).expect("a drop")
+    Drop::of_plate(&PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65).expect("a drop"), 0.3).expect("a drop")
 }
 
 #[test]
@@ -52,12 +51,11 @@ fn places_off_the_body_are_refused() {
         let mut question = impacts::plate::Question::new(plate(), PlateStart::level([1.0; 2]).expect("a start"));
         question.at = vec![[0.0, s]];
         says(impacts::plate::answer(&question).expect_err("off the plate").to_string());
-        let mut question = simulate::Question::new(scene(), Model::Map);
-        question.at = vec![s];
-        says(simulate::answer(&question).expect_err("off the bar").to_string());
-        let mut question = simulate::plate::Question::new(plate_scene(), simulate::plate::Model::Map { e: 0.3 });
-        question.at = vec![[s, 0.0]];
-        says(simulate::plate::answer(&question).expect_err("off the plate").to_string());
+        for drop in [fall(), plate_fall()] {
+            let mut question = simulate::Question::new(drop, Model::Map);
+            question.at = vec![[s, 0.0]];
+            says(simulate::answer(&question).expect_err("off the body").to_string());
+        }
     }
 }
 
@@ -76,22 +74,27 @@ fn parts_that_no_drop_answers_are_refused() {
     let flat = Start::new([-1.0; 2], 0.0).expect("a start");
     let rule = respond::rule::answer(&Bar::new(0.5, 0.3).expect("a bar"), &flat, 1.0, &part(1.0));
     says(rule.expect_err("no rule"), "height gap = 0.0");
-    let mut question = respond::drop::Question::new(scene(), clatter_assess::Model::FiniteTilt, 0.5);
+    let ask = |drop, model, place| respond::drop::Question::new(drop, model, place);
+    let mut question = ask(fall(), Model::FiniteTilt, Place::flat([0.035, 0.0]));
     question.suspension = Some(part(1e13));
     says(respond::drop::answer(&question).expect_err("too fast"), "natural frequency in rad/s = 10000000000000.0");
-    (question.suspension, question.at) = (None, Vec::new());
+    (question.suspension, question.places) = (None, Vec::new());
     says(respond::drop::answer(&question).expect_err("no place"), "places is empty");
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 4e-4).expect("a contact");
-    let mut question = respond::plate::Question::new(plate_scene(), contact, [0.0, 1.5]);
-    says(respond::plate::answer(&question).expect_err("off the plate"), "position = 1.5");
-    (question.at, question.suspension) = (vec![[0.0; 2]], Some(part(1e-13)));
-    says(respond::plate::answer(&question).expect_err("too slow"), "natural frequency in rad/s = 1e-13");
+    let plate = Drop { contact_time_s: Some(4e-4), ..plate_fall() };
+    let mut question = ask(plate, Model::Compliant, Place::flat([0.0, 0.0525]));
+    says(respond::drop::answer(&question).expect_err("off the plate"), "across the product in m = 0.0525");
+    (question.places, question.suspension) = (vec![Place::flat([0.0; 2])], Some(part(1e-13)));
+    says(respond::drop::answer(&question).expect_err("too slow"), "natural frequency in rad/s = 1e-13");
+    let drop = Drop { spin_axis: Some([1.0, 0.0, 0.0]), spin_rad_s: 3.0, ..plate };
+    let question = ask(drop, Model::Compliant, Place::flat([0.0; 2]));
+    says(respond::drop::answer(&question).expect_err("no tilt of it"), "spin across the tilt in rad/s = 3.0");
     let block = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478]).expect("a box");
-    let drop = BlockDrop::tilted(block, 0.5, 0.0, 1.0, 9.806_65).expect("a drop");
-    let mut question = respond::block::Question::new(drop, contact, [0.0, 0.04, 0.0], clatter_assess::Axis::Any);
-    says(respond::block::answer(&question).expect_err("beyond the box"), "position in m = 0.04");
-    (question.at_m, question.suspension) = ([0.0; 3], Some(part(100.0)));
-    says(respond::block::answer(&question).expect_err("no axis"), "100.0");
+    let drop = Drop::of_block(&BlockDrop::tilted(block, 0.5, 0.0, 1.0, 9.806_65).expect("a drop"), 0.3);
+    let drop = Drop { contact_time_s: Some(4e-4), ..drop };
+    let mut question = ask(drop, Model::Compliant, Place { at_m: [0.0, 0.04, 0.0], axis: clatter_assess::Axis::Any });
+    says(respond::drop::answer(&question).expect_err("beyond the box"), "in m = 0.04");
+    (question.places[0].at_m, question.suspension) = ([0.0; 3], Some(part(100.0)));
+    says(respond::drop::answer(&question).expect_err("no axis"), "100.0");
 }
 
 /// Records that no fit takes, and shocks that are too few for spectra, are refused with what there is.
@@ -136,14 +139,14 @@ fn records_that_answer_nothing_are_refused() {
 /// Seen from the end that strikes second, a drop is the same: places and ends change their names alone.
 #[test]
 fn the_end_that_strikes_first_only_names_the_ends() {
-    let of = |first, at| {
-        let mut question = respond::drop::Question::new(scene(), clatter_assess::Model::FiniteTilt, at);
-        question.first = first;
+    let of = |first, at_m| {
+        let drop = Drop { direction_rad: Drop::towards(first), ..fall() };
+        let question = respond::drop::Question::new(drop, Model::FiniteTilt, Place::flat([at_m, 0.0]));
         let answer = respond::drop::answer(&question).expect("an answer");
-        (answer.first, answer.at.0, answer.place.velocity_change_m_s.0)
+        (answer.drop.drop.lowest(), answer.place.velocity_change_m_s.0)
     };
-    let (a, b) = (of(clatter::End::A, 0.7), of(clatter::End::B, -0.7));
-    assert_eq!((a.0, a.1, b.0, b.1, a.2), ("a", 0.7, "b", -0.7, b.2));
+    let (a, b) = (of(clatter::End::A, 0.049), of(clatter::End::B, -0.049));
+    assert_eq!((a.0, b.0, a.1), ("a", "b", b.1));
 }
 
 #[test]
@@ -163,11 +166,12 @@ fn other_bad_questions_are_refused() {
     let mut question = atlas::Question::new(plate());
     question.limit = 101;
     assert!(atlas::answer(&question).expect_err("too many").to_string().contains("101"));
-    let question = simulate::plate::Question::new(plate_scene(), simulate::plate::Model::Map { e: 1.5 });
-    assert!(simulate::plate::answer(&question).expect_err("no restitution").to_string().contains("1.5"));
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3).expect("a contact");
-    let question = simulate::Question::new(scene(), Model::Contacts(contact));
-    assert!(simulate::answer(&question).expect_err("another restitution").to_string().contains("0.5"));
+    for drop in [fall(), plate_fall()] {
+        let question = simulate::Question::new(Drop { restitution: 1.5, ..drop }, Model::Map);
+        assert!(simulate::answer(&question).expect_err("no restitution").to_string().contains("1.5"));
+    }
+    let question = simulate::Question::new(plate_fall(), Model::FiniteTilt);
+    assert!(simulate::answer(&question).expect_err("no such model").to_string().contains("finite-tilt follows bars"));
 }
 
 /// By hand: the first strike of a uniform bar with e = 0.3 changes the velocities of its ends by 1.3 and −0.65.
@@ -185,15 +189,16 @@ fn an_answer_is_what_programs_read() {
 /// What a body at rest leaves out is told, and null where nothing bounds it; a contact that a limit cuts off has no shock.
 #[test]
 fn what_is_not_known_is_null() {
-    let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).expect("a contact");
-    let of = |scene| {
-        let answer = simulate::answer(&simulate::Question::new(scene, Model::Contacts(contact))).expect("an answer");
-        serde_json::to_value(&answer).expect("JSON")
+    let of = |time_limit_s| {
+        let drop = Drop { contact_time_s: Some(1e-3), ..fall() };
+        let mut question = simulate::Question::new(drop, Model::Compliant);
+        question.time_limit_s = time_limit_s;
+        serde_json::to_value(simulate::answer(&question).expect("an answer")).expect("JSON")
     };
-    let rests = of(scene());
+    let rests = of(None);
     assert_eq!((&rests["stop"]["reason"], &rests["stop"]["time_bound_s"]), (&json!("at-rest"), &Value::Null));
     assert!(rests["stop"]["shock_bound_m_s"].is_number());
-    let cut = of(scene().with_time_limit_s(5e-4).expect("a limit"));
+    let cut = of(Some(5e-4));
     let last = &cut["impacts"][0];
     assert_eq!((&last["unfinished"], &last["delta_v_m_s"]), (&json!(true), &json!([null, null])), "{cut}");
 }
@@ -201,7 +206,8 @@ fn what_is_not_known_is_null() {
 /// The rows of a motion follow the answer, and begin at the first touch.
 #[test]
 fn the_history_follows_the_answer() {
-    let answer = simulate::answer(&simulate::Question::new(scene(), Model::FiniteTilt)).expect("an answer");
+    let answer = simulate::answer(&simulate::Question::new(fall(), Model::FiniteTilt)).expect("an answer");
+    let simulate::Answer::Bar(answer) = answer else { panic!("a bar") };
     let (alone, whole) = (serde_json::to_value(&answer), serde_json::to_value(answer.with_history()));
     let (alone, mut whole) = (alone.expect("JSON"), whole.expect("JSON"));
     let rows = whole.as_object_mut().and_then(|whole| whole.remove("history")).expect("rows");

@@ -50,7 +50,10 @@ impl Model {
         if drop.contact_time_s.is_some() { Self::Compliant } else { Self::FiniteTilt }
     }
     /// The physics that a flight keeps of a drop; of a closed form that of the map.
-    fn physics(self, drop: &Drop) -> Result<Physics, Error> {
+    ///
+    /// # Errors
+    /// [`Error::OwnContacts`] of instant impacts, [`Error::Contact`] for contacts whose time is not known or is none.
+    pub fn physics(self, drop: &Drop) -> Result<Physics, Error> {
         if self != Self::Compliant && !drop.own_contacts.is_none() {
             return Err(Error::OwnContacts(self));
         }
@@ -90,6 +93,11 @@ pub(crate) fn check_drop(drop: &Drop, place: &Place) -> Result<(), Error> {
     }
     if drop.is_flat && drop.spin_rad_s != 0.0 {
         let (name, allowed) = ("spin in rad/s", "0 of a flat drop by instant impacts: its ends do not land as one");
+        return Err(Error::Setting { name, value: drop.spin_rad_s, allowed });
+    }
+    if drop.spin_axis.is_some() && !drop.is_solid() {
+        let (name, allowed) =
+            ("spin across the tilt in rad/s", "0: turning along length and width as its corners rise");
         return Err(Error::Setting { name, value: drop.spin_rad_s, allowed });
     }
     if !(0.0..=FRAC_PI_2).contains(&drop.tilt_rad) {

@@ -3,10 +3,10 @@
 //! Positions run along the bar from its middle, towards end b positive; across a plate from its middle as well.
 
 use clatter::End;
-use clatter_flight::{Body, Contact, ContactLaw, OwnContacts};
+use clatter_flight::{Body, Contact, ContactLaw, Drop, OwnContacts};
 use serde::{Serialize, Serializer};
 
-use crate::{Attitude, Component, Error, Spread};
+use crate::{Attitude, Component, Error, INPUTS, Row, Spread};
 
 /// A product, its drop and its parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +63,33 @@ impl ProductFile {
         let name =
             |(number, landing): (usize, &Landing)| landing.attitude.map_or(DropName::Number(number), DropName::On);
         (1..).zip(&self.landings).map(name).collect()
+    }
+    /// Returns one drop of the ranges, each input at the value that is chosen of what the file gives; a bar touches with this end first.
+    ///
+    /// # Examples
+    /// ```
+    /// use clatter::End;
+    /// use clatter_assess::{EXAMPLE, ProductFile};
+    /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
+    /// let fastest = file.one_drop(End::A, |_, given| given.hi());
+    /// assert_eq!(fastest.restitution, file.product.restitution.hi());
+    /// # Ok::<(), clatter_assess::Faults>(())
+    /// ```
+    #[must_use]
+    pub fn one_drop(&self, first: End, mut choose: impl FnMut(&'static Row, &Spread) -> f64) -> Drop {
+        let mut drop = Drop {
+            direction_rad: Drop::towards(first),
+            gravity_m_s2: self.drop.gravity_m_s2,
+            contact_law: self.product.law(),
+            own_contacts: self.product.own_contacts,
+            ..Drop::new(self.product.body, 0.0, 0.0, 0.0)
+        };
+        for row in &INPUTS {
+            if let (Some(given), Some(set)) = (row.input.given(&self.product, &self.drop), row.set) {
+                set(&mut drop, choose(row, &given));
+            }
+        }
+        drop
     }
     /// All of its drops: those that are listed, or the one.
     pub(crate) fn drops(&self) -> Vec<DropRanges> {

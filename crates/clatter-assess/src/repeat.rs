@@ -1,11 +1,6 @@
 //! The short command that answers a worst drop once more, from the product file.
 
-use std::f64::consts::TAU;
-
-use clatter::End;
-use clatter_flight::{ContactLaw, Feet};
-
-use crate::{Accuracy, LimitKind, Model, WorstCase, visible};
+use crate::{Accuracy, Case, LimitKind, WorstCase, visible};
 
 /// `clatter respond --product=… --component=… --worst=…`, which searches the worst drop of a limit again and answers it; with the model
 /// and the tolerance, where they are not those that an assessment has by itself. None where the command line cannot say it: for a file
@@ -38,171 +33,12 @@ pub fn repeat(path: &str, component: &str, limit: LimitKind, accuracy: &Accuracy
 }
 
 impl WorstCase {
-    /// The command that answers the drop once more.
+    /// Returns the command that answers the drop once more, for a shell: the drop as data.
     #[must_use]
     pub fn command(&self) -> String {
-        let drop = &self.drop;
-        if drop.body.is_wide() {
-            return self.command_of_plate();
-        }
-        let [a, b] = drop.body.arms_m();
-        let side = if drop.first() == End::A { 1.0 } else { -1.0 };
-        let length = a + b;
-        let mut command = format!("clatter respond --model={} --length-m={length:?}", self.model.name());
-        let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
-        add("gyration-m", drop.body.gyration_m());
-        let center = side * (a - b) / length;
-        if center != 0.0 {
-            add("center-of-mass", center);
-        }
-        add("e", drop.restitution);
-        add("speed-m-s", drop.speed_m_s);
-        if drop.is_flat {
-            command.push_str(" --flat");
-        } else {
-            let tilt = format!("{:?}", drop.tilt_rad.to_degrees());
-            command.extend([" --tilt-deg=", &tilt]);
-        }
-        let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
-        if drop.spin_rad_s != 0.0 {
-            add("spin-rad-s", drop.spin_rad_s);
-        }
-        add("gravity-m-s2", drop.gravity_m_s2);
-        if let Some(feet) = &drop.body.feet {
-            Self::of_feet(feet, &[side * self.part.place.at_m[0]], &mut command);
-        } else {
-            add("at", drop.relative(self.part.place.at_m[0]) + 0.0);
-        }
-        self.of_part(&mut command);
-        let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
-        let contacts = self.model == Model::Compliant;
-        // The acceleration of a part that is mounted rigidly is that of the contact time, by any model.
-        if let Some(time) = drop.contact_time_s.filter(|_| contacts || self.part.suspension.is_none()) {
-            add("contact-time-s", time);
-            if contacts && drop.contact_law != ContactLaw::default() {
-                command.extend([" --contact-law=", drop.contact_law.name()]);
-            }
-        }
-        self.of_contacts([drop.first() == End::B, false], &mut command);
-        command
-    }
-
-    /// Contacts of their own, of a product whose sides run the other way.
-    fn of_contacts(&self, sides: [bool; 2], command: &mut String) {
-        let drop = &self.drop;
-        let own = drop.own_contacts.mirrored(sides);
-        for (at, restitution, contact_time_s) in own.told(drop.restitution, drop.contact_time_s) {
-            let time_s = contact_time_s.unwrap_or(0.0);
-            command.extend([" --contact=", &format!("{at},{restitution:?},{time_s:?}")]);
-        }
-    }
-
-    /// Feet that it lands on, and the place, which may be beyond them.
-    fn of_feet(feet: &Feet, at_m: &[f64], command: &mut String) {
-        let (Feet { inset_m: [x, y], height_m }, places) = (feet, at_m.iter().map(|m| format!("{:?}m", m + 0.0)));
-        let places = places.collect::<Vec<_>>().join(",");
-        command.extend([" --at=", &places, " --feet-m=", &format!("{x:?},{y:?},{height_m:?}")]);
-    }
-
-    /// The part and the tolerance.
-    fn of_part(&self, command: &mut String) {
-        let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
-        if let Some((hz, ratio)) = self.part.suspension.map(|part| (part.omega() / TAU, part.damping().get())) {
-            add("omega", TAU * hz);
-            add("damping", ratio);
-        }
-        add("tolerance", self.tolerance);
-    }
-
-    /// Of a plate, seen so that its lowest corner is a.
-    fn command_of_plate(&self) -> String {
-        let drop = &self.drop;
-        if drop.is_solid() {
-            return self.command_of_box();
-        }
-        let (body, [sx, sy]) = (&drop.body, drop.signs());
-        let [length, width] = [body.length_m(), body.width_m()];
-        let [_, across] = [body.length, body.width.unwrap_or(body.length)];
-        let mut command = format!("clatter respond --model={} --length-m={length:?}", self.model.name());
-        let mut add = |flag: &str, values: &[f64]| {
-            let values: Vec<_> = values.iter().map(|value| format!("{:?}", value + 0.0)).collect();
-            command.extend([" --", flag, "=", &values.join(",")]);
-        };
-        add("width-m", &[width]);
-        add("gyration-m", &[body.gyration_m(), across.gyration_m]);
-        if body.products_m2[0] != 0.0 {
-            add("product-of-inertia-m2", &[sx * sy * body.products_m2[0]]);
-        }
-        let [a, b] = body.arms_m();
-        let center = [sx * (a - b) / length, sy * 2.0 * across.center_m() / width];
-        if center.iter().any(|place| *place != 0.0) {
-            add("center-of-mass", &center);
-        }
-        add("e", &[drop.restitution]);
-        add("speed-m-s", &[drop.speed_m_s]);
-        add("gaps-m", &drop.gaps_m());
-        if drop.spin_rad_s != 0.0 {
-            add("spin-rad-s", &drop.spin_of_plate());
-        }
-        add("gravity-m-s2", &[drop.gravity_m_s2]);
-        let [x, y] = self.part.at_m();
-        if let Some(feet) = &drop.body.feet {
-            Self::of_feet(feet, &[sx * x, sy * y], &mut command);
-        } else {
-            add("at", &[2.0 * sx * x / length, 2.0 * sy * y / width]);
-        }
-        self.of_part(&mut command);
-        if let Some(time) = drop.contact_time_s {
-            command.extend([" --contact-time-s=", &format!("{time:?}")]);
-        }
-        if drop.contact_law != ContactLaw::default() {
-            command.extend([" --contact-law=", drop.contact_law.name()]);
-        }
-        self.of_contacts(drop.signs().map(|sign| sign < 0.0), &mut command);
-        command
-    }
-}
-
-impl WorstCase {
-    /// Of a box, turned so that its vertical is that of the world.
-    fn command_of_box(&self) -> String {
-        let (drop, body) = (&self.drop, &self.drop.body);
-        let [x, y, z] = drop.up();
-        // The rotation about the axis across both verticals; upside down, about x.
-        let turned = (2.0 * (1.0 + z)).max(0.0).sqrt();
-        let quaternion =
-            if turned > 1e-8 { [0.5 * turned, y / turned, -x / turned, 0.0] } else { [0.0, 1.0, 0.0, 0.0] };
-        let [length, width, thickness] = [body.length, body.width.unwrap_or(body.length), body.thickness()];
-        let [kx, ky, kz] = [length.gyration_m, width.gyration_m, thickness.gyration_m];
-        let mut command = format!("clatter respond --model={}", self.model.name());
-        let mut add = |flag: &str, values: &[f64]| {
-            let values: Vec<_> = values.iter().map(|value| format!("{:?}", value + 0.0)).collect();
-            command.extend([" --", flag, "=", &values.join(",")]);
-        };
-        add("length-m", &[length.m()]);
-        add("width-m", &[width.m()]);
-        add("thickness-m", &[thickness.m()]);
-        add("gyration-m", &[libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)]);
-        if body.products_m2.iter().any(|of| *of != 0.0) {
-            add("product-of-inertia-m2", &body.products_m2);
-        }
-        add("center-of-mass-m", &[length.center_m(), width.center_m(), thickness.center_m()]);
-        add("orientation", &quaternion);
-        add("e", &[drop.restitution]);
-        add("speed-m-s", &[drop.speed_m_s]);
-        if drop.spin_rad_s != 0.0 {
-            add("spin-rad-s", &drop.spin());
-        }
-        add("gravity-m-s2", &[drop.gravity_m_s2]);
-        add("at-m", &self.part.place.at_m);
-        self.of_part(&mut command);
-        command.extend([" --axis=", self.part.place.axis.name()]);
-        if let Some(time) = drop.contact_time_s {
-            command.extend([" --contact-time-s=", &format!("{time:?}")]);
-        }
-        command.extend([" --contact-law=", drop.contact_law.name()]);
-        self.of_contacts([false; 2], &mut command);
-        command
+        // Numbers, names of fields and of variants: nothing that a shell would take apart.
+        let data = serde_json::to_string(&Case::of(self)).unwrap_or_default();
+        format!("printf %s '{data}' | clatter respond --drop=-")
     }
 }
 

@@ -95,7 +95,14 @@ fn block(case: &Value) -> (Drop, Part) {
     let axes = [Axis::X, Axis::Y, Axis::Z, Axis::Any];
     let axis = axes.into_iter().find(|axis| case["axis"] == axis.name()).unwrap();
     let part = Part::at(Place { at_m: numbers(case, "at_m"), axis }, None);
-    (Drop::of_block(&drop, &contact), part)
+    (
+        Drop {
+            contact_time_s: Some(contact.time_s()),
+            contact_law: contact.law(),
+            ..Drop::of_block(&drop, contact.restitution())
+        },
+        part,
+    )
 }
 
 /// Boxes in any attitude, half of them turning by up to 40 rad/s, of which a place feels up to 15 g in flight: shocks along all axes and in
@@ -128,7 +135,11 @@ fn gravity_is_taken_off_by_its_share_along_the_axis() {
     let block = Block::new([0.2, 0.14, 0.04], [0.0; 3], gyration).unwrap();
     let drop = BlockDrop::new(block, turned, 3.961_141_249_690_548, G).unwrap();
     let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 8e-4).unwrap();
-    let drop = Drop::of_block(&drop, &contact);
+    let drop = Drop {
+        contact_time_s: Some(contact.time_s()),
+        contact_law: contact.law(),
+        ..Drop::of_block(&drop, contact.restitution())
+    };
     let part = Part::at(Place { at_m: [0.06, 0.02, 0.0], axis: Axis::X }, None);
     let got = asked(&drop, &part, LimitKind::VelocityChange);
     // Five presses later, what the first left out has grown.

@@ -162,7 +162,7 @@ fn the_search_finds_an_end_of_the_spin() {
     // 1.3 (v + ω L) of a lone strike.
     let lone = 1.3 * (3.0 + 20.0 * 0.075 * worst.drop.tilt_rad.cos());
     assert!(found.demand.unwrap() > 0.9 * lone && found.demand < found.bound, "{found:?}, {lone}");
-    assert!(worst.command().contains(" --spin-rad-s=20.0 "), "{}", worst.command());
+    assert!(worst.command().contains("\"spin_rad_s\":20.0,"), "{}", worst.command());
     let still =
         read("speed = \"3 m/s\", tilt = [\"2 deg\", \"6 deg\"], first = \"b\"", ", contact_time = \"0.3 ms\"").unwrap();
     let still = &still.assess().unwrap().components[0].limits[0];

@@ -1,30 +1,19 @@
 //! A drop as arguments of a command say it, alone or over what a product file says.
 
-mod block;
-mod plate;
-
 use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter::End;
+use clatter_answer::{DropInputs, Error};
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Model, STANDARD_GRAVITY_M_S2, slip};
-use clatter_flight::{ContactLaw, Profile, Scene};
+use clatter_assess::{Accuracy, Drop, Input, Model, slip};
 
 use crate::inputs::{self, Law};
-use crate::numbers::given;
 use crate::one_drop::{OneDrop, PartSetup, Worst};
 use crate::output::Files;
 use crate::quantities::{self, PerAxis, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
 
-use block::BlockArgs;
-pub(crate) use block::ExtraArgs as BesideBlock;
-use plate::PlateArgs;
-pub(crate) use plate::{ExtraArgs as BesidePlate, PlateSetup};
-
-/// Largest radius of gyration over the length. A body beyond hardly turns, and clatters for hours.
-const MOST_GYRATION: f64 = 2.0;
 /// The options whose names hold the unit, and take a number without one.
 pub(crate) const IN_SI: &str = "The same as plain numbers in SI units";
 
@@ -40,10 +29,38 @@ pub(crate) struct DropArgs {
     /// Length of the body from end to end, 2L, such as 150mm
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::length, requires = "followed", conflicts_with = "length_m")]
     length: Option<Quantity>,
-    #[command(flatten)]
-    plate: PlateArgs,
-    #[command(flatten)]
-    block: BlockArgs,
+    /// Width of a plate, across its length; --gyration=KX,KY, --center-of-mass=SX,SY and --at=X,Y then take two values, along the
+    /// length and along the width; for map, ballistic and compliant. With --thickness it is that of a box, with three values
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::length, requires = "followed", conflicts_with_all = ["width_m", "product"])]
+    width: Option<Quantity>,
+    /// Where a tilted plate rises from corner a: 0deg along its length, 90deg along its width, to b and d by the sines of the tilt;
+    /// of a box any, and of the plate of a product file, where the direction tells the corner
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = quantities::direction, conflicts_with = "direction_deg")]
+    direction: Option<Quantity>,
+    /// Instead of tilt and direction: heights of corners b and d of a plate as a touches
+    #[arg(long, value_name = "HX,HY", allow_hyphen_values = true, value_parser = quantities::gaps, conflicts_with_all = ["gaps_m", "tilt", "tilt_deg", "direction", "direction_deg", "product"])]
+    gaps: Option<[Quantity; 2]>,
+
+    /// --width in m
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::length_m, requires = "followed", conflicts_with = "product", help_heading = IN_SI, hide_short_help = true)]
+    width_m: Option<f64>,
+    /// --direction in degrees
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = inputs::number, help_heading = IN_SI, hide_short_help = true)]
+    direction_deg: Option<f64>,
+    /// --gaps in m
+    #[arg(long, value_name = "HX,HY", allow_hyphen_values = true, value_parser = quantities::gaps_m, conflicts_with_all = ["tilt", "tilt_deg", "direction", "direction_deg", "product"], help_heading = IN_SI, hide_short_help = true)]
+    gaps_m: Option<[f64; 2]>,
+    /// Of a plate or a box, by all models but map: ∫x y dm over its mass, about the center of mass, of a box ∫x z dm and ∫y z dm as
+    /// well; 0 unless given
+    #[arg(long, value_name = "XY[,XZ,YZ]", allow_hyphen_values = true, value_parser = inputs::products, help_heading = IN_SI, hide_short_help = true)]
+    product_of_inertia_m2: Option<[f64; 3]>,
+    /// How a box is turned as it lands: the unit quaternion that turns its axes, along length, width and thickness, into those of
+    /// the world, z upward; in place of a tilt
+    #[arg(long, value_name = "W,X,Y,Z", allow_hyphen_values = true, value_parser = inputs::quaternion, requires = "followed", conflicts_with_all = ["tilt", "tilt_deg", "direction", "direction_deg", "gaps", "gaps_m"])]
+    orientation: Option<[f64; 4]>,
+    /// Where the center of mass of a box lies from its middle, in m
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = inputs::triple, requires = "followed", conflicts_with = "center_of_mass", help_heading = IN_SI, hide_short_help = true)]
+    center_of_mass_m: Option<[f64; 3]>,
     /// Where the center of mass lies, between -1 (end a) and 1 (end b), or as a length from the middle; goes with
     /// --gyration
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::center_of_mass, conflicts_with = "mass", requires = "followed")]
@@ -107,38 +124,28 @@ struct Fall {
 pub(crate) struct ExtraArgs<'a> {
     pub(crate) model: Option<Model>,
     pub(crate) e: Option<f64>,
-    pub(crate) gyration: Option<Quantity>,
+    pub(crate) gyration: Option<PerAxis<Quantity>>,
     pub(crate) masses: &'a [Piece],
     /// Whether both ends land as one, without a tilt.
-    pub(crate) flat: bool,
+    pub(crate) is_flat: bool,
     /// Whether a contact time counts for instant impacts, too.
     pub(crate) instant_contacts: bool,
-    /// Angular velocity as end a touches, end b upward, over that of the product file, and its option.
-    pub(crate) spin: Option<(f64, &'static str)>,
+    /// Angular velocity at the first touch, over that of the product file.
+    pub(crate) spin_rad_s: Option<PerAxis<f64>>,
     /// The end that touches first, over that of the product file.
     pub(crate) first: Option<End>,
     /// Whether places that are typed are those of the product, whichever end touches first; else they are seen from the end that does.
-    pub(crate) of_product: bool,
+    pub(crate) is_of_product: bool,
     /// The product file, if there is one.
     pub(crate) file: Option<OneDrop>,
 }
 
-/// A drop with all that it needs.
+/// A drop with all that is told of it.
 pub(crate) struct Setup {
+    pub(crate) drop: Drop,
     pub(crate) model: Model,
-    /// The end of the product that touches first; in the scene it is end a.
-    pub(crate) first: End,
-    pub(crate) scene: Scene,
-    /// Position of the center of mass on the body.
-    pub(crate) center_of_mass: f64,
-    pub(crate) length_m: f64,
-    pub(crate) thickness_m: f64,
+    /// From where it falls, where that was given.
     pub(crate) height_m: Option<f64>,
-    pub(crate) tilt_deg: f64,
-    /// Whether both ends land as one.
-    pub(crate) flat: bool,
-    pub(crate) contact_time_s: Option<f64>,
-    pub(crate) contact_law: ContactLaw,
     pub(crate) shown: Shown,
     /// The part of a product file.
     pub(crate) part: Option<PartSetup>,
@@ -151,49 +158,17 @@ fn either(typed: Option<Quantity>, plain: Option<f64>) -> Option<Quantity> {
     typed.or(plain.map(Quantity::of_si))
 }
 
+/// A plate beyond has lever arms that are 1.5 % shorter than those of a level one.
+const STEEP_RAD: f64 = 0.174_532_925_199_432_95;
+
 impl DropArgs {
     /// As it was typed.
     pub(crate) fn contact_time(&self) -> Option<Quantity> {
         either(self.contact_time, self.contact_time_s)
     }
-
-    fn thickness(&self) -> f64 {
-        either(self.thickness, self.thickness_m).map_or(0.0, |thickness| thickness.si)
-    }
-
-    /// Refuses what the model would leave aside.
-    fn check(&self, model: Model) -> Result<(), Failure> {
-        if model != Model::Compliant {
-            return match self.contact_law {
-                Some(_) => Err(Failure::Usage("--contact-law goes with --model=compliant alone")),
-                None => Ok(()),
-            };
-        }
-        if self.thickness() == 0.0 {
-            return Ok(());
-        }
-        let (name, allowed) = ("thickness in m", "0 for the model compliant: its contacts are those of a thin bar");
-        let reason = clatter::Error::Quantity { name, value: self.thickness(), allowed };
-        Err(Failure::Flag { flag: self.thickness_flag(), reason })
-    }
-
-    /// The name of the option for the thickness as it was given.
-    fn thickness_flag(&self) -> &'static str {
-        if self.thickness_m.is_some() { "--thickness-m" } else { "--thickness" }
-    }
-
-    /// A flight that was refused, with the option whose value it refuses where there is one.
-    pub(crate) fn named(&self, error: clatter_flight::Error, gyration: Option<Quantity>) -> Failure {
-        let clatter_flight::Error::Bound { name, .. } = &error else { return Failure::Flight(error) };
-        let (given, typed, plain) = match *name {
-            "contact time" => (self.contact_time(), "--contact-time", "--contact-time-s"),
-            _ => (gyration, "--gyration", "--gyration-m"),
-        };
-        match given {
-            Some(Quantity { unit: Some(_), .. }) => Failure::Wrong(format!("invalid value for '{typed}': {error}")),
-            Some(Quantity { si, unit: None }) => Failure::Wrong(format!("invalid value {si:?} for '{plain}': {error}")),
-            None => Failure::Flight(error),
-        }
+    fn sizes(&self) -> [Option<Quantity>; 3] {
+        let (width, thickness) = (either(self.width, self.width_m), either(self.thickness, self.thickness_m));
+        [either(self.length, self.length_m), width, thickness]
     }
 
     /// The product file, where there is one, with its drop: that of its ranges that asks most, or one value of each.
@@ -214,123 +189,180 @@ impl DropArgs {
 
     /// The drop, over that of the product file where there is one.
     pub(crate) fn setup(&self, mut beside: ExtraArgs<'_>) -> Result<Setup, Failure> {
-        self.plate.refuse()?;
         let mut file = beside.file.take();
-        let beside = &beside;
-        let mut notes = self.slips(beside);
-        let mirrored = file.as_ref().map_or(beside.first == Some(End::B), OneDrop::is_mirrored);
-        if let Some(file) = file.as_mut().filter(|_| mirrored && !beside.of_product) {
+        let mut notes = self.slips(&beside);
+        if let Some(worst) = file.as_ref().and_then(OneDrop::worst).copied() {
+            return self.finish(&worst.drop, worst.model, None, &beside, file, notes);
+        }
+        let contact_time = self.contact_time();
+        let fullest = |drop: &Drop| contact_time.map_or(Model::fullest(drop), |_| Model::Compliant);
+        let of_file = file.as_mut().map(|file| self.of_file(file, &beside));
+        let (base, height_m) = of_file.map_or((None, None), |(drop, height_m)| (Some(drop), height_m));
+        let model = beside.model.or(base.as_ref().map(fullest)).unwrap_or(Model::Compliant);
+        if model != Model::Compliant && self.contact_law.is_some() {
+            return Err(Failure::Usage("--contact-law goes with --model=compliant alone"));
+        }
+        if model != Model::Compliant && contact_time.is_some() && !beside.instant_contacts {
+            return Err(Failure::Usage("--contact-time and --contact-time-s go with --model=compliant alone"));
+        }
+        if beside.is_flat && model == Model::Compliant {
+            return Err(Failure::Usage(
+                "--flat goes with instant impacts: contacts that take time land flat with --tilt=0deg",
+            ));
+        }
+        let inputs = self.inputs(&beside, file.as_mut(), base.as_ref())?;
+        let half_m = 0.5 * inputs.length_m.unwrap_or(f64::INFINITY);
+        let beyond = beside.masses.iter().flat_map(|piece| piece.slips(half_m));
+        notes.extend(beyond.map(|slip| ("warning", slip.to_string())));
+        let thick = inputs.thickness_m.filter(|m| model == Model::Compliant && !inputs.is_box() && *m != 0.0);
+        if let Some(value) = thick {
+            let (name, allowed) = ("thickness in m", "0 for the model compliant: its contacts are those of a thin bar");
+            let reason = clatter::Error::Quantity { name, value, allowed }.to_string();
+            return Err(self.named("thickness_m", beside.gyration, &reason));
+        }
+        let failure = |error| self.failure(error, beside.gyration);
+        let drop = inputs.over(base.as_ref(), model).map_err(failure)?;
+        let is_stretched = inputs.length_m.is_some() && inputs.gyration_m.is_none();
+        if let Some(file) = file.as_mut().filter(|_| is_stretched) {
+            file.note("the radius of gyration and the center of mass along it go with the length");
+        }
+        let is_fast = inputs.speed_m_s.is_some();
+        let height_m = inputs.height_m.or(height_m.filter(|_| !is_fast));
+        self.finish(&drop, model, height_m, &beside, file, notes)
+    }
+
+    fn finish(
+        &self,
+        drop: &Drop,
+        model: Model,
+        height_m: Option<f64>,
+        beside: &ExtraArgs<'_>,
+        mut file: Option<OneDrop>,
+        mut notes: Vec<(&'static str, String)>,
+    ) -> Result<Setup, Failure> {
+        if drop.body.is_wide() && !drop.is_solid() && drop.tilt_rad > STEEP_RAD {
+            let tilt =
+                crate::numbers::given(neat(format!("{:.3e}", drop.tilt_rad.to_degrees()).parse().unwrap_or(0.0)));
+            let steep = "its lever arms are shorter";
+            notes.push((
+                "warning",
+                format!("a plate is followed as if almost level: at a tilt of {tilt} degrees {steep}"),
+            ));
+        }
+        let part = file.as_mut().map(OneDrop::part).transpose()?.flatten();
+        part.as_ref().map_or(Ok(()), |part| part.check_within(drop.sides_m()))?;
+        let shown = self.shown(beside, file.as_ref());
+        notes.extend(file.into_iter().flat_map(OneDrop::into_notes).map(|note| ("note", note)));
+        Ok(Setup { drop: *drop, model, height_m, shown, part, notes })
+    }
+
+    /// The drop of a product file, with what is given here left out of what is told.
+    fn of_file(&self, file: &mut OneDrop, beside: &ExtraArgs<'_>) -> (Drop, Option<f64>) {
+        let fall = &self.fall;
+        let falls =
+            fall.speed.is_some() || fall.speed_m_s.is_some() || fall.height.is_some() || fall.height_m.is_some();
+        let is_instant = beside.model.is_some_and(|model| model != Model::Compliant) && !beside.instant_contacts;
+        file.drop(|input| match input {
+            Input::Height | Input::Speed => falls,
+            Input::Tilt => self.tilt.is_some() || self.tilt_deg.is_some() || beside.is_flat,
+            Input::Direction => self.direction.is_some() || self.direction_deg.is_some(),
+            Input::Restitution => beside.e.is_some(),
+            Input::ContactTime => self.contact_time().is_some() || is_instant,
+            Input::Gyration => beside.gyration.is_some() || !beside.masses.is_empty(),
+            Input::Spin => beside.spin_rad_s.is_some(),
+            _ => false,
+        })
+    }
+
+    /// What is given here, in SI units and degrees.
+    fn inputs(
+        &self,
+        beside: &ExtraArgs<'_>,
+        mut file: Option<&mut OneDrop>,
+        base: Option<&Drop>,
+    ) -> Result<DropInputs, Failure> {
+        let si = |typed, plain| either(typed, plain).map(|quantity| quantity.si);
+        let degrees =
+            |typed: Option<Quantity>, plain: Option<f64>| plain.or(typed.map(|angle| neat(angle.si.to_degrees())));
+        let [length_m, width_m, thickness_m] = self.sizes().map(|size| size.map(|size| size.si));
+        let length_m = match (length_m, &file) {
+            (Some(length_m), Some(file)) => Some(file.length_of(length_m)?),
+            _ => length_m,
+        };
+        let is_turned = base.is_some_and(|drop| !drop.body.is_wide() && drop.first() == End::B);
+        let side = if is_turned && !beside.is_of_product { -1.0 } else { 1.0 };
+        if let Some(file) = file.as_mut().filter(|_| side < 0.0) {
             file.note(
                 "end b touches first and is called a here: places of the file are turned around; those of --at, \
                  --center-of-mass and --mass are not, they count towards the end that strikes second",
             );
         }
-        let length = either(self.length, self.length_m);
-        let length_m = match (length, &file) {
-            (Some(length), Some(file)) => Some(file.length_of(length.si)?),
-            (length, file) => length.map(|length| length.si).or(file.as_ref().map(OneDrop::length_m)),
+        let halves_m = [
+            length_m.or(base.map(|drop| drop.body.length_m())),
+            width_m.or(base.and_then(|drop| drop.body.width).map(|width| width.m())),
+            thickness_m,
+        ]
+        .map(|side| side.map(|m| 0.5 * m));
+        let mut inputs = DropInputs {
+            length_m,
+            width_m,
+            thickness_m,
+            gyration_m: beside.gyration.map(|radii| radii.values().into_iter().map(|radius| radius.si).collect()),
+            center_of_mass_m: self.center_of_mass_m,
+            product_of_inertia_m2: self.product_of_inertia_m2,
+            e: beside.e,
+            speed_m_s: si(self.fall.speed, self.fall.speed_m_s),
+            height_m: si(self.fall.height, self.fall.height_m),
+            tilt_deg: degrees(self.tilt, self.tilt_deg),
+            direction_deg: degrees(self.direction, self.direction_deg),
+            gaps_m: self.gaps_m.or(self.gaps.map(|gaps| gaps.map(|gap| gap.si))),
+            orientation: self.orientation,
+            spin_rad_s: beside.spin_rad_s.map(PerAxis::values),
+            gravity_m_s2: si(self.gravity, self.gravity_m_s2),
+            contact_time_s: self.contact_time().map(|time| time.si),
+            contact_law: self.contact_law.map(|law| law.0),
+            first: beside.first,
+            is_flat: beside.is_flat,
+            ..DropInputs::default()
         };
-        let tilt_deg =
-            self.tilt_deg.or(self.tilt.map(|tilt| neat(tilt.si.to_degrees()))).or(beside.flat.then_some(0.0));
-        let contact_time = self.contact_time();
-        let model = beside.model.unwrap_or(match (contact_time, &file) {
-            (None, Some(file)) if !file.has_contact_time() => Model::FiniteTilt,
-            _ => Model::Compliant,
-        });
-        self.check(model)?;
-        let compliant = model == Model::Compliant;
-        let flat = beside.flat || file.as_ref().is_some_and(OneDrop::is_flat);
-        if beside.flat && compliant {
+        if let Some(center) = self.center_of_mass {
+            let along = center.values().into_iter().zip(halves_m);
+            let relative = along.map(|(place, half_m)| Ok(side * place.relative("--center-of-mass", half_m)? + 0.0));
+            inputs.center_of_mass = Some(relative.collect::<Result<_, Failure>>()?);
+        }
+        if let ([_, ..], [Some(half_m), None, _]) = (beside.masses, halves_m) {
+            let e = inputs.e.or(base.map(|drop| drop.restitution)).unwrap_or(0.0);
+            let bar = inputs::bar_of(&quantities::masses(beside.masses, Some(half_m))?, e)?;
+            inputs.center_of_mass = Some(vec![side * bar.center_of_mass() + 0.0]);
+            inputs.gyration_m = Some(vec![half_m * bar.gyration_ratio()]);
+        } else if !beside.masses.is_empty() && halves_m[1].is_some() {
             return Err(Failure::Usage(
-                "--flat goes with instant impacts: contacts that take time land flat with --tilt=0deg",
+                "--mass is that of a bar: a plate takes --gyration=KX,KY and --center-of-mass=SX,SY",
             ));
         }
-        let asked = compliant || beside.instant_contacts;
-        let of_file = |file: &mut Option<OneDrop>| file.as_mut().filter(|_| asked)?.contact_time_s();
-        let contact_time_s = contact_time.map(|time| time.si).or_else(|| of_file(&mut file));
-        let e = beside.e.or_else(|| file.as_mut().map(OneDrop::restitution));
-        let tilt_deg = tilt_deg.or_else(|| file.as_mut().map(OneDrop::tilt_deg));
-        let gravity = either(self.gravity, self.gravity_m_s2).map(|gravity| gravity.si);
-        let gravity = gravity.or(file.as_ref().map(OneDrop::gravity_m_s2)).unwrap_or(STANDARD_GRAVITY_M_S2);
-        let mut speed = either(self.fall.speed, self.fall.speed_m_s).map(|speed| speed.si);
-        let mut height_m = either(self.fall.height, self.fall.height_m).map(|height| height.si);
-        if speed.is_none() && height_m.is_none() {
-            (speed, height_m) = file.as_mut().map_or((None, None), OneDrop::fall);
-        }
-        let inertia = beside.gyration.is_some() || !beside.masses.is_empty() || file.is_some();
-        let missing = [
-            (length_m.is_some(), "--length=LENGTH"),
-            (inertia, "--gyration=LENGTH or --mass=M@S"),
-            (e.is_some(), "--e=E"),
-            (speed.is_some() || height_m.is_some(), "--speed=SPEED or --height=LENGTH"),
-            (tilt_deg.is_some(), "--tilt=ANGLE"),
-            (!compliant || contact_time_s.is_some(), "--contact-time=TIME"),
-        ];
-        let missing: Vec<_> = missing.iter().filter(|(is_given, _)| !is_given).map(|(_, name)| *name).collect();
-        let (Some(length_m), Some(e), Some(tilt_deg), []) = (length_m, e, tilt_deg, &missing[..]) else {
-            let product = if file.is_none() { "; or --product=FILE, which says all of it" } else { "" };
-            return Err(Failure::Wrong(format!("the drop is not whole: give {}{product}", missing.join(", "))));
-        };
-        let half = 0.5 * length_m;
-        notes
-            .extend(beside.masses.iter().flat_map(|piece| piece.slips(half)).map(|slip| ("warning", slip.to_string())));
-        let turned = mirrored && beside.of_product;
-        let (center_of_mass, body) = self.body(half, beside, e, file.as_mut(), if turned { -1.0 } else { 1.0 })?;
-        let scene = self.scene(body, e, [speed, height_m], tilt_deg, gravity)?;
-        let scene = match (beside.spin, file.as_mut()) {
-            (Some((spin, flag)), _) => scene.with_spin(spin).map_err(Failure::flag(flag))?,
-            (None, Some(file)) => scene.with_spin(file.spin_rad_s())?,
-            (None, None) => scene,
-        };
-        let part = file.as_mut().map(|file| file.part([half, 0.0])).transpose()?.flatten();
-        let shown = self.shown(length.and_then(|length| length.unit), beside, file.as_ref());
-        let law = self.contact_law.map(|law| law.0).or(file.as_ref().map(OneDrop::contact_law)).unwrap_or_default();
-        if let Some(mut file) = file {
-            if length.is_some() && beside.gyration.is_none() && beside.masses.is_empty() {
-                file.note("the radius of gyration and the center of mass go with the length");
-            }
-            notes.extend(file.into_notes().map(|note| ("note", note)));
-        }
-        Ok(Setup {
-            model,
-            first: if mirrored { End::B } else { End::A },
-            scene,
-            center_of_mass,
-            length_m,
-            thickness_m: self.thickness(),
-            height_m,
-            tilt_deg,
-            flat,
-            contact_time_s,
-            contact_law: law,
-            shown,
-            part,
-            notes,
-        })
+        Ok(inputs)
     }
 
     /// Values that no product has.
     fn slips(&self, beside: &ExtraArgs<'_>) -> Vec<(&'static str, String)> {
+        let radius = beside.gyration.map(PerAxis::values).filter(|radii| radii.len() == 1).map(|radii| radii[0]);
         let given = [
             ("length", either(self.length, self.length_m)),
             ("speed", either(self.fall.speed, self.fall.speed_m_s)),
             ("height", either(self.fall.height, self.fall.height_m)),
             ("contact_time", self.contact_time()),
-            ("radius_of_gyration", beside.gyration),
+            ("radius_of_gyration", radius),
         ];
         let slips = given.into_iter().filter_map(|(key, quantity)| slip(key, &quantity?));
         slips.map(|slip| ("warning", slip.to_string())).collect()
     }
 
     /// Units as they were typed, here or in the file.
-    fn shown(
-        &self,
-        length: Option<&'static clatter_assess::units::Unit>,
-        beside: &ExtraArgs<'_>,
-        file: Option<&OneDrop>,
-    ) -> Shown {
+    fn shown(&self, beside: &ExtraArgs<'_>, file: Option<&OneDrop>) -> Shown {
         let of = |quantity: Option<Quantity>| quantity.and_then(|quantity| quantity.unit);
-        let lengths = length.or(of(beside.gyration)).or(of(self.thickness)).or(of(self.fall.height));
+        let radius = beside.gyration.map(|radii| radii.values()[0]);
+        let [length, _, thickness] = self.sizes();
+        let lengths = of(length).or(of(radius)).or(of(thickness)).or(of(self.fall.height));
         Shown {
             length: Show { unit: lengths.or(file.and_then(OneDrop::length_unit)), name: "m" },
             speed: Show { unit: of(self.fall.speed).or(file.and_then(OneDrop::speed_unit)), name: "m/s" },
@@ -341,70 +373,99 @@ impl DropArgs {
         }
     }
 
-    /// The body, and where its center of mass lies.
-    fn body(
-        &self,
-        half: f64,
-        beside: &ExtraArgs<'_>,
-        e: f64,
-        file: Option<&mut OneDrop>,
-        side: f64,
-    ) -> Result<(f64, Profile), Failure> {
-        let flag = "--center-of-mass";
-        let center = self.center_of_mass.map(|place| place.of_bar(flag)?.relative(flag, Some(half))).transpose()?;
-        let center = center.map(|center| side * center + 0.0);
-        let [(center, center_flag), (gyration, gyration_flag)] = match (beside.gyration, beside.masses) {
-            (None, []) => {
-                // The file has the rest; its body takes another length as it is stretched.
-                let (own_center, own_gyration) = file.map_or((0.0, f64::NAN), OneDrop::inertia);
-                [(center.unwrap_or(own_center), "--center-of-mass"), (half * own_gyration, "--product")]
-            }
-            (Some(gyration), _) => {
-                let flag = if gyration.unit.is_some() { "--gyration" } else { "--gyration-m" };
-                let center = center.or(file.map(|file| file.center_of_mass())).unwrap_or(0.0);
-                [(center, "--center-of-mass"), (gyration.si, flag)]
-            }
-            (None, pieces) => {
-                let bar = inputs::bar_of(&quantities::masses(pieces, Some(half))?, e)?;
-                [side * bar.center_of_mass() + 0.0, half * bar.gyration_ratio()].map(|x| (x, "--mass"))
-            }
+    /// The option that gives an input, as it was given: `--height`, or `--height-m` for a plain number.
+    fn flag(&self, name: &str, gyration: Option<PerAxis<Quantity>>) -> String {
+        let (fall, kebab) = (&self.fall, name.replace('_', "-"));
+        let radius = gyration.map(|radii| radii.values()[0]);
+        let is_plain = match name {
+            "length_m" => self.length_m.is_some(),
+            "width_m" => self.width_m.is_some(),
+            "thickness_m" => self.thickness_m.is_some(),
+            "speed_m_s" => fall.speed_m_s.is_some(),
+            "height_m" => fall.height_m.is_some(),
+            "tilt_deg" => self.tilt_deg.is_some(),
+            "direction_deg" => self.direction_deg.is_some(),
+            "gaps_m" => self.gaps_m.is_some(),
+            "gravity_m_s2" => self.gravity_m_s2.is_some(),
+            "contact_time_s" => self.contact_time_s.is_some(),
+            "gyration_m" => radius.is_some_and(|radius| radius.unit.is_none()),
+            _ => true,
         };
-        let (a, b) = (half * (1.0 + center), half * (1.0 - center));
-        Profile::off_center(a, b, 0.0).map_err(Failure::flag(center_flag))?;
-        let body = Profile::off_center(a, b, gyration).map_err(Failure::flag(gyration_flag))?;
-        let most = MOST_GYRATION * 2.0 * half;
-        if gyration > most {
-            let [given, most] = [gyration, most].map(|m| given(neat(1e3 * m)));
-            return Err(Failure::Wrong(format!(
-                "invalid value for '{gyration_flag}': radius of gyration {given} mm: at most {most} mm here, 2 lengths, as in product files; two masses at the ends have 0.5"
-            )));
-        }
-        let flag = self.thickness_flag();
-        let body = body.with_thickness(self.thickness()).map_err(Failure::flag(flag))?;
-        Ok((center, body))
+        let units = ["-m-s2", "-m-s", "-deg", "-m", "-s"];
+        let typed = units.iter().find_map(|unit| kebab.strip_suffix(unit)).filter(|_| !is_plain);
+        format!("--{}", typed.unwrap_or(&kebab))
     }
 
-    /// The drop without spin yet, not limited in time.
-    fn scene(
-        &self,
-        body: Profile,
-        e: f64,
-        [speed, height]: [Option<f64>; 2],
-        tilt: f64,
-        gravity: f64,
-    ) -> Result<Scene, Failure> {
-        Ok(match (speed, height) {
-            (Some(speed), _) => Scene::new(body, e, speed, tilt, gravity)?,
-            (None, Some(_)) if gravity == 0.0 => {
-                return Err(Failure::Usage(
-                    "a height (--height, --height-m) needs gravity: give --speed, or a --gravity or --gravity-m-s2 above 0",
-                ));
+    fn named(&self, name: &str, gyration: Option<PerAxis<Quantity>>, reason: &str) -> Failure {
+        Failure::Wrong(format!("invalid value for '{}': {reason}", self.flag(name, gyration)))
+    }
+
+    /// A drop that was refused, with the options that give it.
+    pub(crate) fn failure(&self, error: Error, gyration: Option<PerAxis<Quantity>>) -> Failure {
+        match error {
+            Error::Missing(names) => {
+                let option = |name: &&str| match *name {
+                    "length_m" => "--length=LENGTH",
+                    "width_m" => "--width=LENGTH",
+                    "thickness_m" => "--thickness=LENGTH",
+                    "gyration_m" if self.sizes()[1].is_none() => "--gyration=LENGTH or --mass=M@S",
+                    "gyration_m" if self.sizes()[2].is_none() => "--gyration=KX,KY",
+                    "gyration_m" => "--gyration=KX,KY,KZ (about the axes of the box)",
+                    "e" => "--e=E",
+                    "speed_m_s or height_m" => "--speed=SPEED or --height=LENGTH",
+                    "tilt_deg or gaps_m" => "--tilt=ANGLE and --direction=ANGLE, or --gaps=HX,HY",
+                    "orientation or tilt_deg" => "--orientation=W,X,Y,Z or --tilt=ANGLE",
+                    "direction_deg" => "--direction=ANGLE",
+                    "tilt_deg" => "--tilt=ANGLE",
+                    _ => "--contact-time=TIME",
+                };
+                let (give, file) =
+                    (names.iter().map(option).collect::<Vec<_>>().join(", "), "--product=FILE, which says all of it");
+                let or = if self.product.is_none() { format!("; or {file}") } else { String::new() };
+                Failure::Wrong(format!("the drop is not whole: give {give}{or}"))
             }
-            // That there is one of the two was checked before.
-            (None, height) => {
-                let flag = if self.fall.height_m.is_some() { "--height-m" } else { "--height" };
-                Scene::from_height(body, e, height.unwrap_or(f64::NAN), tilt, gravity).map_err(Failure::flag(flag))?
+            Error::Input { name, reason } => self.named(name, gyration, &reason),
+            Error::Flight(error @ clatter_flight::Error::Bound { name, .. }) => {
+                let (name, given) = match name {
+                    "contact time" => ("contact_time_s", self.contact_time_s),
+                    _ => (
+                        "gyration_m",
+                        gyration.map(|radii| radii.values()[0]).filter(|k| k.unit.is_none()).map(|k| k.si),
+                    ),
+                };
+                let plain = given.map_or(String::new(), |si| format!("{si:?}: "));
+                self.named(name, gyration, &format!("{plain}{error}"))
             }
-        })
+            error => error.into(),
+        }
+    }
+}
+
+impl Setup {
+    /// A place that was typed, in half-sides along each side of the body, which goes on so far beyond its feet.
+    pub(crate) fn relative(&self, at: PerAxis<Place>, beyond_m: [f64; 2]) -> Result<Vec<f64>, Failure> {
+        let (flag, body) = ("--at", &self.drop.body);
+        let places = match (self.drop.is_solid(), body.is_wide()) {
+            (true, _) => at.of_block(flag)?.to_vec(),
+            (_, true) => at.of_plate(flag)?.to_vec(),
+            _ => vec![at.of_bar(flag)?],
+        };
+        let on = |(axis, place): (usize, Place)| {
+            let beyond_m = beyond_m.get(axis).copied().unwrap_or(0.0);
+            quantities::position(place, flag, 0.5 * self.sides_m()[axis], beyond_m)
+        };
+        places.into_iter().enumerate().map(on).collect()
+    }
+    /// The same in m from the middle.
+    pub(crate) fn place_m(&self, at: PerAxis<Place>, beyond_m: [f64; 2]) -> Result<[f64; 3], Failure> {
+        let mut at_m = [0.0; 3];
+        for (axis, s) in self.relative(at, beyond_m)?.into_iter().enumerate() {
+            at_m[axis] = 0.5 * self.sides_m()[axis] * s;
+        }
+        Ok(at_m)
+    }
+    fn sides_m(&self) -> [f64; 3] {
+        let body = &self.drop.body;
+        [body.length_m(), body.width_m(), body.thickness().m()]
     }
 }

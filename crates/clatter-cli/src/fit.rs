@@ -17,7 +17,7 @@ use crate::measured;
 use crate::numbers::given;
 use crate::output::{Files, no_kind};
 use crate::progress::Counted;
-use crate::quantities::{self, Place, neat, positions_beyond};
+use crate::quantities::{self, Place, neat};
 use crate::record_args::RecordArgs;
 use crate::{Failure, Streams, assess, input, output, text};
 
@@ -144,8 +144,7 @@ impl Args {
         let read = |path: &PathBuf| {
             let position = || {
                 let Some(place) = places.next() else { return Ok(None) };
-                let s = positions_beyond(&[*place], "--position", half_m, beyond_m)?;
-                Ok(Some(s[0] * half_m))
+                Ok(Some(half_m * quantities::position(*place, "--position", half_m, beyond_m)?))
             };
             measured::read(path, position, timing_s, &self.reading)
         };

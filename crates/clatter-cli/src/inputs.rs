@@ -344,6 +344,13 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     Ok(share)
 }
 
+/// An axis of a box.
+pub(crate) fn axis_of_box() -> impl TypedValueParser<Value = clatter_assess::Axis> {
+    let names = ["x", "y", "z"].map(PossibleValue::new).into_iter();
+    let any = PossibleValue::new("any").help("The magnitude, of a place on which a part is mounted rigidly");
+    PossibleValuesParser::new(names.chain([any])).map(|name| clatter_assess::Axis::of(&name))
+}
+
 /// How a drop is followed, from the least physics.
 pub(crate) fn model() -> impl TypedValueParser<Value = Model> {
     let help = |model| match model {

@@ -16,7 +16,6 @@
 
 mod assess;
 mod atlas;
-mod block;
 mod budget;
 mod columns;
 mod completions;

@@ -5,15 +5,14 @@ use std::path::Path;
 use clatter::End;
 use clatter_assess::units::{Quantity, Unit};
 use clatter_assess::{
-    Accuracy, Component, Damping, Fall, Feet, First, Limit, LimitKind, Limits, Mount, OwnContacts, ProductFile, Side,
+    Accuracy, Component, Damping, Drop, Fall, First, Input, Limit, LimitKind, Limits, Mount, Part, Place, ProductFile,
     Spread, WorstCase,
 };
-use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
 
 use crate::numbers::given;
 use crate::output::Files;
-use crate::quantities::{Place, Show, neat};
+use crate::quantities::{Show, neat};
 use crate::text::{shown, visible};
 use crate::words::drop;
 use crate::{Failure, Streams, assess};
@@ -22,10 +21,12 @@ use crate::{Failure, Streams, assess};
 #[derive(Debug, Clone)]
 pub(crate) struct PartSetup {
     pub(crate) name: String,
-    /// Its middle, of a bar as the drop is seen; along the product and across a plate.
-    pub(crate) place: [Place; 2],
-    /// Where its worst place is one of, in m from the middle of the product.
-    pub(crate) places_m: Vec<[f64; 2]>,
+    /// Its middle.
+    pub(crate) middle: Place,
+    /// Where its worst place is one of.
+    pub(crate) places: Vec<Place>,
+    /// The units in which the file has its place.
+    pub(crate) units: [Option<&'static Unit>; 2],
     pub(crate) limits: Limits,
     /// The same as numbers.
     pub(crate) allowed: Vec<Limit>,
@@ -61,19 +62,11 @@ impl clap::ValueEnum for Worst {
 pub(crate) struct OneDrop {
     file: ProductFile,
     component: Option<usize>,
-    /// Whether end b touches first: the product is then seen from behind, so that the end in front is a.
-    mirrored: bool,
+    /// The end that touches first.
+    first: End,
     /// The worst drop of the ranges, where that is the one.
     worst: Option<WorstCase>,
     notes: Vec<String>,
-}
-
-/// Which value of a range is taken.
-#[derive(Clone, Copy)]
-enum Taken {
-    Least,
-    Largest,
-    Middle,
 }
 
 impl OneDrop {
@@ -98,10 +91,8 @@ impl OneDrop {
         }
         let found = match component {
             Some(name) => {
-                let found = file
-                    .components
-                    .iter()
-                    .position(|component| component.name.trim_matches(' ') == name.trim_matches(' '));
+                let is_it = |component: &Component| component.name.trim_matches(' ') == name.trim_matches(' ');
+                let found = file.components.iter().position(is_it);
                 let names = || {
                     let names: Vec<_> = file.components.iter().map(|c| format!("\"{}\"", shown(&c.name, 60))).collect();
                     names.join(", ")
@@ -123,7 +114,7 @@ impl OneDrop {
                 End::A
             }
         });
-        Ok(Self { file, component: found, mirrored: first == End::B, worst: None, notes })
+        Ok(Self { file, component: found, first, worst: None, notes })
     }
 
     /// The drop of the ranges that asks most of a limit of the part, found as an assessment finds it.
@@ -145,28 +136,14 @@ impl OneDrop {
             return Err(Failure::Wrong(format!("no worst drop is known: {why}")));
         };
         let limit = found.limit.name();
-        self.mirrored = worst.drop.first() == End::B && !self.is_plate();
         self.notes = vec![format!("the worst drop of its ranges, for the {limit} limit: {}", drop(worst))];
         self.worst = Some(*worst);
         Ok(self)
     }
 
-    /// Whether both ends land as one.
-    pub(crate) fn is_flat(&self) -> bool {
-        self.worst.as_ref().is_some_and(|worst| worst.drop.is_flat)
-    }
-
-    pub(crate) fn is_plate(&self) -> bool {
-        self.file.product.body.is_wide()
-    }
-
-    /// The worst drop of a box, where that is the one.
-    pub(crate) fn worst_of_box(&self) -> Option<WorstCase> {
-        self.worst.filter(|_| self.file.is_box())
-    }
-
-    pub(crate) fn is_mirrored(&self) -> bool {
-        self.mirrored
+    /// The worst drop of its ranges, where that is the one.
+    pub(crate) fn worst(&self) -> Option<&WorstCase> {
+        self.worst.as_ref()
     }
 
     pub(crate) fn note(&mut self, note: &str) {
@@ -178,25 +155,33 @@ impl OneDrop {
         self.notes.into_iter().map(move |note| format!("{product}: {note}"))
     }
 
-    /// One value of a range; of a range, it is told which.
-    fn take(notes: &mut Vec<String>, name: &str, spread: &Spread, taken: Taken, si: &'static str) -> f64 {
-        let (value, which) = match taken {
-            Taken::Least => (spread.lo(), "the least"),
-            Taken::Largest => (spread.hi(), "the largest"),
-            Taken::Middle => (spread.at(0.5), "the middle"),
-        };
-        if !spread.is_value() {
-            let show = Show { unit: spread.unit(), name: si };
-            let [value, lo, hi] = [value, spread.lo(), spread.hi()].map(|x| given(neat(show.value(x))));
-            let unit = if show.name().is_empty() { String::new() } else { format!(" {}", show.name()) };
-            notes.push(format!("{name} = {value}{unit}, {which} of {lo} to {hi}{unit}"));
+    /// The drop, and the height that it falls from: of each input the value that asks most, but of those that are given otherwise.
+    pub(crate) fn drop(&mut self, is_given: impl Fn(Input) -> bool) -> (Drop, Option<f64>) {
+        let (notes, mut height_m) = (&mut self.notes, None);
+        let mut drop = self.file.one_drop(self.first, |row, spread| {
+            let at = match row.input {
+                Input::Height | Input::Speed | Input::Restitution => 1.0,
+                Input::ContactTime => 0.0,
+                _ => 0.5,
+            };
+            let value =
+                take(if is_given(row.input) { None } else { Some(&mut *notes) }, row.words, spread, at, row.unit);
+            height_m = if row.input == Input::Height { Some(value) } else { height_m };
+            if row.input.is_angle() { as_typed(value) } else { value }
+        });
+        if drop.body.is_wide() {
+            drop.direction_rad = match &self.file.drop.direction_rad {
+                _ if is_given(Input::Direction) => 0.0,
+                Some(spread) => as_typed(take(Some(notes), "direction", spread, 0.5, "rad")),
+                None => {
+                    notes.push("it may rise to any direction: taken is 45 deg, corner a first".to_owned());
+                    45_f64.to_radians()
+                }
+            };
         }
-        value
+        (drop, height_m)
     }
 
-    pub(crate) fn length_m(&self) -> f64 {
-        self.file.product.body.length_m()
-    }
     /// Between its ends or feet, of a product of the file that is so long from edge to edge.
     pub(crate) fn length_of(&self, edges_m: f64) -> Result<f64, Failure> {
         let beyond_m = self.file.product.body.feet.map_or(0.0, |feet| 2.0 * feet.inset_m[0]);
@@ -206,166 +191,50 @@ impl OneDrop {
         let [edges, beyond] = [edges_m, beyond_m].map(|m| given(neat(1e3 * m)));
         Err(Failure::Wrong(format!("--length: the feet of the product leave out {beyond} mm of its {edges} mm")))
     }
-    /// Position of the center of mass, and radius of gyration over the half-length.
-    pub(crate) fn inertia(&mut self) -> (f64, f64) {
-        let gyration_m = self.worst.as_ref().and_then(WorstCase::gyration_m).unwrap_or_else(|| {
-            Self::take(&mut self.notes, "radius of gyration", &self.file.product.gyration_m, Taken::Middle, "m")
-        });
-        (self.center_of_mass(), 2.0 * gyration_m / self.length_m())
-    }
-    pub(crate) fn center_of_mass(&self) -> f64 {
-        let ([a, b], side) = (self.file.product.body.arms_m(), if self.mirrored { -1.0 } else { 1.0 });
-        side * (a - b) / (a + b) + 0.0
-    }
-    pub(crate) fn has_contact_time(&self) -> bool {
-        self.file.product.contact_time_s.is_some()
-    }
-    pub(crate) fn contact_time_s(&mut self) -> Option<f64> {
-        if let Some(worst) = &self.worst {
-            return worst.drop.contact_time_s;
-        }
-        let spread = self.file.product.contact_time_s?;
-        Some(Self::take(&mut self.notes, "contact time", &spread, Taken::Least, "s"))
-    }
-    /// The same with a word, where edges beyond its feet are not looked at.
-    pub(crate) fn on_feet_alone(mut self) -> Self {
-        if self.file.product.body.feet.is_some() {
-            self.note("its ends here are its feet; edges beyond them are not looked at, as 'clatter respond' does");
-        }
-        self
-    }
-    /// Refuses contacts that differ.
-    pub(crate) fn alike(self) -> Result<Self, Failure> {
-        if self.own_contacts().is_none() {
-            return Ok(self);
-        }
-        Err(Failure::Wrong(
-            "'clatter simulate' takes a product whose contacts are alike, without `contacts` of their own; 'clatter respond' takes them"
-                .to_owned(),
-        ))
-    }
-    /// Contacts of their own.
-    pub(crate) fn own_contacts(&self) -> OwnContacts {
-        self.file.product.own_contacts
-    }
-    /// Feet that it lands on.
-    pub(crate) fn feet(&self) -> Option<Feet> {
-        self.file.product.body.feet
-    }
-    pub(crate) fn contact_law(&self) -> ContactLaw {
-        self.file.product.law()
-    }
-    pub(crate) fn restitution(&mut self) -> f64 {
-        if let Some(worst) = &self.worst {
-            return worst.drop.restitution;
-        }
-        Self::take(&mut self.notes, "restitution", &self.file.product.restitution, Taken::Largest, "")
-    }
-    /// Angular velocity at the first touch about the axis of the tilt, positive where that grows.
-    pub(crate) fn spin_rad_s(&mut self) -> f64 {
-        if let Some(worst) = &self.worst {
-            return worst.drop.spin_rad_s;
-        }
-        neat(Self::take(&mut self.notes, "spin", &self.file.drop.spin_rad_s, Taken::Middle, "rad/s"))
-    }
-    pub(crate) fn tilt_deg(&mut self) -> f64 {
-        if let Some(worst) = &self.worst {
-            return worst.tilt_deg();
-        }
-        neat(Self::take(&mut self.notes, "tilt", &self.file.drop.tilt_rad, Taken::Middle, "rad").to_degrees())
-    }
-    /// Where a plate rises to.
-    pub(crate) fn direction_deg(&mut self) -> f64 {
-        if let Some(direction) = self.worst.as_ref().and_then(WorstCase::direction_deg) {
-            return direction;
-        }
-        let Some(spread) = &self.file.drop.direction_rad else {
-            self.notes.push("it may rise to any direction: taken is 45 deg, corner a first".to_owned());
-            return 45.0;
-        };
-        neat(Self::take(&mut self.notes, "direction", spread, Taken::Middle, "rad").to_degrees())
-    }
-    pub(crate) fn width(&self) -> Option<Side> {
-        self.file.product.body.width
-    }
-    pub(crate) fn product_of_inertia_m2(&self) -> f64 {
-        self.file.product.body.products_m2[0]
-    }
-    pub(crate) fn gravity_m_s2(&self) -> f64 {
-        self.file.drop.gravity_m_s2
-    }
-    /// Speed or height.
-    pub(crate) fn fall(&mut self) -> (Option<f64>, Option<f64>) {
-        if let Some(worst) = &self.worst {
-            return (Some(worst.drop.speed_m_s), None);
-        }
-        match &self.file.drop.fall {
-            Fall::SpeedMS(speed) => (Some(Self::take(&mut self.notes, "speed", speed, Taken::Largest, "m/s")), None),
-            Fall::HeightM(height) => (None, Some(Self::take(&mut self.notes, "height", height, Taken::Largest, "m"))),
-        }
-    }
 
     fn component(&self) -> Option<&Component> {
         self.component.and_then(|i| self.file.components.get(i))
     }
 
-    /// The part on a body of these half-sides, across 0 of a bar; none where it is not named.
-    pub(crate) fn part(&mut self, halves_m: [f64; 2]) -> Result<Option<PartSetup>, Failure> {
+    /// The part; none where it is not named.
+    pub(crate) fn part(&mut self) -> Result<Option<PartSetup>, Failure> {
         let Some(component) = self.component().cloned() else { return Ok(None) };
-        let notes = &mut self.notes;
-        let (at_m, places_m) = if let Some(WorstCase { part, .. }) = &self.worst {
-            let at_m = part.place.plan_m();
-            (at_m, component.places_m().into_iter().chain([at_m]).collect())
+        let (notes, worst) = (&mut self.notes, self.worst.as_ref());
+        let (middle, places) = if let Some(WorstCase { part: Part { place, .. }, .. }) = worst {
+            let others = component.places_m().into_iter().map(|[x, y]| [x, y, place.at_m[2]]);
+            (*place, others.chain([place.at_m]).map(|at_m| Place { at_m, axis: place.axis }).collect())
         } else {
-            let along = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
-            let across = Self::take(notes, "position across", &component.across_m, Taken::Middle, "m");
-            ([along, across], component.places_at_m([along, across]))
+            let along = take(Some(notes), "position", &component.position_m, 0.5, "m");
+            let across = take(Some(notes), "position across", &component.across_m, 0.5, "m");
+            let places = component.places_at_m([along, across]).into_iter().map(Place::flat).collect();
+            (Place::flat([along, across]), places)
         };
-        let side = if self.mirrored { -1.0 } else { 1.0 };
-        let place = |si, spread: &Spread| Place::Length(Quantity { si, unit: spread.unit() });
-        let place = [place(side * at_m[0], &component.position_m), place(at_m[1], &component.across_m)];
         let suspension = match component.mount {
             Mount::Hard => None,
             Mount::Suspended { frequency_hz, damping } => {
                 let unit = frequency_hz.unit();
-                let worst = self.worst.as_ref().and_then(|worst| worst.frequency_hz().zip(worst.damping_ratio()));
+                let worst = worst.and_then(|worst| worst.frequency_hz().zip(worst.damping_ratio()));
                 Some(if let Some((si, ratio)) = worst {
                     (Quantity { si, unit }, DampingRatio::new(ratio)?)
                 } else {
-                    let si = Self::take(notes, "natural frequency", &frequency_hz, Taken::Middle, "Hz");
-                    (Quantity { si, unit }, Self::damping(notes, &damping)?)
+                    let si = take(Some(notes), "natural frequency", &frequency_hz, 0.5, "Hz");
+                    let given = match &damping {
+                        Damping::Ratio(ratio) => take(Some(notes), "damping ratio", ratio, 0.0, ""),
+                        Damping::Quality(quality) => take(Some(notes), "quality factor", quality, 1.0, ""),
+                    };
+                    (Quantity { si, unit }, damping.ratio(given)?)
                 })
             }
         };
-        let beyond_m = self.file.product.body.feet.map_or([0.0; 2], |feet| feet.inset_m);
-        for (side, half_m) in halves_m.into_iter().enumerate() {
-            let half_m = half_m + beyond_m[side];
-            let farthest = places_m.iter().fold(0.0_f64, |most, at| most.max(at[side].abs()));
-            if farthest > half_m * (1.0 + 1e-9) {
-                return Err(Failure::Wrong(format!(
-                    "the component is {} m from the middle of a body of {} m: its position is beyond the end",
-                    given(neat(farthest)),
-                    given(neat(2.0 * half_m))
-                )));
-            }
-        }
         Ok(Some(PartSetup {
-            place,
-            places_m,
+            middle,
+            places,
+            units: [component.position_m.unit(), component.across_m.unit()],
             suspension,
             allowed: Limit::of(&component),
             limits: component.limits,
             name: component.name,
         }))
-    }
-
-    /// The least damping.
-    fn damping(notes: &mut Vec<String>, damping: &Damping) -> Result<DampingRatio, Failure> {
-        let given = match damping {
-            Damping::Ratio(ratio) => Self::take(notes, "damping ratio", ratio, Taken::Least, ""),
-            Damping::Quality(quality) => Self::take(notes, "quality factor", quality, Taken::Largest, ""),
-        };
-        Ok(damping.ratio(given)?)
     }
 
     pub(crate) fn length_unit(&self) -> Option<&'static Unit> {
@@ -382,4 +251,42 @@ impl OneDrop {
         self.component()
             .and_then(|component| component.limits.unit(LimitKind::Acceleration, LimitKind::Acceleration.unit()))
     }
+}
+
+impl PartSetup {
+    /// Refuses places beyond a product of these sides.
+    pub(crate) fn check_within(&self, sides_m: [f64; 2]) -> Result<(), Failure> {
+        for (side, side_m) in sides_m.into_iter().enumerate() {
+            let farthest = self.places.iter().fold(0.0_f64, |most, place| most.max(place.at_m[side].abs()));
+            if farthest > 0.5 * side_m * (1.0 + 1e-9) {
+                return Err(Failure::Wrong(format!(
+                    "the component is {} m from the middle of a body of {} m: its position is beyond the end",
+                    given(neat(farthest)),
+                    given(neat(side_m))
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An angle that was read in degrees, without the digits that the conversion adds.
+fn as_typed(angle_rad: f64) -> f64 {
+    neat(angle_rad.to_degrees()).to_radians()
+}
+
+/// The value at a share of a range, from 0 to 1; of a range, it is noted which.
+fn take(notes: Option<&mut Vec<String>>, name: &str, spread: &Spread, share: f64, si: &'static str) -> f64 {
+    let (value, which) = match share {
+        0.0 => (spread.lo(), "the least"),
+        1.0 => (spread.hi(), "the largest"),
+        share => (spread.at(share), "the middle"),
+    };
+    if let (Some(notes), false) = (notes, spread.is_value()) {
+        let show = Show { unit: spread.unit(), name: if si == "1" { "" } else { si } };
+        let [value, lo, hi] = [value, spread.lo(), spread.hi()].map(|x| given(neat(show.value(x))));
+        let unit = if show.name().is_empty() { String::new() } else { format!(" {}", show.name()) };
+        notes.push(format!("{name} = {value}{unit}, {which} of {lo} to {hi}{unit}"));
+    }
+    value
 }

@@ -132,6 +132,14 @@ pub(crate) enum PerAxis<T> {
 }
 
 impl<T> PerAxis<T> {
+    /// As many as were typed.
+    pub(crate) fn values(self) -> Vec<T> {
+        match self {
+            Self::Bar(value) => vec![value],
+            Self::Plate(values) => values.into(),
+            Self::Block(values) => values.into(),
+        }
+    }
     pub(crate) fn of_bar(self, flag: &'static str) -> Result<T, Failure> {
         if let Self::Bar(value) = self {
             Ok(value)
@@ -217,28 +225,15 @@ pub(crate) fn center_of_mass(text: &str) -> Result<PerAxis<Place>, String> {
     per_axis(text, |text| place_or(text, inputs::center_of_mass))
 }
 
-/// Positions on a body of this half-length, an end that is missed by roundings taken for it.
-pub(crate) fn positions(places: &[Place], flag: &'static str, half_m: f64) -> Result<Vec<f64>, Failure> {
-    positions_beyond(places, flag, half_m, 0.0)
-}
-
-/// The same of a body that goes on so far beyond the feet which are its ends.
-pub(crate) fn positions_beyond(
-    places: &[Place],
-    flag: &'static str,
-    half_m: f64,
-    beyond_m: f64,
-) -> Result<Vec<f64>, Failure> {
-    let most = 1.0 + beyond_m / half_m;
-    let within = |place: &Place| {
-        let s = place.relative(flag, Some(half_m))?;
-        if s.abs() <= most * (1.0 + 1e-9) {
-            return Ok(s.clamp(-most, most));
-        }
-        let (place, half) = (place.said(), Show { unit: place.unit(), name: "m" }.given(neat(half_m + beyond_m)));
-        Err(Failure::Wrong(format!("{flag} {place} is beyond the ends: allowed is up to {half} from the middle")))
-    };
-    places.iter().map(within).collect()
+/// The position on a body of this half-length that goes on so far beyond the feet which are its ends; an end that is missed by roundings
+/// is taken for it.
+pub(crate) fn position(place: Place, flag: &'static str, half_m: f64, beyond_m: f64) -> Result<f64, Failure> {
+    let (s, most) = (place.relative(flag, Some(half_m))?, 1.0 + beyond_m / half_m);
+    if s.abs() <= most * (1.0 + 1e-9) {
+        return Ok(s.clamp(-most, most));
+    }
+    let (place, half) = (place.said(), Show { unit: place.unit(), name: "m" }.given(neat(half_m + beyond_m)));
+    Err(Failure::Wrong(format!("{flag} {place} is beyond the ends: allowed is up to {half} from the middle")))
 }
 
 /// One `--mass`: a point, or a piece from the first place to the second.

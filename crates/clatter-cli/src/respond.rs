@@ -1,11 +1,8 @@
 //! `clatter respond`: what one clatter does to one component.
 
-mod block;
-mod case;
 mod drop;
 mod limits;
 mod peaks;
-mod plate;
 mod rule;
 mod train;
 
@@ -14,18 +11,15 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter::Bar;
-use clatter_answer::respond::ContactAt;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Feet, Model, OwnContact, OwnContacts, Slip, slip};
+use clatter_assess::{Accuracy, Axis, Model, OwnContact, Slip, slip};
 use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
-use crate::block::Axis;
 use crate::drop_args::{DropArgs, IN_SI};
 use crate::inputs::{self, DampingArgs, EndName, Format};
-use crate::numbers::given;
-use crate::one_drop::{OneDrop, Worst};
+use crate::one_drop::Worst;
 use crate::output::{Files, Kind, Target};
-use crate::quantities::{self, PerAxis, Piece, Place, Show};
+use crate::quantities::{self, PerAxis, Piece, Place};
 use crate::{Failure, Streams, excitation};
 
 /// Tell what a clatter does to a component on its suspension
@@ -114,7 +108,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = inputs::triple, requires = "followed", conflicts_with = "at")]
     at_m: Option<[f64; 3]>,
     /// Along which axis of the box the part moves, or, mounted rigidly, is shaken: any is the magnitude [default: z]
-    #[arg(long, value_enum, requires = "followed")]
+    #[arg(long, value_parser = inputs::axis_of_box(), requires = "followed")]
     axis: Option<Axis>,
     /// Angular velocity at the first touch in rad/s, of a bar one value, positive where the tilt grows; of a plate WX,WY along its length
     /// and its width, corners b and d upward where positive, as they are tilted; of a box WX,WY,WZ about its axes
@@ -246,13 +240,6 @@ impl Inertia {
     fn given(&self) -> Option<PerAxis<Quantity>> {
         self.gyration.or(self.gyration_m)
     }
-    fn flag(&self) -> &'static str {
-        if self.gyration_m.is_some() { "--gyration-m" } else { "--gyration" }
-    }
-    fn gyration(&self) -> Result<Option<Quantity>, Failure> {
-        self.given().map(|gyration| gyration.of_bar(self.flag())).transpose()
-    }
-
     /// The paper's bar.
     fn bar(&self, e: f64) -> Result<Bar, Failure> {
         Ok(match (self.q, self.gyration_ratio, &self.mass[..]) {
@@ -294,27 +281,11 @@ impl Args {
             ));
         }
         if let Some(path) = &self.case {
-            return self.case(path, streams);
-        }
-        if self.drop.is_block() {
-            return self.block(streams);
-        }
-        if self.at_m.is_some() || self.axis.is_some() {
-            return Err(Failure::Usage("--at-m and --axis are of a box, which has --width and --thickness"));
-        }
-        if self.drop.is_plate() {
-            return self.run_plate(None, streams);
+            return self.run_case(path, streams);
         }
         let accuracy = Accuracy { tolerance: self.tolerance, model: self.model, ..Accuracy::default() };
         let worst = self.worst.map(|of| (of, accuracy));
         let file = self.drop.file(self.first.map(Into::into), worst, &self.files(), streams)?;
-        let file = match file.map(|file| (file.worst_of_box(), file)) {
-            Some((Some(worst), file)) => return self.worst_of_box(file, &worst, streams),
-            other => other.map(|(_, file)| file),
-        };
-        if file.as_ref().is_some_and(OneDrop::is_plate) {
-            return self.run_plate(file, streams);
-        }
         if self.model.is_some() || file.is_some() {
             return self.run_drop(file, streams);
         }
@@ -331,19 +302,6 @@ impl Args {
         Ok(())
     }
 
-    fn run_drop(&self, file: Option<OneDrop>, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let drop = self.drop_by(file)?;
-        match self.format {
-            Format::Table => drop.table(streams.out).map_err(Failure::Answer),
-            Format::Json => streams.json(drop.answer()),
-        }?;
-        for (kind, note) in drop.notes() {
-            streams.note(kind, note);
-        }
-        self.warn(std::iter::empty(), streams);
-        Ok(())
-    }
-
     /// Tells of values that no part has, and of these.
     fn warn(&self, others: impl Iterator<Item = Slip>, streams: &mut Streams<'_>) {
         let frequency = self.frequency.and_then(|frequency| slip("natural_frequency", &frequency));
@@ -355,28 +313,6 @@ impl Args {
     /// What clap requires unless there is a file.
     fn e(&self) -> f64 {
         self.e.unwrap_or(f64::NAN)
-    }
-    /// Feet that the product lands on, as they are given, or of the file.
-    fn feet(&self, file: Option<&OneDrop>) -> Option<Feet> {
-        let given = self.feet_m.map(|[x, y, height_m]| Feet { inset_m: [x, y], height_m });
-        given.or_else(|| file.and_then(OneDrop::feet))
-    }
-    /// Contacts of their own, as they are given, or of the file.
-    fn own_contacts(&self, file: Option<&OneDrop>, is_plate: bool) -> Result<OwnContacts, Failure> {
-        let mut own = file.map_or(OwnContacts::NONE, OneDrop::own_contacts);
-        for (k, (at, contact)) in self.contact.iter().enumerate() {
-            if !is_plate && *at > 1 {
-                return Err(Failure::Usage("--contact of a bar is at a or b"));
-            }
-            if self.contact[..k].iter().any(|(other, _)| other == at) {
-                return Err(Failure::Usage("--contact is given once for each end or corner"));
-            }
-            own.0[*at] = *contact;
-        }
-        if !(own.is_none() || self.model.is_none_or(|model| model == Model::Compliant)) {
-            return Err(Failure::Usage("contacts of their own are followed by --model=compliant alone"));
-        }
-        Ok(own)
     }
     /// The place on a bar.
     fn bar_at(&self) -> Result<Option<Place>, Failure> {
@@ -400,11 +336,6 @@ impl Args {
     /// The natural angular frequency that was given.
     fn omega(&self) -> Option<f64> {
         self.omega.or(self.frequency.map(|frequency| TAU * frequency.si))
-    }
-
-    /// An input: what was typed as it was, what a search found to six digits.
-    fn shortly(&self, x: f64) -> f64 {
-        if self.worst.is_some() { six(x) } else { x }
     }
 
     /// A question that has no answer; of a natural frequency with the option that gives it.
@@ -433,15 +364,6 @@ impl Args {
             None => Ok(None),
         }
     }
-}
-
-/// Contacts of their own, after those of the others.
-fn own_contacts(contacts: &[ContactAt], time: Show) -> String {
-    let one = |contact: &ContactAt| {
-        let lasts = contact.contact_time_s.map_or(String::new(), |time_s| format!(" and {}", time.given(time_s.0)));
-        format!("; at {} e = {}{lasts}", contact.at, given(contact.e.0))
-    };
-    contacts.iter().map(one).collect()
 }
 
 /// To six digits.

@@ -6,19 +6,17 @@ mod plate;
 mod table;
 
 use clap::ValueHint;
-use clatter_answer::simulate::{self, Answer, Question};
+use clatter_answer::simulate::{self, Answer, Question, bar};
 use clatter_assess::Model;
 use clatter_assess::units::Quantity;
-use clatter_flight::{Contact, Model as Physics, Stop};
+use clatter_flight::{Scene, Stop};
 
 use crate::drop_args::{DropArgs, ExtraArgs, IN_SI, Setup};
 use crate::inputs::{self, RowFormat};
-use crate::one_drop::OneDrop;
+use crate::one_drop::PartSetup;
 use crate::output::{Files, Kind, Target};
-use crate::quantities::{self, PerAxis, Piece, Place};
+use crate::quantities::{self, PerAxis, Piece, Place, Show, neat};
 use crate::{Failure, Streams};
-
-pub(crate) use plate::turning;
 
 /// Follow one drop in time: its strikes, how hard they are, and how it comes to rest
 ///
@@ -97,9 +95,9 @@ pub(crate) struct Args {
     /// --until in s
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s, help_heading = IN_SI, hide_short_help = true)]
     time_limit_s: Option<f64>,
-    /// Follow the motion for at most so many strikes
-    #[arg(long, value_name = "N", default_value_t = IMPACTS, allow_hyphen_values = true, value_parser = inputs::impact_limit)]
-    impact_limit: usize,
+    /// Follow the motion for at most so many strikes [default: 100000, of a plate by map 1000]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = inputs::impact_limit)]
+    impact_limit: Option<usize>,
     /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; or a length from
     /// the middle; may be given several times
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place)]
@@ -136,30 +134,23 @@ impl Inertia {
     fn given(&self) -> Option<PerAxis<Quantity>> {
         self.gyration.or(self.gyration_m)
     }
-    fn flag(&self) -> &'static str {
-        if self.gyration_m.is_some() { "--gyration-m" } else { "--gyration" }
-    }
-    fn gyration(&self) -> Result<Option<Quantity>, Failure> {
-        self.given().map(|gyration| gyration.of_bar(self.flag())).transpose()
-    }
 }
 
 fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
 }
 
-/// A drop and what came of it.
+/// A drop of a bar and what came of it.
 struct Drop<'a> {
     args: &'a Args,
     setup: Setup,
+    /// The drop as its flight has it.
+    scene: Scene,
     /// Positions asked for, and how they are called.
     at: Vec<f64>,
     called: Vec<String>,
-    answer: Answer,
+    answer: bar::Answer,
 }
-
-/// Impacts followed unless more are asked for.
-const IMPACTS: usize = 100_000;
 
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
@@ -170,31 +161,80 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        if self.drop.is_block() {
-            return self.block(streams);
-        }
-        if self.drop.is_plate() {
-            return self.run_plate(None, streams);
-        }
         let file = self.drop.file(None, None, &self.files(), streams)?;
-        let file = file.map(|file| file.on_feet_alone().alike()).transpose()?;
-        if file.as_ref().is_some_and(OneDrop::is_plate) {
-            return self.run_plate(file, streams);
+        let spin_rad_s = self.spin_rad_s.or(self.spin.map(|spin| PerAxis::Bar(spin.si)));
+        let mut setup = self.drop.setup(ExtraArgs {
+            model: self.model,
+            e: self.e,
+            gyration: self.inertia.given(),
+            masses: &self.inertia.mass,
+            is_flat: false,
+            instant_contacts: false,
+            spin_rad_s,
+            first: None,
+            is_of_product: false,
+            file,
+        })?;
+        setup.shown.spin.unit = self.spin.and_then(|spin| spin.unit);
+        setup.shown.time.unit = setup.shown.time.unit.or(self.until.and_then(|until| until.unit));
+        if !setup.drop.own_contacts.is_none() {
+            return Err(Failure::Usage(
+                "'clatter simulate' takes a product whose contacts are alike, without `contacts` of their own; 'clatter respond' takes them",
+            ));
         }
-        let drop = self.drop(file)?;
-        if let Some(target) = &self.output {
-            drop.write(target)?;
+        if setup.drop.body.feet.take().is_some() {
+            let alone = "its ends here are its feet; edges beyond them are not looked at, as 'clatter respond' does";
+            setup.notes.push(("note", alone.to_owned()));
         }
-        match self.format {
-            RowFormat::Table => drop.table(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.json(&drop.answer)?,
+        if self.output.is_some() && setup.drop.body.is_wide() {
+            return Err(Failure::Usage(
+                "-o writes the motion of a bar: that of a plate or a box is not written to a file, --format=json or csv has its strikes",
+            ));
         }
-        for (kind, note) in &drop.setup.notes {
+        // Typed places of a bar count from the end that touches first; those of the product from its end a.
+        let signs = setup.drop.signs();
+        let mut question = Question::new(setup.drop, setup.model);
+        question.time_limit_s = self.time_limit_s();
+        (question.impact_limit, question.height_m) = (self.impact_limit, setup.height_m);
+        for at in &self.at {
+            if setup.drop.is_solid() {
+                return Err(Failure::Usage(
+                    "--at is a place of a bar: 'clatter respond --at-m=X,Y,Z' answers one of a box",
+                ));
+            }
+            question.at.push(match setup.relative(*at, [0.0; 2])?[..] {
+                [x, y] => [signs[0] * x, signs[1] * y],
+                ref along => [along.iter().sum(), 0.0],
+            });
+        }
+        let of_part = setup.part.as_ref().filter(|_| self.at.is_empty() && !setup.drop.is_solid());
+        if let Some(part) = of_part {
+            let ([x, y, _], [length_m, width_m]) = (part.middle.at_m, setup.drop.sides_m());
+            let across = if width_m > 0.0 { 2.0 * y / width_m } else { 0.0 };
+            question.at.push([signs[0] * 2.0 * x / length_m, signs[1] * across]);
+        }
+        let told = match simulate::answer(&question).map_err(|error| self.drop.failure(error, self.inertia.given()))? {
+            Answer::Bar(answer) => {
+                let typed = self.at.iter().map(|place| place.of_bar("--at").map(Place::said));
+                let mut called = typed.collect::<Result<Vec<_>, _>>()?;
+                let show = |part: &PartSetup| Show { unit: part.units[0].or(setup.shown.length.unit), name: "m" };
+                called.extend(of_part.map(|part| show(part).given(neat(signs[0] * part.middle.at_m[0]))));
+                let at = question.at.iter().map(|[s, _]| *s).collect();
+                let scene = setup.drop.scene()?;
+                let drop = Drop { args: self, setup, scene, at, called, answer: *answer };
+                if let Some(target) = &self.output {
+                    drop.write(target)?;
+                }
+                drop.tell(streams)?
+            }
+            Answer::Plate(answer) => {
+                let Some(scene) = setup.drop.of_level()? else { return Ok(()) };
+                plate::Drop { args: self, setup, scene, at: question.at, answer: *answer }.tell(streams)?
+            }
+            Answer::Block(answer) => block::Drop { args: self, setup, answer: *answer }.tell(streams)?,
+        };
+        for (kind, note) in told {
             streams.note(kind, note);
-        }
-        for warning in drop.warnings() {
-            streams.note("warning", warning);
         }
         Ok(())
     }
@@ -202,65 +242,24 @@ impl Args {
     fn time_limit_s(&self) -> Option<f64> {
         self.time_limit_s.or(self.until.map(|until| until.si))
     }
-
-    fn drop(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
-        let mass = &self.inertia.mass;
-        let spin = match (self.spin, self.spin_rad_s) {
-            (Some(spin), _) => Some((spin.si, "--spin")),
-            (None, Some(spin)) => Some((spin.of_bar("--spin-rad-s")?, "--spin-rad-s")),
-            (None, None) => None,
-        };
-        let beside = ExtraArgs {
-            spin,
-            flat: false,
-            model: self.model,
-            e: self.e,
-            gyration: self.inertia.gyration()?,
-            masses: mass,
-            instant_contacts: false,
-            first: None,
-            of_product: false,
-            file,
-        };
-        let mut setup = self.drop.setup(beside)?;
-        setup.shown.spin.unit = self.spin.and_then(|spin| spin.unit);
-        setup.shown.time.unit = setup.shown.time.unit.or(self.until.and_then(|until| until.unit));
-        let scene = setup.scene.with_impact_limit(self.impact_limit)?;
-        setup.scene = self.time_limit_s().map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?;
-        let of_part = setup.part.iter().map(|part| part.place[0]).filter(|_| self.at.is_empty());
-        let at = self.at.iter().map(|place| place.of_bar("--at")).collect::<Result<Vec<_>, _>>()?;
-        let places: Vec<Place> = at.into_iter().chain(of_part).collect();
-        let at = quantities::positions(&places, "--at", 0.5 * setup.length_m)?;
-        let called = places.iter().map(|place| place.said()).collect();
-        let mut question = Question::new(setup.scene, self.physics(&setup)?);
-        question.at.clone_from(&at);
-        question.length_m = setup.length_m;
-        question.center_of_mass = setup.center_of_mass;
-        question.tilt_deg = setup.tilt_deg;
-        question.height_m = setup.height_m;
-        let gyration = self.inertia.gyration()?;
-        let answer = simulate::answer(&question).map_err(|error| self.drop.named(error, gyration))?;
-        Ok(Drop { args: self, setup, at, called, answer })
-    }
-
-    fn physics(&self, setup: &Setup) -> Result<Physics, Failure> {
-        Ok(match setup.model {
-            Model::Compliant => {
-                // That there is one was checked before.
-                let time = setup.contact_time_s.unwrap_or(f64::NAN);
-                Physics::Contacts(Contact::new(setup.contact_law, setup.scene.e(), time)?)
-            }
-            _ if self.drop.contact_time().is_some() => {
-                return Err(Failure::Usage("--contact-time and --contact-time-s go with --model=compliant alone"));
-            }
-            Model::Ballistic => Physics::Ballistic,
-            Model::FiniteTilt => Physics::FiniteTilt,
-            Model::NetChange | Model::LargestShock | Model::Map => Physics::Map,
-        })
-    }
 }
 
+/// What is told beside an answer: its kind, and the words.
+type Notes = Vec<(&'static str, String)>;
+
 impl Drop<'_> {
+    fn tell(self, streams: &mut Streams<'_>) -> Result<Notes, Failure> {
+        match self.args.format {
+            RowFormat::Table => self.table(streams.out).map_err(Failure::Answer)?,
+            RowFormat::Csv => self.csv(streams.out).map_err(Failure::Answer)?,
+            RowFormat::Json => streams.json(&self.answer)?,
+        }
+        let warnings = self.warnings();
+        let mut notes = self.setup.notes;
+        notes.extend(warnings.into_iter().map(|warning| ("warning", warning)));
+        Ok(notes)
+    }
+
     fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         if let Some((count, first)) = self.answer.impacts.overlaps() {

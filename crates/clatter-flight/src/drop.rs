@@ -102,11 +102,11 @@ impl Drop {
             own_contacts: OwnContacts::NONE,
         }
     }
-    /// The drop that a scene of a plate has, corner a the lowest one, with contacts that take time.
+    /// The drop that a scene of a plate has, corner a the lowest one; how long its contacts take is not known.
     ///
     /// # Errors
-    /// [`Error::Given`] for a plate whose slopes are those of no tilt, and for one that turns about another axis than that of its tilt.
-    pub fn of_plate(scene: &PlateScene, contact: &Contact) -> Result<Self, Error> {
+    /// [`Error::Given`] for a plate whose slopes are those of no tilt.
+    pub fn of_plate(scene: &PlateScene, restitution: f64) -> Result<Self, Error> {
         let (plate, [hx, hy]) = (scene.plate(), scene.gaps_m());
         let ([left, right, front, back], [length, width], [kx, ky]) =
             (plate.edges_m(), plate.sides_m(), plate.gyration_m());
@@ -116,30 +116,32 @@ impl Drop {
             let (name, allowed) = ("steepest slope of the plate", "below 1");
             return Err(clatter::Error::Quantity { name, value: steepest, allowed }.into());
         }
-        let [x, y] = scene.spin_rad_s();
-        let spins = libm::hypot(x, y);
-        // Level, it turns to the direction in which it rises from then on.
-        let [up, aside] = if steepest > 0.0 { slopes } else { [x, y] };
-        let off = (x * aside - y * up).abs() / steepest;
-        if off > ALONG_TILT * spins {
-            let (name, allowed) =
-                ("spin across the tilt of the plate in rad/s", "0: turning along length and width as its corners rise");
-            return Err(clatter::Error::Quantity { name, value: off, allowed }.into());
-        }
         let mut body = Body::off_center(left, right, kx)?.with_width(Side { ends_m: [front, back], gyration_m: ky });
         body.products_m2[0] = plate.product_of_inertia_m2();
-        Ok(Self {
-            direction_rad: libm::atan2(aside, up),
-            spin_rad_s: spins.copysign(x * up + y * aside) + 0.0,
+        let drop = Self {
+            direction_rad: libm::atan2(slopes[1], slopes[0]),
             gravity_m_s2: scene.gravity_m_s2(),
-            contact_time_s: Some(contact.time_s()),
-            contact_law: contact.law(),
-            ..Self::new(body, scene.speed_m_s(), libm::asin(steepest), contact.restitution())
-        })
+            ..Self::new(body, scene.speed_m_s(), libm::asin(steepest), restitution)
+        };
+        Ok(drop.with_slope_rates(scene.spin_rad_s()))
     }
-    /// The drop of a box as flights take it, with contacts that take time.
+    /// The same plate whose slopes along length and width grow at these rates at the first touch, in rad/s.
     #[must_use]
-    pub fn of_block(drop: &BlockDrop, contact: &Contact) -> Self {
+    pub fn with_slope_rates(self, [x, y]: [f64; 2]) -> Self {
+        let spins = libm::hypot(x, y);
+        if self.tilt_rad == 0.0 && spins > 0.0 {
+            // Level, it turns to the direction in which it rises from then on.
+            return Self { direction_rad: libm::atan2(y, x), spin_rad_s: spins, ..self };
+        }
+        let (sin, cos) = libm::sincos(self.direction_rad);
+        let is_off = (x * sin - y * cos).abs() > ALONG_TILT * spins;
+        let spin_axis = is_off.then(|| [y / spins, -x / spins, 0.0]);
+        let spin_rad_s = if is_off { spins } else { spins.copysign(x * cos + y * sin) + 0.0 };
+        Self { spin_rad_s, spin_axis, ..self }
+    }
+    /// The drop of a box as flights take it; how long its contacts take is not known.
+    #[must_use]
+    pub fn of_block(drop: &BlockDrop, restitution: f64) -> Self {
         let spin = drop.spin_rad_s();
         let spin_rad_s = spin.iter().map(|about| about * about).sum::<f64>().sqrt();
         Self {
@@ -148,9 +150,7 @@ impl Drop {
             spin_rad_s,
             spin_axis: (spin_rad_s > 0.0).then(|| spin.map(|about| about / spin_rad_s)),
             gravity_m_s2: drop.gravity_m_s2(),
-            contact_time_s: Some(contact.time_s()),
-            contact_law: contact.law(),
-            ..Self::new(Body::from(drop.block()), drop.speed_m_s(), 0.0, contact.restitution())
+            ..Self::new(Body::from(drop.block()), drop.speed_m_s(), 0.0, restitution)
         }
     }
     /// The same drop of the box that a plate of small tilt is, as thick as it is known to be, else thin; none of other bodies and of a plate
@@ -202,6 +202,20 @@ impl Drop {
     #[must_use]
     pub fn first(&self) -> End {
         if self.signs()[0] < 0.0 { End::B } else { End::A }
+    }
+    /// Returns what touches first: the letter of an end or of a corner, of a box the signs of its lowest corner.
+    #[must_use]
+    pub fn lowest(&self) -> &'static str {
+        if self.is_solid() {
+            let rises = self.up().map(|up| usize::from(up < 0.0));
+            return Block::corner_name(rises[0] + 2 * rises[1] + 4 * rises[2]);
+        }
+        match self.signs().map(|sign| sign < 0.0) {
+            [false, false] => "a",
+            [true, false] => "b",
+            [true, true] => "c",
+            [false, true] => "d",
+        }
     }
     /// The direction of a bar that touches with this end first.
     #[must_use]
@@ -315,10 +329,15 @@ impl Drop {
     fn profile(&self) -> Result<Profile, Error> {
         let [a, b] = self.body.arms_m();
         let [first, other] = if self.first() == End::A { [a, b] } else { [b, a] };
-        Ok(Profile::off_center(first, other, self.body.gyration_m())?)
+        let profile = Profile::off_center(first, other, self.body.gyration_m())?;
+        let thickness = self.body.thickness.filter(|_| !self.body.is_wide());
+        Ok(profile.with_thickness(thickness.map_or(0.0, |thickness| thickness.m()))?)
     }
-    /// The drop as flights take it, the end that touches first in front.
-    pub(crate) fn scene(&self) -> Result<Scene, Error> {
+    /// The drop as flights of bars take it, the end that touches first in front.
+    ///
+    /// # Errors
+    /// [`Error::Given`] for a body or a drop that none is.
+    pub fn scene(&self) -> Result<Scene, Error> {
         self.scene_of(self.profile()?)
     }
     /// The drop of a bar on feet, whose edges are further points.
@@ -340,7 +359,14 @@ impl Drop {
         let [first, other] = if self.first() == End::A { [a, b] } else { [b, a] };
         [-first, other].map(|x| x * self.spin_rad_s - self.speed_m_s)
     }
-    /// The drop of a plate, corner a the lowest one.
+    /// The drop as flights of plates take it, corner a the lowest one; none of a bar and of a box.
+    ///
+    /// # Errors
+    /// [`Error::Given`] for a plate or a drop that none is.
+    pub fn of_level(&self) -> Result<Option<PlateScene>, Error> {
+        let width = self.body.width.filter(|_| self.is_level);
+        width.map(|width| self.plate_scene(&width)).transpose()
+    }
     pub(crate) fn plate_scene(&self, width: &Side) -> Result<PlateScene, Error> {
         let [sx, sy] = self.signs();
         let ordered = |[lo, hi]: [f64; 2], sign: f64| if sign < 0.0 { [hi, lo] } else { [lo, hi] };
@@ -359,6 +385,10 @@ impl Drop {
     /// How fast the corners next to the lowest one rise, over the side between: along the length and along the width.
     #[must_use]
     pub fn spin_of_plate(&self) -> [f64; 2] {
+        if let Some([about_x, about_y, _]) = self.spin_axis {
+            let [sx, sy] = self.signs();
+            return [-sx * about_y, sy * about_x].map(|rate| self.spin_rad_s * rate + 0.0);
+        }
         self.rises().map(|rises| self.spin_rad_s * rises.abs())
     }
     /// The box that falls; of a plate the corners of its bottom alone land, however far they sink in.

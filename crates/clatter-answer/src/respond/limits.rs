@@ -1,6 +1,6 @@
 //! The answer of one drop of any body: what it does to a part and at its place, and what it asks of its limits.
 
-use clatter_assess::{Drop, LimitKind, Model, Part, Unit};
+use clatter_assess::{Drop, LimitKind, Model, Part, Place, Unit};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
@@ -21,8 +21,8 @@ pub struct Limit {
     pub value: Option<Json>,
     /// Value over allowed.
     pub share: Option<Json>,
-    /// The place that asks most.
-    pub position_m: Position,
+    /// The place that asks most, from the middle along length, width and thickness.
+    pub position_m: [Json; 3],
     /// Number of the impact.
     pub impact: Option<u64>,
     /// Since the first touch.
@@ -32,18 +32,6 @@ pub struct Limit {
     /// Which of the places asks most.
     #[serde(skip)]
     pub place: usize,
-}
-
-/// A place, in m from the middle of the product.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[serde(untagged)]
-pub enum Position {
-    /// Along a bar, towards end b.
-    Along(Json),
-    /// Along a plate and across it.
-    Both([Json; 2]),
-    /// Along, across and in the thickness of a box.
-    All([Json; 3]),
 }
 
 impl Limit {
@@ -139,16 +127,20 @@ impl OneDrop<'_> {
         }
     }
 
-    /// Follows the drop until nothing later counts, and answers the one of these places, told as they are on the product, that asks most
-    /// of a limit, else the first. Where not even the place that feels every drop is answered, none is.
-    pub(super) fn at(&self, feels_all: &Part, places: &[(Part, Position)]) -> Result<AtPlace, Error> {
-        self.answer(&unlimited(LimitKind::VelocityChange), feels_all)?;
+    /// Follows the drop until nothing later counts, and answers the one of these places that asks most of a limit, else the first. Where not
+    /// even the place that goes through all of the drop is answered, none is.
+    pub(super) fn at(&self, places: &[Place]) -> Result<AtPlace, Error> {
+        let Some(first) = places.first() else {
+            return Err(clatter_shock::Error::Empty("the list of places").into());
+        };
+        // End a or corner a lies where a bar and a plate turn most.
+        let [length_m, width_m] = [self.drop.body.length_m(), self.drop.body.width_m()];
+        let most = if self.drop.is_solid() { *first } else { Place::flat([-0.5 * length_m, -0.5 * width_m]) };
+        self.answer(&unlimited(LimitKind::VelocityChange), &Part::at(most, None))?;
         swings(self.suspension.as_ref())?;
         let limits = self.limits.map(|limits| self.limits(limits, places)).transpose()?;
         let index = limits.as_ref().and_then(|limits| Limit::tightest(limits)).map_or(0, |limit| limit.place);
-        let Some((place, _)) = places.get(index) else {
-            return Err(clatter_shock::Error::Empty("the list of places").into());
-        };
+        let place = &Part::at(places[index], None);
         let largest = |kind, part| self.largest(kind, place, part);
         let of_part = |kind| self.suspension.map_or(Ok(None), |_| largest(kind, self.suspension));
         let contact_time_s = self.drop.contact_time_s;
@@ -189,20 +181,20 @@ impl OneDrop<'_> {
         Ok(self.felt(&unlimited(kind), place, part)?.map(Largest::from))
     }
 
-    /// Every limit at the worst of these places, which are told as they are on the product.
-    fn limits(&self, limits: &[clatter_assess::Limit], places: &[(Part, Position)]) -> Result<Vec<Limit>, Error> {
+    /// Every limit at the worst of these places.
+    fn limits(&self, limits: &[clatter_assess::Limit], places: &[Place]) -> Result<Vec<Limit>, Error> {
         let mut found = Vec::with_capacity(limits.len());
         for limit in limits {
             let mut worst: Option<Limit> = None;
-            for (place, (at, position_m)) in places.iter().enumerate() {
-                let answer = self.felt(limit, at, self.suspension)?;
+            for (place, at) in places.iter().enumerate() {
+                let answer = self.felt(limit, &Part::at(*at, None), self.suspension)?;
                 let one = Limit {
                     limit: limit.kind,
                     unit: answer.map_or(limit.kind.unit(), |answer| answer.unit),
                     allowed: Json(answer.map_or(limit.allowed, |answer| answer.allowed)),
                     value: answer.map(|answer| Json(answer.value)),
                     share: answer.map(|answer| Json(answer.utilization())),
-                    position_m: *position_m,
+                    position_m: at.at_m.map(Json),
                     impact: answer.map(|answer| answer.impact),
                     time_s: answer.map(|answer| Json(answer.time_s)),
                     error: answer.map(|answer| Json(answer.error())),

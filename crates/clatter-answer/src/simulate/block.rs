@@ -1,40 +1,10 @@
 //! One drop of a box in time, in any orientation, with contacts that take time.
-//!
-//! ```
-//! use clatter_answer::simulate::block;
-//! use clatter_flight::{Block, BlockDrop, Contact, ContactLaw};
-//! // A handheld of 150 by 70 by 15 mm lands on its long edge.
-//! let handheld = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478])?;
-//! let drop = BlockDrop::new(handheld, [0.923_879_532_511_286_7, 0.382_683_432_365_089_8, 0.0, 0.0], 4.43, 9.806_65)?;
-//! let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3)?;
-//! let answer = block::answer(&block::Question::new(drop, contact))?;
-//! assert_eq!((answer.impacts[0].number, answer.stop.reason()), (1, "at-rest"));
-//! # Ok::<(), clatter_flight::Error>(())
-//! ```
 
-use clatter_flight::{Block, BlockDrop, BlockStrike, Contact, Error, Stop};
+use clatter_flight::{Block, BlockDrop, BlockStrike, Contact, Model as Physics, Stop};
 use serde::{Serialize, Serializer};
 
-use super::is_cut;
-use crate::Json;
-
-/// A drop of a box and its contacts.
-#[derive(Debug, Clone, Copy)]
-#[non_exhaustive]
-pub struct Question {
-    /// The drop.
-    pub drop: BlockDrop,
-    /// Of each corner.
-    pub contact: Contact,
-}
-
-impl Question {
-    /// All that is asked.
-    #[must_use]
-    pub fn new(drop: BlockDrop, contact: Contact) -> Self {
-        Self { drop, contact }
-    }
-}
+use super::{Question, is_cut};
+use crate::{Error, Json, neat};
 
 /// A drop of a box in time.
 #[derive(Debug, Clone, Serialize)]
@@ -87,9 +57,9 @@ impl DropAnswer {
         let block = drop.block();
         Self {
             model: "compliant",
-            size_m: block.size_m().map(Json),
-            gyration_m: block.gyration_m().map(Json),
-            center_of_mass_m: block.center_of_mass_m().map(Json),
+            size_m: block.size_m().map(|side| Json(neat(side))),
+            gyration_m: block.gyration_m().map(|radius| Json(neat(radius))),
+            center_of_mass_m: block.center_of_mass_m().map(|center| Json(neat(center))),
             e: Json(contact.restitution()),
             speed_m_s: Json(drop.speed_m_s()),
             upward: drop.upward().map(Json),
@@ -160,13 +130,21 @@ impl Impact {
     }
 }
 
-/// Follows one drop.
-///
-/// # Errors
-/// Those of [`BlockDrop::contacts`].
-pub fn answer(question: &Question) -> Result<Answer, Error> {
-    let Question { drop, contact } = question;
-    let flight = drop.contacts(contact, |_| ())?;
+/// Follows one drop of a box.
+pub(super) fn answer(question: &Question, drop: &BlockDrop, physics: Physics) -> Result<Answer, Error> {
+    let Physics::Contacts(contact) = physics else {
+        let how = "a box is followed with contacts that take time alone: compliant, with a short contact time";
+        return Err(Error::input("model", how));
+    };
+    if !question.at.is_empty() {
+        return Err(Error::input(
+            "at",
+            "places are those of a bar and a plate; 'clatter respond' answers one of a box",
+        ));
+    }
+    let drop = question.impact_limit.map_or(*drop, |limit| drop.with_impact_limit(limit));
+    let drop = question.time_limit_s.map_or(Ok(drop), |limit_s| drop.with_time_limit_s(limit_s))?;
+    let flight = drop.contacts(&contact, |_| ())?;
     let impact = |strike: &BlockStrike| {
         let unfinished = is_cut(&flight.stop) && strike.until_s.is_infinite();
         Impact {
@@ -180,7 +158,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         }
     };
     Ok(Answer {
-        drop: DropAnswer::new(drop, contact),
+        drop: DropAnswer::new(&drop, &contact),
         contact_law: contact.law().name(),
         energy_error: Json(flight.energy_error),
         impacts: flight.strikes.iter().map(impact).collect(),

@@ -1,99 +1,11 @@
 //! One drop of a plate in time: by instant impacts, without gravity or with it, or with contacts that take time.
-//!
-//! ```
-//! use clatter_answer::simulate::plate;
-//! use clatter_flight::{Plate, PlateScene};
-//! // Mass spread evenly over 150 by 70 mm, with b 2 mm and d 1 mm higher as a touches.
-//! let phone = Plate::new([0.075, 0.075, 0.035, 0.035], [0.0433, 0.0202])?;
-//! let scene = PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?;
-//! let answer = plate::answer(&plate::Question::new(scene, plate::Model::Map { e: 0.3 }))?;
-//! let first = answer.impacts.iter().next().expect("an impact");
-//! assert_eq!((first.corner, first.approach_m_s.0), ('a', -4.43));
-//! # Ok::<(), clatter_flight::Error>(())
-//! ```
 
 use clatter::{Corner, PlateStart};
-use clatter_flight::{Contact, Error, PlateMotion, PlateScene, Stop};
+use clatter_flight::{Model as Physics, PlateMotion, PlateScene, Stop};
 use serde::{Serialize, Serializer};
 
-use super::{ContactAnswer, is_cut};
-use crate::{Json, on_plate};
-
-/// The physics that is kept of a drop of a plate: at small tilt both.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Model {
-    /// Instant impacts with a restitution, no gravity. The scene's gravity is not used.
-    Map {
-        /// Coefficient of restitution.
-        e: f64,
-    },
-    /// Instant impacts with a restitution, and gravity.
-    Ballistic {
-        /// Coefficient of restitution.
-        e: f64,
-    },
-    /// Gravity, and contacts that take time.
-    Contacts(Contact),
-}
-
-impl Model {
-    /// Coefficient of restitution.
-    #[must_use]
-    pub fn e(&self) -> f64 {
-        match self {
-            Self::Map { e } | Self::Ballistic { e } => *e,
-            Self::Contacts(contact) => contact.restitution(),
-        }
-    }
-    /// `map`, `ballistic` or `compliant`.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Map { .. } => "map",
-            Self::Ballistic { .. } => "ballistic",
-            Self::Contacts(_) => "compliant",
-        }
-    }
-}
-
-/// A drop of a plate, corner a first, and the physics that is kept of it.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Question {
-    /// The drop.
-    pub scene: PlateScene,
-    /// What is kept of it.
-    pub model: Model,
-    /// Places whose velocity shocks are asked for, in half-lengths and half-widths from the middle.
-    pub at: Vec<[f64; 2]>,
-    /// Center of mass in half-lengths and half-widths, as it is told and as the map takes it.
-    pub center_of_mass: [f64; 2],
-    /// The steepest slope at the first touch in degrees, as it is told.
-    pub tilt_deg: f64,
-    /// Where it rises from corner a, from 0° along the length to 90°, as it is told; none of a level plate.
-    pub direction_deg: Option<f64>,
-    /// Height from which it fell, where that was given.
-    pub height_m: Option<f64>,
-}
-
-impl Question {
-    /// All told as the scene has it, without a place but the corners.
-    #[must_use]
-    pub fn new(scene: PlateScene, model: Model) -> Self {
-        let (center_of_mass, tilt_deg, direction_deg) = told(&scene);
-        Self { scene, model, at: Vec::new(), center_of_mass, tilt_deg, direction_deg, height_m: None }
-    }
-}
-
-/// Center of mass in half-sides, the steepest slope, and in degrees where the plate rises to, which a level one does not.
-pub(crate) fn told(scene: &PlateScene) -> ([f64; 2], f64, Option<f64>) {
-    let (plate, [hx, hy]) = (scene.plate(), scene.gaps_m());
-    let ([left, right, front, back], [length, width]) = (plate.edges_m(), plate.sides_m());
-    let slopes = [hx / length, hy / width];
-    let tilt = libm::hypot(slopes[0], slopes[1]);
-    let direction_deg = (tilt > 0.0).then(|| libm::atan2(slopes[1], slopes[0]).to_degrees());
-    ([(left - right) / length, (front - back) / width], libm::asin(tilt).to_degrees(), direction_deg)
-}
+use super::{ContactAnswer, Question, is_cut};
+use crate::{Error, Json, neat, on_plate};
 
 /// A drop of a plate in time.
 #[derive(Debug, Clone, Serialize)]
@@ -248,31 +160,48 @@ struct Followed {
     contact: Option<ContactAnswer>,
 }
 
-/// Follows one drop.
-///
-/// # Errors
-/// A place off the plate, or an e that is none; where contacts take time, those of [`PlateScene::contacts_until`].
-pub fn answer(question: &Question) -> Result<Answer, Error> {
-    let Question { scene, model, ref at, .. } = *question;
+/// Strikes that are followed without gravity unless more are asked for.
+const OF_MAP: usize = 1000;
+
+/// Follows one drop of a plate.
+pub(super) fn answer(question: &Question, scene: PlateScene, physics: Physics) -> Result<Answer, Error> {
+    let Question { drop, at, height_m, .. } = question;
     on_plate(at)?;
-    let Followed { strikes, stop, contact } = match model {
-        Model::Map { e } => by_map(question, e)?,
-        Model::Ballistic { e } => followed(&scene.impacts_until(e, |_| false)?),
-        Model::Contacts(contact) => followed(&scene.contacts_until(&contact, 1e-4, |_| false)?),
+    if physics == Physics::Map && scene.plate().product_of_inertia_m2() != 0.0 {
+        let how = "masses that lie askew are followed with gravity alone: by ballistic or compliant";
+        return Err(Error::input("product_of_inertia_m2", how));
+    }
+    let least = (physics == Physics::Map).then_some(OF_MAP);
+    let scene = question.impact_limit.or(least).map_or(scene, |limit| scene.with_impact_limit(limit));
+    let scene = question.time_limit_s.map_or(Ok(scene), |limit_s| scene.with_time_limit_s(limit_s))?;
+    let ([left, right, front, back], [length, width]) = (scene.plate().edges_m(), scene.plate().sides_m());
+    let center_of_mass = [(left - right) / length, (front - back) / width];
+    let Followed { strikes, stop, contact } = match physics {
+        Physics::Map => by_map(&scene, center_of_mass, drop.restitution)?,
+        Physics::Ballistic => followed(&scene.impacts_until(drop.restitution, |_| false)?),
+        Physics::Contacts(contact) => followed(&scene.contacts_until(&contact, 1e-4, |_| false)?),
+        Physics::FiniteTilt => {
+            let how =
+                "finite-tilt follows bars: a plate is followed by map, without gravity, by ballistic or by compliant";
+            return Err(Error::input("model", how));
+        }
     };
     let impacts = Impacts { strikes, at: at.clone(), cut: is_cut(&stop) };
-    let ([length, width], limit_s) = (scene.plate().sides_m(), scene.time_limit_s());
+    let (limit_s, is_tilted) = (scene.time_limit_s(), scene.gaps_m().iter().any(|gap| *gap > 0.0));
+    // As it rises from its lowest corner, which is a.
+    let (sin, cos) = libm::sincos(drop.direction_rad);
+    let direction_deg = neat(libm::atan2(sin.abs(), cos.abs()).to_degrees());
     Ok(Answer {
-        model: model.name(),
-        length_m: Json(length),
-        width_m: Json(width),
+        model: question.model.name(),
+        length_m: Json(neat(length)),
+        width_m: Json(neat(width)),
         gyration_m: scene.plate().gyration_m().map(Json),
-        center_of_mass: question.center_of_mass.map(Json),
-        e: Json(model.e()),
-        height_m: question.height_m.map(Json),
+        center_of_mass: center_of_mass.map(Json),
+        e: Json(drop.restitution),
+        height_m: height_m.map(Json),
         speed_m_s: Json(scene.speed_m_s()),
-        tilt_deg: Json(question.tilt_deg),
-        direction_deg: question.direction_deg.map(Json),
+        tilt_deg: Json(neat(drop.tilt_rad.to_degrees())),
+        direction_deg: is_tilted.then_some(Json(direction_deg)),
         spin_rad_s: Some(scene.spin_rad_s())
             .filter(|spin| spin.iter().any(|rate| *rate != 0.0))
             .map(|spin| spin.map(Json)),
@@ -302,10 +231,9 @@ fn followed(motion: &PlateMotion) -> Followed {
 }
 
 /// Without gravity: straight lines and impulses.
-fn by_map(question: &Question, e: f64) -> Result<Followed, clatter::Error> {
-    let (scene, plate) = (&question.scene, question.scene.plate());
-    let ([kx, ky], [length, width]) = (plate.gyration_m(), plate.sides_m());
-    let plate = clatter::Plate::off_center([kx / (0.5 * length), ky / (0.5 * width)], question.center_of_mass, e)?;
+fn by_map(scene: &PlateScene, center_of_mass: [f64; 2], e: f64) -> Result<Followed, clatter::Error> {
+    let ([kx, ky], [length, width]) = (scene.plate().gyration_m(), scene.plate().sides_m());
+    let plate = clatter::Plate::off_center([kx / (0.5 * length), ky / (0.5 * width)], center_of_mass, e)?;
     let [a, b, _, d] = scene.corner_velocities();
     let start = PlateStart::new([a, b, d], scene.gaps_m())?;
     let mut strikes: Vec<Strike> = Vec::new();

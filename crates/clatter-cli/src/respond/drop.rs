@@ -1,158 +1,254 @@
-//! A part in a drop in SI units, answered by the engine that answers an assessment.
+//! A part in one drop of any body, answered by the engine that answers an assessment.
 
 use std::io::{self, Write};
+use std::path::Path;
 
-use clatter::End;
 use clatter_answer::respond::drop::{self, Answer, Question};
 use clatter_answer::respond::{AtPlace, Factors, Largest, Peaks};
 use clatter_answer::{Error, Json};
-use clatter_assess::units::Quantity;
-use clatter_assess::{LimitKind, Model};
+use clatter_assess::units::{Quantity, TIME};
+use clatter_assess::{Case, Drop as Falls, LimitKind, Model, OwnContacts, Place, Unit};
+use clatter_flight::LEAST_OF_BLOCKS;
+use clatter_shock::Suspension;
 
-use super::Args;
-use super::limits;
 use super::peaks::{Shocks, doubts, equivalent_table};
-use crate::Failure;
+use super::{Args, limits, six};
 use crate::drop_args::{ExtraArgs, Setup};
+use crate::inputs::Format;
 use crate::numbers::{figures, given};
-use crate::one_drop::OneDrop;
-use crate::quantities::{self, Show, neat};
+use crate::one_drop::{OneDrop, PartSetup};
+use crate::quantities::{Show, Shown, neat};
+use crate::text::path as shown_path;
 use crate::words::in_words;
+use crate::{Failure, Streams, assess};
 
 /// A part in one drop.
-pub(super) struct Drop<'a> {
+struct Drop<'a> {
     args: &'a Args,
-    setup: Setup,
-    question: Question,
+    shown: Shown,
+    /// The part of a product file.
+    part: Option<PartSetup>,
+    /// Whether the drop was found by a search, so that its inputs have all of their digits.
+    is_found: bool,
+    suspension: Option<Suspension>,
     answer: Answer,
-    /// How the place is called.
-    called: String,
 }
 
 impl Args {
-    pub(super) fn drop_by(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
-        let (mass, feet) = (&self.inertia.mass, self.feet(file.as_ref()));
-        let own_contacts = self.own_contacts(file.as_ref(), false)?;
-        if feet.is_some_and(|feet| feet.inset_m[1] != 0.0) {
-            return Err(Failure::Usage("--feet-m=X,Y,HEIGHT of a bar has Y = 0: it goes on along its length alone"));
-        }
-        let flag = "--spin-rad-s";
-        let spin = self.spin_rad_s.map(|spin| Ok::<_, Failure>((spin.of_bar(flag)?, flag))).transpose()?;
-        let beside = ExtraArgs {
-            spin,
-            flat: self.flat,
-            model: self.model,
-            e: self.e,
-            gyration: self.inertia.gyration()?,
-            masses: mass,
-            instant_contacts: true,
-            first: self.first.map(Into::into),
-            of_product: true,
-            file,
+    /// One drop that was written as data.
+    pub(super) fn run_case(&self, path: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let case: Case = serde_json::from_str(&assess::text(path)?)
+            .map_err(|error| Failure::Wrong(format!("{}: {error}", shown_path(path))))?;
+        let question = Question::of(&case)?;
+        let answer = drop::answer(&question)?;
+        let show = |unit: Unit| Show { unit: Some(unit.customary()), name: "" };
+        let shown = Shown {
+            length: show(Unit::Meter),
+            speed: show(Unit::MeterPerSecond),
+            time: Show { unit: TIME.unit("ms"), name: "s" },
+            acceleration: show(Unit::MeterPerSecondSquared),
+            spin: show(Unit::RadianPerSecond),
+            angle: None,
         };
-        let setup = self.drop.setup(beside)?;
-        let part = setup.part.as_ref();
-        let half_m = 0.5 * setup.scene.body().length_m();
-        // Places of the product, from end a at -1 to end b at 1.
-        let beyond_m = feet.map_or(0.0, |feet| feet.inset_m[0]);
-        let most = 1.0 + beyond_m / half_m;
-        let asked = self.bar_at()?;
-        let places = match (asked, part) {
-            (Some(place), _) => quantities::positions_beyond(&[place], "--at", half_m, beyond_m)?,
-            (None, Some(part)) => part.places_m.iter().map(|[x, _]| (x / half_m).clamp(-most, most)).collect(),
-            (None, None) => {
-                return Err(Failure::Usage("the place is missing: --at=S, or with --product the --component=NAME"));
-            }
-        };
-        let mut question = Question::new(setup.scene, setup.model, places[0]);
-        question.at = places;
-        question.first = setup.first;
-        question.flat = setup.flat;
-        question.contact_time_s = setup.contact_time_s;
-        question.contact_law = setup.contact_law;
-        question.feet = feet;
-        question.own_contacts = own_contacts.mirrored([setup.first == End::B, false]);
-        question.suspension = self.suspension(part.and_then(|part| part.suspension))?;
-        question.limits = part.map(|part| part.allowed.clone());
-        question.tolerance = self.tolerance;
-        question.shock_table = self.equivalent_pulse.then_some(self.shock_table);
-        question.center_of_mass = setup.center_of_mass;
-        question.tilt_deg = setup.tilt_deg;
-        let answer = drop::answer(&question).map_err(|error| self.named(error))?;
-        let at = neat(answer.at.0 * half_m);
-        let called = asked.map_or_else(|| setup.shown.length.given(at), quantities::Place::said);
-        Ok(Drop { args: self, setup, question, answer, called })
+        Drop { args: self, shown, part: None, is_found: true, suspension: question.suspension, answer }.write(streams)
     }
 
-    /// A drop that was refused, with the options as they were given.
-    fn named(&self, error: Error) -> Failure {
-        match error {
-            Error::Flight(error) => {
-                self.inertia.gyration().map_or_else(|failure| failure, |gyration| self.drop.named(error, gyration))
+    pub(super) fn run_drop(&self, file: Option<OneDrop>, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let is_found = file.as_ref().is_some_and(|file| file.worst().is_some());
+        let setup = self.drop.setup(ExtraArgs {
+            model: self.model,
+            e: self.e,
+            gyration: self.inertia.given(),
+            masses: &self.inertia.mass,
+            is_flat: self.flat,
+            instant_contacts: true,
+            spin_rad_s: self.spin_rad_s,
+            first: self.first.map(Into::into),
+            is_of_product: true,
+            file,
+        })?;
+        let mut fall = setup.drop;
+        fall.body.feet = self.feet(&fall)?;
+        fall.own_contacts = self.own_contacts(&fall)?;
+        let places = self.places(&fall, &setup)?;
+        let mut question = Question::new(fall, setup.model, places[0]);
+        question.places = places;
+        question.suspension = self.suspension(setup.part.as_ref().and_then(|part| part.suspension))?;
+        question.limits = setup.part.as_ref().map(|part| part.allowed.clone());
+        question.tolerance = self.tolerance;
+        question.shock_table = self.equivalent_pulse.then_some(self.shock_table);
+        let answer = drop::answer(&question).map_err(|error| match error {
+            Error::Quantity { .. } => self.of_omega(error),
+            error => self.drop.failure(error, self.inertia.given()),
+        })?;
+        let Setup { shown, part, notes, .. } = setup;
+        Drop { args: self, shown, part, is_found, suspension: question.suspension, answer }.write(streams)?;
+        for (kind, note) in &notes {
+            streams.note(kind, note);
+        }
+        let e = fall.restitution;
+        if fall.is_solid() && fall.contact_law.leaves_a_dent() && e < LEAST_OF_BLOCKS {
+            let followed = format!("e = {e:?} is followed as {LEAST_OF_BLOCKS}");
+            streams.note("warning", format!("{followed}: hysteretic contacts of a box rebound with that at least"));
+        }
+        self.warn(std::iter::empty(), streams);
+        Ok(())
+    }
+
+    /// Feet that the product lands on, as they are given, or its own.
+    fn feet(&self, fall: &Falls) -> Result<Option<clatter_assess::Feet>, Failure> {
+        let Some([x, y, height_m]) = self.feet_m else { return Ok(fall.body.feet) };
+        if fall.is_solid() {
+            return Err(Failure::Usage("--feet-m are those of a bar or a plate: a box lands on any of its sides"));
+        }
+        if y != 0.0 && !fall.body.is_wide() {
+            return Err(Failure::Usage("--feet-m=X,Y,HEIGHT of a bar has Y = 0: it goes on along its length alone"));
+        }
+        Ok(Some(clatter_assess::Feet { inset_m: [x, y], height_m }))
+    }
+
+    /// Contacts of their own, as they are given, or those of the product.
+    fn own_contacts(&self, fall: &Falls) -> Result<OwnContacts, Failure> {
+        let mut own = fall.own_contacts;
+        for (k, (at, contact)) in self.contact.iter().enumerate() {
+            if *at >= fall.body.points() {
+                return Err(Failure::Usage("--contact of a bar is at a or b"));
             }
-            error => self.of_omega(error),
+            if self.contact[..k].iter().any(|(other, _)| other == at) {
+                return Err(Failure::Usage("--contact is given once for each end or corner"));
+            }
+            own.0[*at] = *contact;
+        }
+        Ok(own)
+    }
+
+    /// Where the part may be.
+    fn places(&self, fall: &Falls, setup: &Setup) -> Result<Vec<Place>, Failure> {
+        if !fall.is_solid() && (self.at_m.is_some() || self.axis.is_some()) {
+            return Err(Failure::Usage("--at-m and --axis are of a box, which has --width and --thickness"));
+        }
+        let axis = self.axis.unwrap_or_default();
+        let beyond_m = fall.body.feet.map_or([0.0; 2], |feet| feet.inset_m);
+        match (self.at_m, self.at, &setup.part) {
+            (Some(at_m), ..) => Ok(vec![Place { at_m, axis }]),
+            (None, Some(at), _) => Ok(vec![Place { at_m: setup.place_m(at, beyond_m)?, axis }]),
+            (None, None, Some(part)) => Ok(part.places.clone()),
+            (None, None, None) => Err(Failure::Usage(
+                "the place is missing: --at=S, or with --product the --component=NAME; of a plate --at=X,Y, of a box --at=X,Y,Z",
+            )),
         }
     }
 }
 
 impl Drop<'_> {
-    pub(super) fn notes(&self) -> &[(&'static str, String)] {
-        &self.setup.notes
+    fn write(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        match self.args.format {
+            Format::Table => self.table(streams.out).map_err(Failure::Answer),
+            Format::Json => streams.json(&self.answer),
+        }
+    }
+
+    /// An input: what was typed as it was, what a search found to six digits.
+    fn input(&self, x: f64) -> f64 {
+        if self.is_found { six(x) } else { neat(x) }
+    }
+
+    /// How many sides of the body a place is told along.
+    fn axes(&self) -> usize {
+        let drop = &self.answer.drop.drop;
+        if drop.is_solid() { 3 } else { drop.body.points() / 2 }
+    }
+
+    /// How the place is called.
+    fn called(&self) -> String {
+        let place = &self.answer.drop.place;
+        if let (Some(at), false) = (self.args.at, self.is_found) {
+            return at.values().into_iter().map(crate::quantities::Place::said).collect::<Vec<_>>().join(", ");
+        }
+        let units = self.part.as_ref().map_or([None; 2], |part| part.units);
+        let show = |axis: usize| {
+            let unit = units.get(axis).copied().flatten().or(self.shown.length.unit);
+            Show { unit, name: "m" }.given(self.input(place.at_m[axis]))
+        };
+        (0..self.axes()).map(show).collect::<Vec<_>>().join(", ")
     }
 
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (at, shown) = (&self.called, &self.setup.shown);
-        let Answer { model, first, length_m, e, speed_m_s, contact_time_s, contact_law, .. } = &self.answer;
-        let (length, e) = (shown.length.given(length_m.0), given(e.0));
+        let (shown, Case { drop, model, tolerance, place, .. }) = (&self.shown, &self.answer.drop);
+        let thickness = drop.body.thickness.filter(|_| drop.is_solid());
+        let sides = [Some(drop.body.length), drop.body.width, thickness].into_iter().flatten();
+        let sides: Vec<_> = sides.map(|side| shown.length.given(self.input(side.m()))).collect();
+        let (at, sides, e) = (self.called(), sides.join(" by "), given(self.input(drop.restitution)));
+        let axis = if drop.is_solid() { format!(" along {}", place.axis.name()) } else { String::new() };
+        let axis = axis.replace(" along any", " in magnitude");
         match &self.answer.place.part {
             Some(Peaks { omega, damping, .. }) => {
-                let zeta = given(super::six(damping.0));
-                let of_file = self.setup.part.as_ref().and_then(|part| part.suspension).map(|(frequency, _)| frequency);
+                let zeta = given(six(damping.0));
+                let of_file = self.part.as_ref().and_then(|part| part.suspension).map(|(frequency, _)| frequency);
                 let of_file = of_file.filter(|_| self.args.omega.is_none());
                 let frequency = match self.args.frequency.or(of_file) {
-                    Some(Quantity { si, unit }) => Show { unit, name: "Hz" }.given(si),
-                    None => format!("W = {} rad/s", given(omega.0)),
+                    Some(Quantity { si, unit }) => Show { unit, name: "Hz" }.given(self.input(si)),
+                    None => format!("W = {} rad/s", given(self.input(omega.0))),
                 };
-                writeln!(out, "Component at {at} of a body of {length}, e = {e}; {frequency}, damping ratio {zeta}")?;
+                writeln!(
+                    out,
+                    "Component at {at}{axis} of a body of {sides}, e = {e}; {frequency}, damping ratio {zeta}"
+                )?;
             }
-            None => writeln!(out, "Place {at} of a body of {length}, e = {e}; a part there is mounted rigidly")?,
+            None => writeln!(out, "Place {at}{axis} of a body of {sides}, e = {e}; a part there is mounted rigidly")?,
         }
-        let speed = shown.speed.said(speed_m_s.0);
-        let (tilt, tolerance) =
-            (shown.tilt(self.args.shortly(self.setup.tilt_deg)), given(100.0 * self.args.tolerance));
-        let spin = match self.setup.scene.spin_rad_s() {
+        let point = if drop.body.is_wide() { "corner" } else { "end" };
+        let (lowest, speed) = (drop.lowest(), shown.speed.said(drop.speed_m_s));
+        let lands = format!(
+            "Model {}, to {} %: {point} {lowest} strikes first, at {speed}",
+            model.name(),
+            given(100.0 * tolerance)
+        );
+        let spin = match drop.spin_rad_s {
             0.0 => String::new(),
-            spin => format!(", turning at {}", shown.spin.given(self.args.shortly(spin))),
+            spin => format!(", turning at {}", shown.spin.given(self.input(spin))),
         };
-        writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}{spin}")?;
-        match (contact_time_s, contact_law) {
-            (Some(time), Some(law)) => writeln!(
+        let tilt = shown.tilt(self.input(drop.tilt_rad.to_degrees()));
+        if drop.is_solid() {
+            let [x, y, z] = drop.up().map(|up| figures(libm::acos(up.clamp(-1.0, 1.0)).to_degrees()));
+            writeln!(out, "{lands}{spin}; the vertical is {x}, {y} and {z} degrees from its axes")?;
+        } else if drop.body.is_wide() && drop.tilt_rad > 0.0 {
+            let (towards, [along, across]) = (drop.direction_rad.to_degrees().rem_euclid(360.0), drop.gaps_m());
+            let (towards, [along, across]) =
+                (given(self.input(towards)), [along, across].map(|gap| shown.length.said(gap)));
+            writeln!(
                 out,
-                "Contacts of {}, {law}{}",
-                shown.time.given(time.0),
-                super::own_contacts(&self.answer.contacts, shown.time)
-            ),
-            _ => Ok(()),
+                "{lands}, tilt {tilt} towards {towards} degrees{spin}; its neighbors are {along} and {across} higher"
+            )?;
+        } else {
+            writeln!(out, "{lands}, tilt {tilt}{spin}")?;
         }
+        let Some(time_s) = drop.contact_time_s.filter(|_| *model == Model::Compliant) else { return Ok(()) };
+        let time = |time_s: f64| shown.time.given(self.input(time_s));
+        let own = drop.own_contacts.told(drop.restitution, drop.contact_time_s).map(|(at, e, time_s)| {
+            let lasts = time_s.map_or(String::new(), |time_s| format!(" and {}", time(time_s)));
+            format!("; at {at} e = {}{lasts}", given(self.input(e)))
+        });
+        writeln!(out, "Contacts of {}, {}{}", time(time_s), drop.contact_law.name(), own.collect::<String>())
     }
 
-    pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
-        if let (Some(part), Some(limits)) = (&self.setup.part, &self.answer.place.limits) {
-            limits::table(part, limits, self.setup.shown.time, out)?;
+        if let (Some(part), Some(limits)) = (&self.part, &self.answer.place.limits) {
+            limits::table(part, limits, self.axes(), self.shown.time, out)?;
         }
         if let Some(part) = &self.answer.place.part {
             self.peaks(part, out)?;
         }
         self.place(out)?;
         self.shocks(out)?;
-        doubts(self.args.tolerance, &self.answer.place.answers, out)?;
+        doubts(self.answer.drop.tolerance, &self.answer.place.answers, out)?;
         equivalent_table(self.answer.place.equivalent.as_ref(), out)
     }
 
     /// The peaks of the part.
     fn peaks(&self, part: &Peaks, out: &mut dyn Write) -> io::Result<()> {
-        let (peaks, time, speed) = (&part.peaks, self.setup.shown.time, self.setup.shown.speed);
+        let (peaks, time, speed) = (&part.peaks, self.shown.time, self.shown.speed);
         let [acceleration, displacement] =
             [self.answer.place.answers.part_acceleration, self.answer.place.answers.part_displacement];
         let when = format!("when, {}", time.name());
@@ -162,7 +258,7 @@ impl Drop<'_> {
             writeln!(out, "  {name:<32}{size:>12} {:>13}{after}", time.figures(at.0))
         };
         // As an assessment tells it.
-        let limits = self.setup.part.as_ref().map(|part| part.limits);
+        let limits = self.part.as_ref().map(|part| part.limits);
         for (name, kind, largest) in [
             ("acceleration", LimitKind::Acceleration, acceleration),
             ("relative displacement", LimitKind::RattleSpace, displacement),
@@ -183,8 +279,7 @@ impl Drop<'_> {
 
     /// What the place goes through.
     fn place(&self, out: &mut dyn Write) -> io::Result<()> {
-        let of = &self.answer.place.answers;
-        let shown = &self.setup.shown;
+        let (of, shown, Case { drop, model, .. }) = (&self.answer.place.answers, &self.shown, &self.answer.drop);
         let when = format!("when, {}", shown.time.name());
         writeln!(out, "\n{:<34}{:>12} {when:>13}", "Largest at this position", "")?;
         let mut line = |name: &str, show: Show, largest: Option<Largest>, note: &str| {
@@ -196,9 +291,9 @@ impl Drop<'_> {
             writeln!(out, "  {name:<33}{value:>11} {time:>13}  at impact {impact}{note}")
         };
         line("change of velocity", shown.speed, of.velocity_change, "")?;
-        if let Some(time) = self.answer.contact_time_s {
-            let half_sine = format!(", taken for a half-sine of {}", shown.time.given(time.0));
-            let note = if self.setup.model == Model::Compliant { "" } else { &half_sine };
+        if let Some(time_s) = drop.contact_time_s {
+            let half_sine = format!(", taken for a half-sine of {}", shown.time.given(self.input(time_s)));
+            let note = if *model == Model::Compliant { "" } else { &half_sine };
             line("acceleration", shown.acceleration, of.acceleration, note)?;
         }
         line("change of angular velocity", shown.spin, of.angular_velocity_change, "")
@@ -206,11 +301,10 @@ impl Drop<'_> {
 
     /// Single shocks at the position beside the answer.
     fn shocks(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Answer { e, speed_m_s, height_gap_m, place, .. } = &self.answer;
-        let AtPlace { velocity_change_m_s, clatter_free, standard, .. } = place;
-        let speed = self.setup.shown.speed;
-        let Some((part, gain)) = self.question.suspension.zip(self.answer.place.gain) else {
-            let flat = speed.said((1.0 + e.0) * speed_m_s.0);
+        let (speed, Case { drop, .. }) = (self.shown.speed, &self.answer.drop);
+        let AtPlace { velocity_change_m_s, clatter_free, standard, gain, .. } = &self.answer.place;
+        let (Some(part), Some(gain)) = (&self.suspension, gain) else {
+            let flat = speed.said((1.0 + drop.restitution) * drop.speed_m_s);
             return writeln!(out, "\nWithout clatter, (1 + e) v0 everywhere at once: {flat}");
         };
         let mut shocks = Shocks { show: speed, out };
@@ -218,11 +312,7 @@ impl Drop<'_> {
         let largest = Factors::new(part.damping(), velocity_change_m_s.0);
         shocks.row("the largest of this drop", largest.shock, Some(&largest))?;
         shocks.at_once(clatter_free.as_ref(), standard.as_ref())?;
-        let ratio = figures(part.omega() * height_gap_m.0 / speed_m_s.0);
+        let ratio = figures(part.omega() * drop.gap_m() / drop.speed_m_s);
         writeln!(out, "\nW h0/v0 = {ratio}; acceleration over that of the standards' shock: {}", figures(gain.0))
-    }
-
-    pub(super) fn answer(&self) -> &Answer {
-        &self.answer
     }
 }

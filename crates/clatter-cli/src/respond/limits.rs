@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use clatter_answer::Json;
-use clatter_answer::respond::{Limit, Position};
+use clatter_answer::respond::Limit;
 use clatter_assess::{LimitKind, Unit};
 
 use crate::columns::Table;
@@ -12,7 +12,14 @@ use crate::quantities::Show;
 use crate::text::shown;
 use crate::words::in_words;
 
-pub(super) fn table(part: &PartSetup, limits: &[Limit], time: Show, out: &mut dyn Write) -> io::Result<()> {
+/// `axes` of each place are told.
+pub(super) fn table(
+    part: &PartSetup,
+    limits: &[Limit],
+    axes: usize,
+    time: Show,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let (title, when) = (format!("Limits of {}", shown(&part.name, 24)), format!("when, {}", time.name()));
     let mut rows = vec![[&title, "value", "allowed", "of limit", "at", &when, ""].map(str::to_owned).to_vec()];
     for row in limits {
@@ -26,12 +33,8 @@ pub(super) fn table(part: &PartSetup, limits: &[Limit], time: Show, out: &mut dy
         let place = if row.limit == LimitKind::AngularVelocityChange {
             "-".to_owned()
         } else {
-            let along = |m: Json, side: usize| in_words(Unit::Meter, part.place[side].unit(), m.0);
-            match row.position_m {
-                Position::Along(x) => along(x, 0),
-                Position::Both([x, y]) => format!("{}, {}", along(x, 0), along(y, 1)),
-                Position::All([x, y, z]) => format!("{}, {}, {}", along(x, 0), along(y, 1), along(z, 0)),
-            }
+            let along = |(axis, m): (usize, &Json)| in_words(Unit::Meter, part.units.get(axis).copied().flatten(), m.0);
+            row.position_m[..axes].iter().enumerate().map(along).collect::<Vec<_>>().join(", ")
         };
         let over = if share.0 > 1.0 { ", EXCEEDED" } else { "" };
         let (at, impact) = (time.figures(time_s.0), format!("impact {impact}{over}"));

@@ -2,13 +2,10 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::respond::{
-    AtPlace, Equivalent, Factors, HalfSine, Largest, LargestValues, NOTHING_FELT, ServiceCondition,
-};
+use clatter_answer::respond::{Equivalent, Factors, HalfSine, LargestValues, NOTHING_FELT, ServiceCondition};
 
-use crate::numbers::{figures, given};
-use crate::quantities::{Show, neat};
-use crate::words::in_words;
+use crate::numbers::figures;
+use crate::quantities::Show;
 
 /// The equivalent pulse for people.
 pub(super) fn equivalent_table(equivalent: Option<&Equivalent>, out: &mut dyn Write) -> io::Result<()> {
@@ -95,32 +92,4 @@ pub(super) fn doubts(tolerance: f64, of: &LargestValues, out: &mut dyn Write) ->
         }
     }
     Ok(())
-}
-
-/// Where a part of a body is, and along which axis it is shaken.
-pub(super) fn place(at_m: [f64; 3], axis: &str, out: &mut dyn Write) -> io::Result<()> {
-    let [x, y, z] = at_m.map(|at| given(neat(1e3 * at)));
-    let axis = if axis == "any" { "in magnitude".to_owned() } else { format!("along {axis}") };
-    writeln!(out, "Place at {x}, {y}, {z} mm from the middle, {axis}")
-}
-
-/// The largest values at a place and of a part there, and how far off they may be.
-pub(super) fn largest_values(place: &AtPlace, tolerance: f64, out: &mut dyn Write) -> io::Result<()> {
-    let row = |out: &mut dyn Write, name: &str, largest: Option<Largest>| {
-        let Some(Largest { value, unit, time_s, impact, .. }) = largest else { return Ok(()) };
-        let (value, when) = (in_words(unit, None, value.0), figures(1e3 * time_s.0));
-        writeln!(out, "  {name:<26}{value:>18}{when:>13}  at impact {impact}")
-    };
-    let of = &place.answers;
-    writeln!(out, "\nLargest at this place                             when, ms")?;
-    row(out, "change of velocity", of.velocity_change)?;
-    row(out, "acceleration", of.acceleration)?;
-    row(out, "change of angular velocity", of.angular_velocity_change)?;
-    if let Some(part) = &place.part {
-        let [omega, damping] = [part.omega, part.damping].map(|of| given(super::six(of.0)));
-        writeln!(out, "\nPeak of the part, W = {omega} rad/s, damping ratio {damping}")?;
-        row(out, "acceleration", of.part_acceleration)?;
-        row(out, "relative displacement", of.part_displacement)?;
-    }
-    doubts(tolerance, of, out)
 }

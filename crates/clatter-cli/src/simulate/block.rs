@@ -2,80 +2,94 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::simulate::block::{self, Answer, Impact, Question};
-use clatter_flight::Block;
+use clatter_answer::simulate::block::{Answer, DropAnswer, Impact};
+use clatter_flight::{Block, LEAST_OF_BLOCKS, Stop};
 
-use super::Args;
-use crate::block::Setup;
-use crate::drop_args::BesideBlock;
+use super::{Args, Notes};
+use crate::drop_args::Setup;
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, figures, given};
+use crate::quantities::neat;
 use crate::{Failure, Streams};
 
 /// Presses whose largest shock is below this share of the largest of all are left out of the table.
 const MATTERS: f64 = 0.01;
 
-impl Args {
-    pub(super) fn block(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        if self.output.is_some() {
-            return Err(Failure::Usage(
-                "the motion of a box is not written to a file: --format=json or csv has its strikes",
-            ));
+/// A drop of a box and what came of it.
+pub(super) struct Drop<'a> {
+    pub(super) args: &'a Args,
+    pub(super) setup: Setup,
+    pub(super) answer: Answer,
+}
+
+impl Drop<'_> {
+    pub(super) fn tell(self, streams: &mut Streams<'_>) -> Result<Notes, Failure> {
+        match self.args.format {
+            RowFormat::Table => self.table(streams.out).map_err(Failure::Answer)?,
+            RowFormat::Csv => self.csv(streams.out).map_err(Failure::Answer)?,
+            RowFormat::Json => streams.json(&self.answer)?,
         }
-        let spin = match self.spin_rad_s {
-            Some(spin) => spin.of_block("--spin-rad-s")?,
-            None if self.spin.is_some() => {
-                return Err(Failure::Usage("--spin turns a bar; of a box it is --spin-rad-s=WX,WY,WZ"));
-            }
-            None => [0.0; 3],
-        };
-        if !self.at.is_empty() {
-            return Err(Failure::Usage(
-                "--at is a place of a bar: 'clatter respond --at-m=X,Y,Z' answers one of a box",
-            ));
-        }
-        let gyration = self.inertia.given().map(|radii| radii.of_block(self.inertia.flag())).transpose()?;
-        let setup = self.drop.block(&BesideBlock {
-            model: self.model,
-            e: self.e,
-            gyration,
-            spin_rad_s: spin,
-            time_limit_s: self.time_limit_s(),
-            impact_limit: self.impact_limit,
-        })?;
-        let answer = block::answer(&Question::new(setup.drop, setup.contact))?;
-        let drop = Drop { setup, answer, all: self.all };
-        match self.format {
-            RowFormat::Table => drop.table(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.json(&drop.answer)?,
-        }
-        drop.warnings().into_iter().for_each(|warning| streams.note("warning", warning));
-        Ok(())
+        let warnings = self.warnings();
+        let mut notes = self.setup.notes;
+        notes.extend(warnings.into_iter().map(|warning| ("warning", warning)));
+        Ok(notes)
     }
-}
 
-struct Drop {
-    setup: Setup,
-    answer: Answer,
-    all: bool,
-}
-
-impl Drop {
     fn warnings(&self) -> Vec<String> {
-        let mut warnings: Vec<String> = self.setup.warning().into_iter().collect();
+        let (mut warnings, drop) = (Vec::new(), &self.setup.drop);
+        let e = drop.restitution;
+        if drop.contact_law.leaves_a_dent() && e < LEAST_OF_BLOCKS {
+            let followed = format!("e = {e:?} is followed as {LEAST_OF_BLOCKS}");
+            warnings.push(format!("{followed}: hysteretic contacts of a box rebound with that at least"));
+        }
         let unfinished = self.answer.impacts.iter().filter(|impact| impact.is_unfinished()).count();
         if unfinished > 0 {
             warnings.push(format!("{unfinished} contacts are cut off there: what they do in all is not known"));
         }
-        warnings.extend(self.setup.left(&self.answer.stop));
+        match self.answer.stop {
+            Stop::TimeLimit { time_s } if self.args.time_limit_s().is_none_or(|limit_s| time_s < limit_s) => {
+                warnings.push(format!(
+                    "left at {time_s:?} s, where the box still moves: what follows is not in the answer"
+                ));
+            }
+            Stop::ImpactLimit { .. } => {
+                warnings.push("more impacts would follow; --impact-limit=N follows more".to_owned());
+            }
+            Stop::EnergyLimit { .. } => {
+                warnings.push("left where the energy of the box is not what it should be".to_owned());
+            }
+            _ => {}
+        }
         warnings
     }
 
+    fn heading(&self, out: &mut dyn Write) -> io::Result<()> {
+        let DropAnswer { size_m, gyration_m, e, speed_m_s, gravity_m_s2, contact_time_s, upward, .. } =
+            &self.answer.drop;
+        let [length, width, thickness] = size_m.map(|side| given(neat(1e3 * side.0)));
+        let [x, y, z] = gyration_m.map(|radius| figures(1e3 * radius.0));
+        let (law, time, gravity) =
+            (self.answer.contact_law, given(neat(1e3 * contact_time_s.0)), given(gravity_m_s2.0));
+        writeln!(out, "Any orientation, gravity {gravity} m/s2, {law} contacts of {time} ms")?;
+        let e = given(e.0);
+        writeln!(out, "Box of {length} x {width} x {thickness} mm, radii of gyration {x}, {y}, {z} mm; e = {e}")?;
+        let [x, y, z] = upward.map(|up| figures(libm::acos(up.0.clamp(-1.0, 1.0)).to_degrees()));
+        let speed = figures(speed_m_s.0);
+        writeln!(
+            out,
+            "Its lowest corner touches at {speed} m/s; the vertical is {x}, {y} and {z} degrees from its axes\n"
+        )
+    }
+
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.setup.heading(out)?;
+        self.heading(out)?;
         writeln!(out, "Impacts {:>26}", self.answer.impacts.len())?;
-        writeln!(out, "{:<14} {:>19} s", crate::block::stopped(&self.answer.stop), digits(self.answer.stop.time_s()))?;
+        let stopped = match self.answer.stop {
+            Stop::AtRest { .. } => "At rest at",
+            Stop::BouncedClear { .. } => "Bounced clear",
+            _ => "Left at",
+        };
+        writeln!(out, "{stopped:<14} {:>19} s", digits(self.answer.stop.time_s()))?;
         let largest = self.answer.impacts.iter().map(Impact::largest_m_s).fold(0.0, f64::max);
         writeln!(out)?;
         writeln!(out, "   impact  corner        time         until      approach   shock there  largest shock")?;
@@ -83,7 +97,7 @@ impl Drop {
         let mut left = 0;
         for impact in &self.answer.impacts {
             let largest_of = impact.largest_m_s();
-            if !self.all && largest_of < MATTERS * largest && !impact.is_unfinished() {
+            if !self.args.all && largest_of < MATTERS * largest && !impact.is_unfinished() {
                 left += 1;
                 continue;
             }

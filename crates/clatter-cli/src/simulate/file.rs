@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Drop, IMPACTS};
+use super::Drop;
 use crate::Failure;
 use crate::numbers::digits;
 use crate::output::{self, Kind, Target};
@@ -13,7 +13,7 @@ const MOST_ROWS: usize = 4_000_000;
 
 impl Drop<'_> {
     pub(super) fn write(&self, Target { path, kind }: &Target) -> Result<(), Failure> {
-        let unasked = self.args.time_limit_s().is_none() && self.args.impact_limit == IMPACTS;
+        let unasked = self.args.time_limit_s().is_none() && self.args.impact_limit.is_none();
         if unasked && self.answer.impacts.motion().rows().nth(MOST_ROWS).is_some() {
             return Err(Failure::Usage(
                 "the motion has more than 4 million rows, some hundred megabytes: --time-limit-s or --impact-limit says how far it is wanted",
@@ -42,7 +42,8 @@ impl Drop<'_> {
 
     /// What the places are called in the picture: the part of the product, or else the length from the middle.
     fn named(&self) -> Vec<String> {
-        let millimeters = |s: &f64| format!("{} mm", clatter_figures::three(500.0 * self.setup.length_m * s));
+        let millimeters =
+            |s: &f64| format!("{} mm", clatter_figures::three(500.0 * self.setup.drop.body.length_m() * s));
         let part = self.setup.part.as_ref().filter(|_| self.args.at.is_empty());
         let named = |s: &f64| {
             part.map_or(format!("at {}", millimeters(s)), |part| format!("{}, {}", part.name, millimeters(s)))

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::simulate::Impact;
+use clatter_answer::simulate::bar::Impact;
 use clatter_assess::Model;
 use clatter_flight::{Model as Physics, Stop};
 
@@ -17,7 +17,7 @@ impl Drop<'_> {
     /// What the model keeps.
     pub(super) fn physics(&self) -> String {
         let shown = &self.setup.shown;
-        let gravity = shown.acceleration.given(self.setup.scene.gravity_m_s2());
+        let gravity = shown.acceleration.given(self.scene.gravity_m_s2());
         match self.answer.impacts.motion().model() {
             Physics::Map => "Small tilt, no gravity, instant impacts".to_owned(),
             Physics::Ballistic => format!("Small tilt, gravity {gravity}, instant impacts"),
@@ -65,22 +65,26 @@ impl Drop<'_> {
     }
 
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (setup, scene, shown) = (&self.setup, &self.setup.scene, &self.setup.shown);
+        let (scene, shown) = (&self.scene, &self.setup.shown);
         writeln!(out, "{}", self.physics())?;
         let [qa, qb] = scene.body().inertia_ratios().map(figures);
-        let mass = match setup.center_of_mass {
+        let mass = match self.answer.center_of_mass.0 {
             0.0 => format!("q = {qa}"),
             s => format!("center of mass at {}: q = {qa} for strikes at end a, {qb} at end b", figures(s)),
         };
-        let (length, gyration) = (shown.length.given(setup.length_m), shown.length.said(scene.body().gyration_m()));
-        let thickness = match setup.thickness_m {
+        let (length, gyration) =
+            (shown.length.given(self.answer.length_m.0), shown.length.said(scene.body().gyration_m()));
+        let thickness = match self.answer.thickness_m.0 {
             0.0 => String::new(),
             thickness => format!(" by {}", shown.length.given(thickness)),
         };
         let e = given(scene.e());
         writeln!(out, "Body of {length}{thickness}, radius of gyration {gyration}, {mass}; e = {e}")?;
-        let (speed, tilt, gap) =
-            (shown.speed.said(scene.speed_m_s()), shown.tilt(setup.tilt_deg), shown.length.said(scene.height_gap_m()));
+        let (speed, tilt, gap) = (
+            shown.speed.said(scene.speed_m_s()),
+            shown.tilt(self.answer.tilt_deg.0),
+            shown.length.said(scene.height_gap_m()),
+        );
         let spin = match scene.spin_rad_s() {
             0.0 => String::new(),
             spin => format!(", turning at {}", shown.spin.given(spin)),
