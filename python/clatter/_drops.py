@@ -186,7 +186,8 @@ def respond(
         Natural angular frequency in v0/h0 or rad/s, or natural frequency in Hz.
     damping, q_factor : float
         Damping ratio, or 1/(2 damping); Q = 10 unless given.
-    length_m, gyration_m and others, model, contact_time_s, contact_law
+    model, length_m, width_m, thickness_m, gyration_m, center_of_mass_m, speed_m_s, height_m, tilt_deg, direction_deg, gaps_m
+    orientation, spin_rad_s, gravity_m_s2, contact_time_s, contact_law
         Else a drop as in :func:`simulate`, with e and center_of_mass.
     first : {'a', 'b'}, optional
         Of a drop: the end that touches first.

@@ -82,17 +82,17 @@ fn parts_that_no_drop_answers_are_refused() {
     says(respond::drop::answer(&question).expect_err("no place"), "places is empty");
     let plate = Drop { contact_time_s: Some(4e-4), ..plate_fall() };
     let mut question = ask(plate, Model::Compliant, Place::flat([0.0, 0.0525]));
-    says(respond::drop::answer(&question).expect_err("off the plate"), "across the product in m = 0.0525");
+    says(respond::drop::answer(&question).expect_err("off the plate"), "across the product in m is 0.0525");
     (question.places, question.suspension) = (vec![Place::flat([0.0; 2])], Some(part(1e-13)));
     says(respond::drop::answer(&question).expect_err("too slow"), "natural frequency in rad/s = 1e-13");
     let drop = Drop { spin_axis: Some([1.0, 0.0, 0.0]), spin_rad_s: 3.0, ..plate };
     let question = ask(drop, Model::Compliant, Place::flat([0.0; 2]));
-    says(respond::drop::answer(&question).expect_err("no tilt of it"), "spin across the tilt in rad/s = 3.0");
+    says(respond::drop::answer(&question).expect_err("no tilt of it"), "spin across the tilt in rad/s is 3.0");
     let block = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478]).expect("a box");
     let drop = Drop::of_block(&BlockDrop::tilted(block, 0.5, 0.0, 1.0, 9.806_65).expect("a drop"), 0.3);
     let drop = Drop { contact_time_s: Some(4e-4), ..drop };
     let mut question = ask(drop, Model::Compliant, Place { at_m: [0.0, 0.04, 0.0], axis: clatter_assess::Axis::Any });
-    says(respond::drop::answer(&question).expect_err("beyond the box"), "in m = 0.04");
+    says(respond::drop::answer(&question).expect_err("beyond the box"), "in m is 0.04");
     (question.places[0].at_m, question.suspension) = ([0.0; 3], Some(part(100.0)));
     says(respond::drop::answer(&question).expect_err("no axis"), "100.0");
 }
