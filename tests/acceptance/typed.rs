@@ -332,6 +332,10 @@ fn a_drop_and_a_part_come_from_a_product_file() {
         0,
         "{notes}"
     );
+    // From the height of the file, with the gravity that is given.
+    let (heavy, _) = json(&["respond", &product, "--component=camera", "--gravity=2gn"]);
+    let speed_m_s = (2.0 * 2.0 * 9.806_65 * 1.2_f64).sqrt();
+    assert!((heavy["drop"]["drop"]["speed_m_s"].as_f64().unwrap() / speed_m_s - 1.0).abs() < 1e-12, "{heavy}");
     // A part that is mounted rigidly, and the place of a part in a simulation.
     let (hard, _) = json(&["respond", &product, "--component=crystal"]);
     assert!(

@@ -3,7 +3,6 @@
 use clatter::End;
 use clatter_assess::{Model, STANDARD_GRAVITY_M_S2};
 use clatter_flight::{Block, BlockDrop, Body, ContactLaw, Drop, Plate, Profile, Side};
-use serde::Deserialize;
 
 use crate::Error;
 
@@ -30,8 +29,7 @@ use crate::Error;
 /// assert_eq!(text, "the drop is not whole: give contact_time_s");
 /// # Ok::<(), clatter_answer::Error>(())
 /// ```
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct DropInputs {
     /// From end to end.
     pub length_m: Option<f64>,
@@ -70,7 +68,6 @@ pub struct DropInputs {
     /// What the ground does meanwhile; hysteretic unless given.
     pub contact_law: Option<ContactLaw>,
     /// The end of a bar that touches first; end a unless given.
-    #[serde(skip)]
     pub first: Option<End>,
     /// Whether both ends of a bar land as one, without a tilt.
     pub is_flat: bool,
@@ -95,7 +92,6 @@ impl DropInputs {
     pub fn over(&self, base: Option<&Drop>, model: Model) -> Result<Drop, Error> {
         self.check_whole(base, model)?;
         let restitution = self.e.or(base.map(|drop| drop.restitution)).unwrap_or(f64::NAN);
-
         let gravity_m_s2 = self.gravity_m_s2.or(base.map(|drop| drop.gravity_m_s2)).unwrap_or(STANDARD_GRAVITY_M_S2);
         let drop = if self.is_box() {
             self.box_drop(restitution, self.speed(None, gravity_m_s2)?, gravity_m_s2)?
@@ -216,7 +212,8 @@ impl DropInputs {
         let plate = Plate::new(edges_m, [length.gyration_m, width.gyration_m]);
         plate.and_then(|plate| plate.with_product_of_inertia(product_m2)).map_err(|error| self.input(error))?;
         let (thickness, feet) = base.map_or((None, None), |body| (body.thickness, body.feet));
-        Ok(Body { length, width: Some(width), thickness, products_m2: [product_m2, 0.0, 0.0], feet })
+        let [_, xz, yz] = base.map_or([0.0; 3], |body| body.products_m2);
+        Ok(Body { length, width: Some(width), thickness, products_m2: [product_m2, xz, yz], feet })
     }
 
     fn bar(&self, base: Option<&Body>) -> Result<Body, Error> {

@@ -9,6 +9,7 @@ use clatter_assess::units::Quantity;
 use clatter_assess::{Accuracy, Drop, Input, Model, slip};
 
 use crate::inputs::{self, Law};
+use crate::numbers::given;
 use crate::one_drop::{OneDrop, PartSetup, Worst};
 use crate::output::Files;
 use crate::quantities::{self, PerAxis, Piece, Place, Show, Shown, neat};
@@ -210,7 +211,9 @@ impl DropArgs {
                 "--flat goes with instant impacts: contacts that take time land flat with --tilt=0deg",
             ));
         }
-        let inputs = self.inputs(&beside, file.as_mut(), base.as_ref())?;
+        let mut inputs = self.inputs(&beside, file.as_mut(), base.as_ref())?;
+        // The height of the file, with the gravity that is given.
+        inputs.height_m = inputs.height_m.or(height_m.filter(|_| inputs.speed_m_s.is_none()));
         let half_m = 0.5 * inputs.length_m.unwrap_or(f64::INFINITY);
         let beyond = beside.masses.iter().flat_map(|piece| piece.slips(half_m));
         notes.extend(beyond.map(|slip| ("warning", slip.to_string())));
@@ -226,9 +229,7 @@ impl DropArgs {
         if let Some(file) = file.as_mut().filter(|_| is_stretched) {
             file.note("the radius of gyration and the center of mass along it go with the length");
         }
-        let is_fast = inputs.speed_m_s.is_some();
-        let height_m = inputs.height_m.or(height_m.filter(|_| !is_fast));
-        self.finish(&drop, model, height_m, &beside, file, notes)
+        self.finish(&drop, model, inputs.height_m, &beside, file, notes)
     }
 
     fn finish(
@@ -241,8 +242,7 @@ impl DropArgs {
         mut notes: Vec<(&'static str, String)>,
     ) -> Result<Setup, Failure> {
         if drop.body.is_wide() && !drop.is_solid() && drop.tilt_rad > STEEP_RAD {
-            let tilt =
-                crate::numbers::given(neat(format!("{:.3e}", drop.tilt_rad.to_degrees()).parse().unwrap_or(0.0)));
+            let tilt = given(neat(format!("{:.3e}", drop.tilt_rad.to_degrees()).parse().unwrap_or(0.0)));
             let steep = "its lever arms are shorter";
             notes.push((
                 "warning",
