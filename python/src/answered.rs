@@ -1,4 +1,4 @@
-//! An answer as Python gets it: the JSON of the command, and what draws it.
+//! This module makes answers for Python: the JSON of the command, and the drawing of it.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::{refused, work};
 
-/// What draws an answer: the picture that the command writes.
+/// The drawing of an answer: it makes the picture that the command writes.
 #[pyclass(frozen, module = "clatter._clatter")]
 pub(crate) struct Drawing(Arc<dyn Fn() -> Result<String, FigureError> + Send + Sync>);
 
@@ -21,7 +21,7 @@ impl Drawing {
 
 #[pymethods]
 impl Drawing {
-    /// The picture as SVG.
+    /// Draws the picture as SVG.
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
         let draw = Arc::clone(&self.0);
         work::done(py, move |_| draw())?.map_err(refused)
@@ -31,7 +31,7 @@ impl Drawing {
 /// The JSON of an answer, and its picture where it has one.
 pub(crate) type Answered = (String, Option<Drawing>);
 
-/// As `--format json` prints it.
+/// Writes an answer as `--format json` prints it.
 pub(crate) fn json(answer: &impl Serialize) -> Result<String, String> {
     serde_json::to_string(&Versioned::new(answer)).map_err(|error| error.to_string())
 }

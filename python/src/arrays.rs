@@ -1,4 +1,4 @@
-//! The same of many bars, plates and boxes at once: a row of arrays is a question.
+//! This module answers many bars, plates and boxes at once: each row of the arrays is a question.
 
 use std::fmt::Display;
 
@@ -22,7 +22,7 @@ impl<'py> FromPyObject<'_, 'py> for Column {
     type Error = PyErr;
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let array: PyReadonlyArray1<'py, f64> = object.extract()?;
-        // A copy: others may write to the array while this works on it.
+        // This is a copy: others may write to the array while this works on it.
         Ok(Self(array.as_slice()?.to_vec()))
     }
 }
@@ -33,7 +33,7 @@ impl Column {
     }
 }
 
-/// Where a row is in the arrays that were given.
+/// Describes where a row is in the given arrays.
 fn place(mut row: usize, shape: &[usize]) -> String {
     if shape.is_empty() {
         return String::new();
@@ -51,10 +51,10 @@ fn place(mut row: usize, shape: &[usize]) -> String {
     format!("at [{}]: ", index.join(", "))
 }
 
-/// Rows that are worked on between two looks at errors.
+/// The number of rows that are worked on between two looks at errors.
 const BLOCK: usize = 1 << 14;
 
-/// As many columns as `row` gives numbers, the work shared by all threads; the first row that is refused is told with its place.
+/// Returns as many columns as `row` gives numbers, with the work shared by all threads; the first refused row is reported with its place.
 fn columns<const N: usize, E: Display + Send>(
     py: Python<'_>,
     shape: Vec<usize>,
@@ -79,7 +79,7 @@ fn columns<const N: usize, E: Display + Send>(
     work::done(py, all)?.map_err(refused)
 }
 
-/// Columns with their names.
+/// Returns columns with their names.
 fn named<'py, const N: usize>(
     py: Python<'py>,
     names: [&str; N],

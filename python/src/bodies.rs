@@ -1,4 +1,4 @@
-//! Bars, plates and their starts of what Python says of them.
+//! This module makes bars, plates and their starts from the values of Python.
 
 use clatter::{Bar, Error, Mass, Plate, PlateStart, Start};
 use clatter_assess::Model;
@@ -31,7 +31,7 @@ impl From<Piece> for Mass {
     }
 }
 
-/// What falls.
+/// The body that falls.
 #[derive(Debug, Clone)]
 pub(crate) enum Body {
     Bar(Bar),
@@ -82,7 +82,7 @@ impl Body {
     }
 }
 
-/// The start of a bar: without spin and at one h0 unless told.
+/// Makes the start of a bar: without spin and at one h0 unless given.
 pub(crate) fn start(velocity: Option<Vec<f64>>, height_gap: Option<Ratio>) -> PyResult<Start> {
     let velocity = numbers(velocity, [-1.0; 2], "velocity", "a bar")?;
     match height_gap {
@@ -92,7 +92,7 @@ pub(crate) fn start(velocity: Option<Vec<f64>>, height_gap: Option<Ratio>) -> Py
     }
 }
 
-/// The start of a plate.
+/// Makes the start of a plate.
 pub(crate) fn plate_start(velocity: Option<Vec<f64>>, height_gap: Option<Ratio>) -> PyResult<PlateStart> {
     let velocity = numbers(velocity, [-1.0; 3], "velocity", "a plate")?;
     match height_gap {
@@ -133,7 +133,7 @@ impl Places {
     }
 }
 
-/// A bar of one row of arrays.
+/// Makes a bar from one row of arrays.
 pub(crate) fn bar_of(q: Option<f64>, k: Option<f64>, c: Option<f64>, e: f64) -> Result<Bar, Error> {
     match (q, k, c) {
         (Some(q), _, _) => Bar::new(q, e),
@@ -142,20 +142,20 @@ pub(crate) fn bar_of(q: Option<f64>, k: Option<f64>, c: Option<f64>, e: f64) -> 
     }
 }
 
-/// A contact law by its name.
+/// Finds a contact law by its name.
 pub(crate) fn law(name: &str) -> PyResult<ContactLaw> {
     let names = ContactLaw::NAMES.join(" or ");
     ContactLaw::from_name(name).ok_or_else(|| refused(format!("contact_law = '{name}' is none: {names}")))
 }
 
-/// A model that follows drops by its name.
+/// Finds a model that follows drops by its name.
 pub(crate) fn model(name: &str) -> PyResult<Model> {
     let names = || Model::FOLLOWED.map(Model::name).join(", ");
     let model = Model::FOLLOWED.into_iter().find(|model| model.name() == name);
     model.ok_or_else(|| refused(format!("model = '{name}' is none: {}", names())))
 }
 
-/// The damping of a part; Q = 10, what the field takes, where nobody says otherwise.
+/// Returns the damping of a part; Q = 10, as is usual in the field, where none is given.
 pub(crate) fn damping(ratio: Option<f64>, q_factor: Option<f64>) -> PyResult<DampingRatio> {
     match (ratio, q_factor) {
         (Some(_), Some(_)) => Err(refused("damping or q_factor, not both: q_factor = 1/(2 damping)")),

@@ -1,4 +1,4 @@
-//! Drops in time: of a bar, a plate and a box.
+//! This module follows drops in time: of a bar, a plate and a box.
 
 use clatter_answer::simulate::{self as simulate_of, Answer};
 use clatter_answer::{DropInputs, neat};
@@ -35,7 +35,7 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
-    /// The drop that they say.
+    /// Makes the drop that the inputs describe.
     pub(crate) fn drop(&self, model: Model) -> PyResult<Drop> {
         let given = self.clone();
         let is_flat = given.flat.unwrap_or(false);
@@ -68,7 +68,7 @@ impl Inputs {
     }
 }
 
-/// Rows of a motion that an answer has at most.
+/// The largest number of rows of a motion in an answer.
 const MOST_ROWS: usize = 4_000_000;
 const TOO_LONG: &str =
     "the motion has more than 4 million rows: time_limit_s or impact_limit says how far it is wanted";
@@ -124,7 +124,7 @@ pub(crate) fn simulate(
     Ok((told, Some(Drawing::new(draw))))
 }
 
-/// What is kept of a drop, as the picture has it.
+/// Describes the physics that are kept of a drop, in the words of the picture.
 fn words(model: Model, drop: &Drop) -> String {
     let given = |x: f64| format!("{:?}", neat(x)).trim_end_matches(".0").to_owned();
     let gravity = given(drop.gravity_m_s2);

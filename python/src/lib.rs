@@ -1,8 +1,8 @@
-//! The Python package `clatter`: the answers of the command over dicts and arrays.
+//! This crate is the Python package `clatter`: it gives the answers of the command over dicts and arrays.
 //!
-//! What is asked comes as plain values from the modules of `python/clatter`, which name, check and document it; here it becomes the
-//! typed question of `clatter-answer`, and its answer the JSON that the command prints, with how it is drawn. Functions over arrays
-//! call the core for each row. No answer is made in a second way.
+//! Questions come as plain values from the modules of `python/clatter`, which name, check and document them; here they become the typed
+//! questions of `clatter-answer`, and each answer becomes the JSON that the command prints, with the way to draw it. Functions over
+//! arrays call the core for each row. There is no second way to an answer.
 
 #![expect(clippy::too_many_arguments, reason = "Python names them")]
 #![expect(clippy::needless_pass_by_value, reason = "as Python hands them over")]
@@ -25,7 +25,7 @@ use std::fmt::Display;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// What a question is refused for, in the words of the command.
+/// Makes the error of a refused question, in the words of the command.
 fn refused(error: impl Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }

@@ -1,4 +1,4 @@
-//! One quantity over a grid of bars.
+//! This module computes one quantity over a grid of bars.
 
 use clatter::{Axis, Quantity};
 use clatter_answer::map as map_of;
@@ -8,12 +8,12 @@ use pyo3::prelude::*;
 use crate::answered::Drawing;
 use crate::{refused, work};
 
-/// From, to and how many.
+/// The first value, the last value and the number of values.
 type Span = (f64, f64, usize);
 /// Values of the inertia, of e, and of the quantity, with their picture.
 type Made<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Drawing);
 
-/// Points that a map has at most: a gigabyte.
+/// The largest number of points of a map: a gigabyte.
 const MOST: usize = 1 << 27;
 
 #[pyfunction]

@@ -1,4 +1,4 @@
-//! Measured drops: as they are given, and those whose records a product names.
+//! This module reads measured drops: the given ones, and those whose records a product names.
 
 use std::fs::File;
 use std::io::{self, Cursor, Read};
@@ -20,7 +20,7 @@ use crate::{refused, single};
 pub(crate) type Given =
     (Option<Vec<(f64, Option<String>)>>, Option<Vec<[f64; 3]>>, Option<Vec<f64>>, Vec<(Py<Record>, f64)>);
 
-/// Why there is no answer: in the words of the command, or an error of the system or of an outside program.
+/// The reason why there is no answer: in the words of the command, or an error of the system or of an outside program.
 pub(crate) enum Refused {
     Words(String),
     System(PathBuf, io::Error),
@@ -43,7 +43,7 @@ impl From<Refused> for PyErr {
     }
 }
 
-/// The records of a drop that was given.
+/// Returns the records of a given drop.
 pub(crate) fn records(given: Given, timing_s: Option<f64>) -> PyResult<Vec<fit::Record>> {
     let (strikes, heights, bounces, accelerations) = given;
     let mut records = Vec::new();
@@ -70,7 +70,7 @@ pub(crate) fn records(given: Given, timing_s: Option<f64>) -> PyResult<Vec<fit::
     Ok(records)
 }
 
-/// The drops whose records a product names, read from its folder.
+/// Reads the drops whose records a product names, from its folder.
 pub(crate) fn named(file: &ProductFile, folder: &Path, wanted: &Wanted) -> Result<Vec<DropRecords>, Refused> {
     DropRecords::of_product(file, |record| read(record, &folder.join(&record.file), wanted))
 }
@@ -97,7 +97,7 @@ fn read(record: &RecordFile, path: &Path, wanted: &Wanted) -> Result<Data, Refus
     })
 }
 
-/// The computed drop nearest to each.
+/// Finds the computed drop nearest to each.
 pub(crate) fn fitted(
     drops: Vec<DropRecords>,
     file: &ProductFile,

@@ -1,4 +1,4 @@
-//! Verdicts on a product, changes, probabilities, and the drop that was measured.
+//! This module answers about a product: verdicts, changes, probabilities, and the drop that was measured.
 
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
@@ -20,13 +20,13 @@ use crate::measured::{self, Given, Refused};
 use crate::work::{self, Wanted};
 use crate::{bodies, refused};
 
-/// The product, and what is odd in its file.
+/// The product, and the oddities of its file.
 #[pyclass(frozen, module = "clatter._clatter")]
 #[derive(Debug)]
 pub(crate) struct ProductText {
     file: ProductFile,
     text: String,
-    /// Of its file, as a report has it.
+    /// The name of its file, as a report has it.
     name: String,
     #[pyo3(get)]
     warnings: String,
@@ -57,15 +57,16 @@ fn accuracy(tolerance: f64, model: Option<&str>, merge_s: f64) -> PyResult<Accur
     Ok(Accuracy { tolerance, model: model.map(bodies::model).transpose()?, merge_s })
 }
 
-/// An answer that takes its time.
+/// Makes an answer that takes its time.
 fn long(py: Python<'_>, answer: impl FnOnce(&Wanted) -> Result<String, String> + Send + 'static) -> PyResult<Answered> {
     Ok((work::done(py, answer)?.map_err(refused)?, None))
 }
 
-/// What was measured of a drop, what the drop is called, and the standard deviation of its times.
+/// The measurements of a drop, its name, and the standard deviation of its times.
 type NamedDrop = (String, Given, Option<f64>);
 
-/// Measured drops stand beside the verdicts: those whose records the product names, from `folder`, and those given. Answers with warnings.
+/// Assesses the product. Measured drops stand next to the verdicts: those whose records the product names, from `folder`, and those
+/// given. Returns the answer with its warnings.
 #[pyfunction]
 pub(crate) fn assess(
     py: Python<'_>,
@@ -99,7 +100,7 @@ pub(crate) fn assess(
     });
     let (text, warnings, (file, assessment)) = done??;
     let draw = move || {
-        // Of a plate they take long, and its picture shows none of them.
+        // The portraits of a plate take long, and its picture shows none of them.
         let portraits = if file.product.body.is_wide() { Vec::new() } else { file.portraits(&assessment) };
         clatter_figures::assessed(&file, &assessment, &portraits)
     };
@@ -182,7 +183,7 @@ pub(crate) fn design(
     })
 }
 
-/// What goals in the plane of q and e come to; the paper's example where there are none.
+/// Finds the designs in the plane of q and e that meet all goals; the goals are those of the paper's example where none are given.
 #[pyfunction]
 pub(crate) fn goals(py: Python<'_>, zones: Vec<(f64, f64)>, turn: Option<f64>) -> PyResult<Answered> {
     let zones = if zones.is_empty() && turn.is_none() {
@@ -201,7 +202,7 @@ pub(crate) fn explain(py: Python<'_>, product: &ProductText, tolerance: f64) -> 
     long(py, move |wanted| json(&explain_of::Answer(&ladders(&file, tolerance, wanted)?)))
 }
 
-/// Every model on the worst drop of each limit: error and cost.
+/// Measures every model on the worst drop of each limit: error and cost.
 #[pyfunction]
 pub(crate) fn tradeoff(py: Python<'_>, product: &ProductText, tolerance: f64) -> PyResult<Answered> {
     let file = product.file.clone();
@@ -239,7 +240,7 @@ pub(crate) fn fit(
         let mut question = fit_of::Question::new(&file, records);
         (question.timing_s, question.gyration_known) = (timing_s, known_gyration);
         let answer = fit_of::answer(&question).map_err(|error| error.to_string())?;
-        // A text that cannot take what was found is no reason to lose it.
+        // A text that cannot take the results is no reason to lose them.
         let (copy, notes) = match answer.written(&text) {
             Ok(copy) => (Some(copy.text), copy.notes),
             Err(error) => (None, vec![error]),

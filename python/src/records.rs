@@ -1,4 +1,4 @@
-//! Measured accelerations, of files and of arrays, and their spectra.
+//! This module reads measured accelerations, from files and from arrays, and computes their spectra.
 
 use std::fs::File;
 use std::path::PathBuf;
@@ -141,7 +141,7 @@ impl Record {
         Ok(Self { record: read?.map_err(refused)?, file: path.to_string_lossy().into_owned() })
     }
 
-    /// Of columns, each with its name, its unit where it is not in the name, and its numbers.
+    /// Makes a record of columns, each with its name, its unit where it is not in the name, and its numbers.
     #[staticmethod]
     fn of_columns(
         columns: Vec<(String, Option<String>, Numbers)>,
@@ -210,7 +210,7 @@ impl Record {
         Ok(self.with(record))
     }
 
-    /// As the command filters: two poles, forward and backward.
+    /// Filters the record as the command does: two poles, forward and backward.
     fn filter(&self, py: Python<'_>, high: bool, hz: f64) -> PyResult<Self> {
         let (mut record, pass) = (self.record.clone(), if high { Pass::High } else { Pass::Low });
         let filtered = work::done(py, move |_| record.filter(pass, hz, 2).map(|()| record));
@@ -239,7 +239,7 @@ impl Record {
     }
 }
 
-/// What shakes the parts.
+/// The source of the shocks on the parts.
 #[derive(FromPyObject)]
 pub(crate) enum Shaken {
     Records(Vec<Py<Record>>),
@@ -285,7 +285,7 @@ fn between(name: &str) -> PyResult<Between> {
     }
 }
 
-/// Quality factors; Q = 10 where nobody says otherwise.
+/// Returns the damping ratios of quality factors; Q = 10 where none is given.
 fn dampings(ratio: Option<f64>, q_factors: Option<Vec<f64>>) -> PyResult<Vec<DampingRatio>> {
     match q_factors {
         Some(several) if !several.is_empty() => several.iter().map(|q| bodies::damping(ratio, Some(*q))).collect(),
@@ -359,13 +359,13 @@ fn excitation(shaken: Shaken, find: Option<(Option<f64>, f64)>) -> PyResult<Exci
     })
 }
 
-/// Of times and changes of velocity.
+/// Makes velocity shocks of times and changes of velocity.
 pub(crate) fn velocity_shocks(shocks: Vec<(f64, f64)>) -> PyResult<VelocityShocks> {
     let shocks = shocks.into_iter().map(|(time, delta_v)| VelocityShock { time, delta_v }).collect();
     VelocityShocks::new(shocks).map_err(refused)
 }
 
-/// The picture that the command writes.
+/// Draws the picture that the command writes.
 fn drawn(parts: &[Part], against: Against<'_>) -> Result<String, FigureError> {
     if let [part] = parts {
         return clatter_figures::spectrum(&part.spectrum, against);

@@ -1,4 +1,4 @@
-//! Pulses, and what a part makes of them, of velocity shocks, of a bar and of a drop.
+//! This module makes pulses, and computes the response of a part to them, to velocity shocks, to a bar and to a drop.
 
 use clatter_answer::respond::{self as respond_of, Excitation, drop as drop_of};
 use clatter_answer::shape_name;
@@ -17,10 +17,10 @@ use crate::{refused, work};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pulse(pub(crate) clatter_shock::Pulse);
 
-/// Ramps of a trapezoid whose ramps nobody gave, over its length.
+/// The length of a ramp of a trapezoid without given ramps, over the length of the trapezoid.
 const RAMP: f64 = 0.1;
 
-/// A shape by its name.
+/// Finds a shape by its name.
 pub(crate) fn shape(name: &str) -> PyResult<Shape> {
     let all = [
         Shape::HalfSine,
@@ -54,7 +54,7 @@ impl Pulse {
         Ok(Self(pulse))
     }
 
-    /// That of a standard, by its keyword.
+    /// Makes the pulse of a standard, by its keyword.
     #[staticmethod]
     fn of_standard(keyword: &str) -> PyResult<Self> {
         let standard = clatter_shock::standard_pulse(keyword);
@@ -85,7 +85,7 @@ impl Pulse {
     }
 }
 
-/// What shakes a part, beside a bar.
+/// The source of the shocks on a part, other than a bar.
 #[derive(FromPyObject)]
 pub(crate) enum Shaken {
     Pulses(Vec<Py<Pulse>>),

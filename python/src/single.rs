@@ -1,4 +1,4 @@
-//! One drop of a bar or a plate without gravity.
+//! This module answers one drop of a bar or a plate without gravity.
 
 use clatter::End;
 use clatter_answer::{atlas as atlas_of, impacts as impacts_of, zone as zone_of};
@@ -100,7 +100,7 @@ pub(crate) fn atlas(
     Ok((told?.map_err(refused)?, None))
 }
 
-/// An end by its letter.
+/// Finds an end by its letter.
 pub(crate) fn end(name: &str) -> PyResult<End> {
     match name {
         "a" => Ok(End::A),

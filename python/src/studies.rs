@@ -1,4 +1,4 @@
-//! Studies in shards: drawn into files, and merged.
+//! This module draws studies in shards into files, and merges them.
 
 use std::fs::File;
 use std::io::{BufWriter, Read, Write};
@@ -14,7 +14,7 @@ use crate::answered::{Answered, json};
 use crate::measured::Refused;
 use crate::work::{self, Wanted};
 
-/// What was done, as the command has it.
+/// The finished shard of a study, as the command reports it.
 #[derive(Serialize)]
 struct Done<'a> {
     part: &'a Path,
@@ -24,7 +24,7 @@ struct Done<'a> {
     skipped: bool,
 }
 
-/// Draws a shard of a plan into a file; its JSON, and what is odd in the product.
+/// Draws a shard of a plan into a file, and returns its JSON and the oddities of the product.
 #[pyfunction]
 pub(crate) fn study(
     py: Python<'_>,
@@ -63,7 +63,7 @@ fn draw(plan: &Path, shard: Shard, output: &Path, force: bool, wanted: &Wanted) 
     Ok((json(&done)?, warnings))
 }
 
-/// Whether a file is this very part. One that is another is not written over.
+/// Returns whether a file holds this very part; refuses to write over any other file.
 fn is_there(path: &Path, notes: &[(&str, String)], rows: u64) -> Result<bool, Refused> {
     let Ok(file) = File::open(path) else { return Ok(false) };
     let same = RowGroups::new(file).is_ok_and(|part| {
@@ -75,7 +75,7 @@ fn is_there(path: &Path, notes: &[(&str, String)], rows: u64) -> Result<bool, Re
     if same { Ok(true) } else { Err(other()) }
 }
 
-/// The answer of all shards of a plan.
+/// Returns the answer of all shards of a plan.
 #[pyfunction]
 pub(crate) fn merge(py: Python<'_>, parts: Vec<PathBuf>, confidence: f64, target: Option<f64>) -> PyResult<Answered> {
     let told = work::done(py, move |wanted| {
@@ -143,7 +143,7 @@ fn words(why: impl std::fmt::Display) -> Refused {
     Refused::Words(why.to_string())
 }
 
-/// The text of a file, of a size that product files have.
+/// Reads the text of a file, of a size that product files have.
 fn text_of(path: &Path) -> Result<String, Refused> {
     let mut text = String::new();
     let read = File::open(path).and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_string(&mut text));

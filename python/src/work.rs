@@ -1,7 +1,7 @@
-//! Work without the lock of the interpreter, which Ctrl-C ends.
+//! This module runs work without the lock of the interpreter, so that Ctrl-C ends it.
 //!
-//! It is done by the threads of a pool, while the thread of Python that asked for it looks for signals some twenty times a second.
-//! After one the call ends at once; the work is asked to end, and what cannot be asked goes on unheard.
+//! The threads of a pool do the work, while the thread of Python that requested it looks for signals some twenty times a second.
+//! After a signal the call ends at once; the work stops where it can be stopped, and else goes on without a listener.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -14,7 +14,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Whether work is still wanted.
+/// A flag that is true while work is still wanted.
 #[derive(Debug, Clone)]
 pub(crate) struct Wanted(Arc<AtomicBool>);
 
@@ -22,7 +22,7 @@ impl Wanted {
     pub(crate) fn still(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
-    /// Leaves work that nobody wants any more, from within what it calls to tell how far it is.
+    /// Leaves work that nobody wants any more, from within the call by which it reports its progress.
     pub(crate) fn or_leave(&self) {
         if !self.still() {
             resume_unwind(Box::new("not wanted any more"));
@@ -30,14 +30,14 @@ impl Wanted {
     }
 }
 
-/// Between two looks for signals.
+/// The time between two looks for signals.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// The threads, and the process whose they are.
 type Own = (u32, Arc<ThreadPool>);
 static POOL: Mutex<Option<Own>> = Mutex::new(None);
 
-/// The threads of this process: those of the process that it was forked from do not go on in it.
+/// Returns the threads of this process: those of the process that it was forked from do not go on in it.
 fn pool() -> PyResult<Arc<ThreadPool>> {
     let mut own = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
@@ -52,7 +52,7 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// What `work` gives.
+/// Runs `work` on the threads of the process, and returns its result.
 ///
 /// # Errors
 /// A signal whose handler raises, as that of Ctrl-C does.

@@ -198,34 +198,14 @@ function row(part, limit, { unit, si }, isFirst) {
   );
 }
 
-/// Whether a drop is on a face, an edge or a corner.
-function isOfBox({ landing }) {
-  return landing !== undefined && !landing.startsWith('drop ');
-}
-
-function worst(part, limit, { command: line }) {
-  const worst = limit.worst_case;
-  const say = (value, words) => (value === null || value === undefined ? undefined : words);
-  const words =
-    worst &&
-    [
-      worst.landing,
-      // A box lands on what its drop is called by.
-      isOfBox(worst) ? undefined : worst.flat ? 'flat' : say(worst.first, `${worst.first} first, ${digits(worst.tilt_deg)}°`),
-      `${digits(worst.speed_m_s)} m/s`,
-      say(worst.spin_rad_s, `turning at ${digits(worst.spin_rad_s)} rad/s`),
-      `e ${digits(worst.restitution, 3)}`,
-      say(worst.contact_time_s, `contacts of ${digits(1e3 * worst.contact_time_s)} ms`),
-      say(worst.frequency_hz, `${digits(worst.frequency_hz)} Hz`),
-      say(worst.impact, `impact ${worst.impact} at ${digits(1e3 * worst.time_s)} ms`),
-    ]
-      .filter(Boolean)
-      .join(', ');
+function worst(part, limit, { drop, command: line }) {
+  const found = limit.worst_case;
+  const when = found ? `; impact ${found.impact} at ${digits(1e3 * found.time_s)} ms` : '';
   return element(
     'li',
     {},
     element('b', {}, `${part.name}, ${limit.limit.replaceAll('-', ' ')}`),
-    `: ${words ?? 'no drop was answered'}.`,
+    `: ${drop ? drop + when : 'no drop was answered'}.`,
     limit.undecided ? element('p', {}, `Undecided: ${limit.undecided}.`) : undefined,
     ...limit.notes.map((note) => element('p', {}, typeof note === 'string' ? note : JSON.stringify(note))),
     line ? command(line) : undefined,

@@ -1,11 +1,11 @@
-//! The bar of the paper: its impacts, its safe zone, the plane of q and e.
+//! This module answers the bar of the paper: its impacts, its safe zone, the plane of q and e.
 
 use clatter::{Bar, Start};
 use clatter_answer::{impacts as impacts_of, zone as zone_of};
 
 use crate::{Reply, json, text};
 
-/// Values of q and of e, from 0 to 1.
+/// The number of values of q and of e, from 0 to 1.
 const POINTS: u32 = 61;
 
 pub(crate) fn impacts(q: f64, e: f64, limit: usize) -> Result<Reply, String> {
@@ -23,7 +23,7 @@ pub(crate) fn zone(q: f64, e: f64, threshold: f64) -> Result<Reply, String> {
     Ok(Reply { answer: Some(answer), command: Some(command), ..Reply::default() })
 }
 
-/// The largest shock at the ends over the plane, in v0: a row for each q. What lies behind a point of the page, and no answer.
+/// Computes the largest shock at the ends over the plane, in v0: a row for each q. The page draws it behind a point; it is no answer.
 pub(crate) fn plane() -> Result<Reply, String> {
     let points = || (0..POINTS).map(|i| f64::from(i) / f64::from(POINTS - 1));
     let shock = |q, e| Ok(Bar::new(q, e)?.summary(&Start::default()).peak.end);

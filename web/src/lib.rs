@@ -1,6 +1,6 @@
-//! What the page asks: a question as JSON in, what the command answers out.
+//! This crate answers the questions of the page: it takes a question as JSON and returns the answer of the command.
 //!
-//! Answers are the text that the command prints with `--format json`, to the last byte, and beside each stands the command line that
+//! Answers are the text that the command prints with `--format json`, to the last byte, and with each comes the command line that
 //! repeats it. The page itself, in `page/`, draws and computes nothing of the physics.
 
 mod bars;
@@ -16,20 +16,20 @@ use std::fmt::Display;
 use clatter_answer::Versioned;
 use serde::{Deserialize, Serialize};
 
-/// Is told how much of how much is done.
+/// The callback that receives the progress: the amount done and the whole amount.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
-/// What can be asked; the page gives the name that a file is saved by, for messages and command lines.
+/// The questions that the page can ask; the page gives the name that a file is saved by, for messages and command lines.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case", deny_unknown_fields)]
 enum Question {
     /// The impacts of a bar.
     Impacts { q: f64, e: f64, limit: usize },
-    /// Its safe zone.
+    /// The safe zone of the bar.
     Zone { q: f64, e: f64, threshold: f64 },
     /// The largest shocks at the ends over the plane of q and e.
     Plane,
-    /// Where parts and masses of a product are.
+    /// The places of the parts and masses of a product.
     Plan { name: String, text: String },
     /// The text of a product with one of them moved by so much, in m.
     Move { text: String, item: plan::Item, by: [f64; 2] },
@@ -37,15 +37,15 @@ enum Question {
     Assess { name: String, text: String, quick: bool },
     /// The pictures of an assessment.
     Figures { name: String, text: String },
-    /// What a file of measured accelerations holds; its bytes go beside the question.
+    /// The content of a file of measured accelerations; the page passes its bytes separately.
     Record(records::Source),
-    /// Its shock response spectrum.
+    /// The shock response spectrum of such a file.
     Spectrum(records::Source),
     /// Names and texts of the worked products.
     Products,
 }
 
-/// An answer, and what stands beside it.
+/// An answer, and the data that go with it.
 #[derive(Debug, Default, Serialize)]
 struct Reply {
     /// The text that the command prints.
@@ -54,13 +54,13 @@ struct Reply {
     /// The command.
     #[serde(skip_serializing_if = "Option::is_none")]
     command: Option<String>,
-    /// What the command warns of.
+    /// The warnings of the command.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
     /// Pictures as SVG, each with its name.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     figures: Vec<(String, String)>,
-    /// What the page draws or shows beside.
+    /// Further data that the page draws or shows.
     #[serde(skip_serializing_if = "serde_json::Value::is_null")]
     shown: serde_json::Value,
 }
@@ -71,7 +71,8 @@ impl Reply {
     }
 }
 
-/// Answers a question: JSON with what is told, or with the `error` in the words of the command. `file` is a file that goes with it.
+/// Answers a question: returns JSON with the answer, or with the `error` in the words of the command. `file` is a file that goes with the
+/// question.
 #[must_use]
 pub fn answer(question: &str, file: &[u8], progress: Progress<'_>) -> String {
     let told = serde_json::from_str(question).map_err(text).and_then(|question| told(question, file, progress));
@@ -96,17 +97,17 @@ fn told(question: Question, file: &[u8], progress: Progress<'_>) -> Result<Reply
     }
 }
 
-/// As `--format json` prints it.
+/// Writes an answer as `--format json` prints it.
 fn json(answer: &impl Serialize) -> Result<String, String> {
     serde_json::to_string(&Versioned::new(answer)).map_err(text)
 }
 
-/// What a question is refused for, in the words of the command.
+/// Returns the reason for which a question is refused, in the words of the command.
 fn text(error: impl Display) -> String {
     error.to_string()
 }
 
-/// A file name as a shell takes it, and no option.
+/// Writes a file name so that a shell takes it as one word, and no command takes it for an option.
 fn quoted(name: &str) -> String {
     let name = if name.starts_with('-') { format!("./{name}") } else { name.to_owned() };
     let plain = |c: char| c.is_alphanumeric() || "._-/+,@%".contains(c);

@@ -1,4 +1,4 @@
-//! Where parts and masses of a product are, and the text of its file with one of them moved.
+//! This module finds the places of the parts and masses of a product, and changes the text of its file where one of them is moved.
 
 use std::ops::Range;
 
@@ -18,18 +18,18 @@ pub(crate) enum Item {
     Mass(usize),
 }
 
-/// What is drawn.
+/// The data of the plan that is drawn.
 #[derive(Debug, Serialize)]
 struct Plan {
     product: String,
     length_m: f64,
-    /// None of a bar.
+    /// The width; none of a bar.
     width_m: Option<f64>,
     center_m: [f64; 2],
-    /// Of the symmetric bar with the same clatter, and of the middle of the restitution.
+    /// The inertia ratio of the symmetric bar with the same clatter, for the middle of the range of the restitution.
     q: Option<f64>,
     e: f64,
-    /// Whether there is an answer sooner than the one that the file asks for.
+    /// True where there is a quicker answer than the one that the file requests.
     quick: bool,
     components: Vec<Place>,
     masses: Vec<Place>,
@@ -43,7 +43,7 @@ struct Place {
     across_m: Option<[f64; 2]>,
 }
 
-/// The plan of a product, with what is odd in its file.
+/// Makes the plan of a product, with the oddities of its file.
 pub(crate) fn plan(name: &str, given: &str) -> Result<Reply, String> {
     let (file, warnings) = products::read(name, given)?;
     let body = &file.product.body;
@@ -75,7 +75,7 @@ fn reach([low, high]: [f64; 2], extent: f64) -> [f64; 2] {
     [low - 0.5 * extent, high + 0.5 * extent]
 }
 
-/// The masses as the file lists them; what falls knows only what they come to.
+/// Returns the masses as the file lists them; of a falling body only their combined effect is known.
 fn masses(given: &str, has_width: bool) -> Vec<Place> {
     let Ok(table) = DeTable::parse(given) else { return Vec::new() };
     let Some(list) = listed(table.get_ref(), Item::Mass(0)) else { return Vec::new() };
@@ -87,11 +87,11 @@ fn masses(given: &str, has_width: bool) -> Vec<Place> {
         let name = mass.get("name").and_then(|name| name.get_ref().as_str()).unwrap_or("mass").to_owned();
         Some(Place { name, along_m: side(0)?, across_m: if has_width { side(1) } else { None } })
     };
-    // The file was read: each has its place.
+    // The file was read: each mass has its place.
     list.iter().filter_map(place).collect()
 }
 
-/// The text with a part or a mass moved along and across, in m: each length of its place in its own unit, all else as it stood.
+/// Returns the text with a part or a mass moved along and across, in m: each length of its place in its own unit, all else as it stood.
 ///
 /// # Errors
 /// A file that cannot be read, or without such a part.
@@ -128,10 +128,10 @@ fn listed<'a>(table: &'a DeTable<'a>, item: Item) -> Option<&'a DeArray<'a>> {
     }
 }
 
-/// What replaces the text of a length that is moved.
+/// Returns the edits that move a length in the text: the range and the new text of each.
 fn shifted(value: &Spanned<DeValue<'_>>, by_m: f64) -> Vec<(Range<usize>, String)> {
     let edit = |Length { si, unit, span }| {
-        // To a thousandth of a millimeter.
+        // The digits go to a thousandth of a millimeter.
         let digits = (0..9).find(|digits| unit.to_si(10f64.powi(-digits)) < 1.01e-6).unwrap_or(9);
         let digits = usize::try_from(digits).unwrap_or(0);
         let number = format!("{:.digits$}", unit.of_si(si + by_m));
@@ -149,7 +149,7 @@ struct Length {
     span: Range<usize>,
 }
 
-/// The places within a value: itself, the ends of a range, or those of a distribution; a deviation is none.
+/// Finds the places within a value: itself, the ends of a range, or those of a distribution; a deviation is none.
 fn lengths(value: &Spanned<DeValue<'_>>) -> Vec<Length> {
     match value.get_ref() {
         DeValue::String(text) => {
@@ -176,7 +176,7 @@ mod tests {
     use super::*;
     use crate::products::WORKED;
 
-    /// The lines that differ, as they become.
+    /// Returns the lines that differ, in their new form.
     fn changed(before: &str, after: &str) -> Vec<String> {
         assert_eq!(before.lines().count(), after.lines().count(), "no line is added or lost");
         before.lines().zip(after.lines()).filter(|(old, new)| old != new).map(|(_, new)| new.to_owned()).collect()

@@ -1,4 +1,4 @@
-//! Product files: read, assessed, drawn.
+//! This module reads, assesses and draws product files.
 
 use clatter::End;
 use clatter_answer::assess as assess_of;
@@ -20,7 +20,7 @@ pub(crate) const WORKED: [[&str; 2]; 6] = [
     ["handheld-transit.toml", include_str!("../../reports/examples/handheld-transit.toml")],
 ];
 
-/// A product, and what is odd in its file.
+/// Reads a product, and the oddities of its file.
 pub(crate) fn read(name: &str, given: &str) -> Result<(ProductFile, Vec<String>), String> {
     let (file, odd) = ProductFile::read_warned(given, name).map_err(text)?;
     let mut warnings = if odd.warnings().is_empty() { Vec::new() } else { vec![odd.to_string()] };
@@ -30,27 +30,29 @@ pub(crate) fn read(name: &str, given: &str) -> Result<(ProductFile, Vec<String>)
     Ok((file, warnings))
 }
 
-/// What stands beside a limit: its unit, and the command that answers its worst drop once more.
+/// The unit of a limit, its worst drop in words, and the command that answers that once more.
 #[derive(Debug, Serialize)]
 struct Shown {
     unit: &'static str,
-    /// One of it in SI.
+    /// One of the unit in SI.
     si: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drop: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     command: Option<String>,
 }
 
-/// The unit in which the file gives a limit, else the one that people use, and one of it in SI.
+/// Returns the unit in which the file gives a limit, else the customary one, and one of it in SI.
 fn unit_of(component: &Component, limit: &LimitAssessment) -> (&'static str, f64) {
     let unit = component.limits.unit(limit.limit, limit.unit).unwrap_or(limit.unit.customary());
     (unit.name, unit.to_si(1.0))
 }
 
-/// Of the search of a plate or a box the first answer takes one in so many drops.
+/// The first answer about a plate or a box takes one of so many drops of the search.
 const FIRST: usize = 8;
 
-/// The verdicts, and what stands beside each limit; of a plate or a box with the picture. A `quick` answer is by instant impacts, or what
-/// the first drops of a plate or a box ask.
+/// Returns the verdicts, and the data for each limit; of a plate or a box with the picture. A `quick` answer is by instant impacts, or by
+/// the first drops of a plate or a box.
 pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_>) -> Result<Reply, String> {
     let (file, warnings) = read(name, given)?;
     let is_plate = file.product.body.is_wide();
@@ -65,14 +67,15 @@ pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_
         let shown = |limit: &LimitAssessment| {
             let (unit, si) = unit_of(component, limit);
             let command = limit.demand.and_then(|_| repeat(name, &component.name, limit.limit, &accuracy));
-            Shown { unit, si, command }
+            let drop = limit.worst_case.as_ref().map(clatter_answer::drop_in_words);
+            Shown { unit, si, drop, command }
         };
         assessed.limits.iter().map(shown).collect::<Vec<_>>()
     });
     let shown = serde_json::to_value(shown.collect::<Vec<_>>()).map_err(text)?;
     let model = model.map_or_else(String::new, |model| format!(" --model={}", model.name()));
     let command = format!("clatter assess {}{model} --format=json", quoted(name));
-    // What was found so far no command repeats.
+    // No command repeats an answer that is not complete.
     let command = (!quick || !is_plate).then_some(command);
     let mut figures = Vec::new();
     if is_plate {
@@ -82,7 +85,7 @@ pub(crate) fn assess(name: &str, given: &str, quick: bool, progress: Progress<'_
     Ok(Reply { answer: Some(json(&answer)?), command, warnings, figures, shown })
 }
 
-/// Where each part would be safe; of each its worst drop over time and its demand over the tilt.
+/// Draws where each part would be safe, and for each part its worst drop over time and its demand over the tilt.
 pub(crate) fn figures(name: &str, given: &str, progress: Progress<'_>) -> Result<Reply, String> {
     let (file, _) = read(name, given)?;
     let watch = |done, all| {

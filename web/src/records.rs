@@ -1,4 +1,4 @@
-//! Files of measured accelerations and their spectra.
+//! This module answers about files of measured accelerations and their spectra.
 
 use clatter_answer::record::{self as record_of, time_s};
 use clatter_answer::spectrum::{self as spectrum_of, Excitation, Measured};
@@ -19,7 +19,7 @@ pub(crate) struct Source {
     sample_rate: String,
 }
 
-/// Quality factor of the parts, unless another is asked for.
+/// The quality factor of the parts, unless another is requested.
 const QUALITY: f64 = 10.0;
 
 impl Source {
@@ -40,7 +40,7 @@ impl Source {
         Record::read(file, &options, |_| ()).map_err(|error| self.refused(&error))
     }
 
-    /// As the command names a file that it refuses.
+    /// Names the file that is refused, as the command does.
     fn refused(&self, error: &clatter_record::Error) -> String {
         format!("{}: {}", visible(&self.name), visible_lines(&error.to_string()))
     }
@@ -64,7 +64,7 @@ struct OfFile<'a> {
     answer: &'a record_of::Answer<'a>,
 }
 
-/// What the file holds, and its channels over time.
+/// Returns the content of the file, and its channels over time.
 pub(crate) fn record(source: &Source, file: &[u8]) -> Result<Reply, String> {
     let record = source.read(file)?;
     let answer = record_of::answer(&record_of::Question::new(&record)).map_err(|error| source.refused(&error))?;
@@ -77,7 +77,7 @@ pub(crate) fn record(source: &Source, file: &[u8]) -> Result<Reply, String> {
     })
 }
 
-/// The channels over time, in gn where the file is.
+/// Draws the channels over time, in gn where the file is.
 fn picture(record: &Record) -> Result<String, clatter_figures::FigureError> {
     let in_g = record.channels().iter().all(|channel| channel.unit.to_lowercase().contains('g'));
     let (one, title) = if in_g { (STANDARD_GRAVITY_M_S2, "gn") } else { (1.0, "m/s²") };
@@ -101,7 +101,7 @@ fn picture(record: &Record) -> Result<String, clatter_figures::FigureError> {
     clatter_figures::record(&traces.collect::<Vec<_>>(), time)
 }
 
-/// Its shock response spectrum.
+/// Computes the shock response spectrum of the file.
 pub(crate) fn spectrum(source: &Source, file: &[u8]) -> Result<Reply, String> {
     let record = source.read(file)?;
     let measured = Measured { file: source.name.clone(), name: None, record, shock: None };

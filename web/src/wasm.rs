@@ -1,17 +1,17 @@
-//! The door for JavaScript: `room` for a question and a file, `answer`, and where its text is.
+//! This module is the interface for JavaScript: `room` for a question and a file, `answer`, and where its text is.
 
 use std::sync::Mutex;
 
 #[link(wasm_import_module = "page")]
 unsafe extern "C" {
-    /// Is told how much of how much is done.
+    /// Receives the progress: the amount done and the whole amount.
     safe fn progress(done: f64, all: f64);
 }
 
 static GIVEN: Mutex<Vec<u8>> = Mutex::new(Vec::new());
 static TOLD: Mutex<String> = Mutex::new(String::new());
 
-/// Where so many bytes are to be written: the question, and after it the file that goes with it.
+/// Returns where so many bytes are to be written: the question, and after it the file that goes with it.
 #[unsafe(no_mangle)]
 extern "C" fn room(bytes: usize) -> *mut u8 {
     let Ok(mut given) = GIVEN.lock() else { return std::ptr::null_mut() };
@@ -31,7 +31,7 @@ extern "C" fn answer(question: usize) -> usize {
     told.len()
 }
 
-/// Where the answer is, until the next one.
+/// Returns where the answer is, until the next one.
 #[unsafe(no_mangle)]
 extern "C" fn told() -> *const u8 {
     TOLD.lock().map_or(std::ptr::null(), |told| told.as_ptr())

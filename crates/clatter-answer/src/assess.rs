@@ -1,4 +1,4 @@
-//! Which part of a product fails, in which drop, and by how much; what measured drops tell beside it.
+//! This module finds which part of a product fails, in which drop, and by how much; measured drops stand next to these verdicts.
 //!
 //! ```
 //! use clatter_answer::assess;
@@ -25,7 +25,7 @@ pub struct Answer<'a> {
     pub file: &'a ProductFile,
     /// The verdicts.
     pub assessment: Assessment,
-    /// Drops that were measured, to stand beside them.
+    /// Measured drops, which stand next to the verdicts.
     pub measured: Vec<MeasuredDrop>,
 }
 
@@ -37,7 +37,7 @@ pub fn answer<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<Answer<'
     watched(file, accuracy, &|_, _| true)
 }
 
-/// The same, counted; where `watch` says so, with what there is by then.
+/// Searches as [`answer`] does and counts the progress; ends early where `watch` says so, with the verdicts by then.
 ///
 /// # Errors
 /// As [`ProductFile::assess_watched`].
@@ -46,8 +46,8 @@ pub fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy, watch: Watch<'_>)
 }
 
 impl Answer<'_> {
-    /// Where a product that was measured is not that of the file, and where nothing was found of one: the name of the drop, and what to
-    /// tell of it.
+    /// Returns the warnings about measured drops, each with the name of the drop: where the measured product differs from that of the file,
+    /// and where no fit was found.
     #[must_use]
     pub fn warnings(&self) -> Vec<(&str, String)> {
         let of = |drop: &MeasuredDrop| match &drop.found {
@@ -64,21 +64,21 @@ fn differs(beside: &Comparison<'_>) -> String {
     format!("{what} was measured as {measured}{interval}; the verdict is for the {stated} that the product file states")
 }
 
-/// What was measured, beside what is stated, as people say it: to four digits, with units.
+/// A measured quantity next to the stated one, in words: to four digits, with units.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Said {
     /// The quantity.
     pub what: &'static str,
     /// Its estimate.
     pub measured: String,
-    /// Where it is by 95 %, without a unit; empty where that is not known.
+    /// The range of the quantity by 95 %, without a unit; empty where the range is not known.
     pub interval: String,
-    /// What the product file has; empty where it has nothing.
+    /// The value of the product file; empty where the file has none.
     pub stated: String,
 }
 
 impl Said {
-    /// In words.
+    /// Writes a comparison in words.
     #[must_use]
     pub fn of(beside: &Comparison<'_>) -> Self {
         let (what, factor, unit) = beside.estimate.quantity.said();
@@ -119,7 +119,7 @@ struct MeasuredJson<'a> {
     files: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<&'static str>,
-    /// Why there is no fit.
+    /// The reason why there is no fit.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'a str>,
     estimates: Vec<EstimateJson>,

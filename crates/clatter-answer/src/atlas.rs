@@ -1,4 +1,4 @@
-//! What every direction of tilt of a plate leads to.
+//! This module follows every direction of tilt of a plate.
 //!
 //! ```
 //! use clatter::Plate;
@@ -21,12 +21,12 @@ use crate::Json;
 pub struct Question {
     /// The plate.
     pub plate: Plate,
-    /// Strikes followed in each direction at most, from 1 to 100.
+    /// The largest number of strikes followed in each direction, from 1 to 100.
     pub limit: usize,
 }
 
 impl Question {
-    /// With 40 strikes followed in each direction.
+    /// Makes a question with 40 strikes followed in each direction.
     #[must_use]
     pub fn new(plate: Plate) -> Self {
         Self { plate, limit: 40 }
@@ -43,11 +43,11 @@ pub struct Answer {
     pub center_of_mass: [Json; 2],
     /// Coefficient of restitution.
     pub e: Json,
-    /// Strikes followed in each direction at most.
+    /// The largest number of strikes followed in each direction.
     pub limit: usize,
-    /// One for each interval of directions.
+    /// The directions: one entry for each interval of them.
     pub words: Vec<Directions>,
-    /// Of all directions.
+    /// The largest shocks of all directions.
     pub peak: Peak,
 }
 
@@ -61,7 +61,7 @@ pub struct Directions {
     pub to: Json,
     /// The corners in the order of their strikes.
     pub word: String,
-    /// Whether the plate bounced clear within the limit.
+    /// True where the plate bounced clear within the limit.
     pub ended: bool,
     /// Largest shocks of these directions.
     pub peak: Peak,
@@ -71,11 +71,11 @@ pub struct Directions {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Peak {
-    /// At a corner.
+    /// The largest shock at a corner.
     pub corner: Json,
-    /// At the center of mass.
+    /// The largest shock at the center of mass.
     pub center: Json,
-    /// What no strike that was not followed gives a corner.
+    /// The bound on the shock of a corner by any strike that was not followed.
     pub later: Json,
 }
 
@@ -89,7 +89,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
 }
 
 impl Answer {
-    /// What an atlas says of its plate, of which so many strikes were followed.
+    /// Makes the answer from the atlas of a plate, of which at most `limit` strikes were followed.
     #[must_use]
     pub fn of(plate: &Plate, limit: usize, atlas: &Atlas) -> Self {
         let directions = |word: &Word| Directions {

@@ -1,4 +1,5 @@
-//! What would make each part of a product safe with a margin; in the plane of q and e, what [`goals`] come to.
+//! This module finds the changes that make each part of a product safe with a margin; in the plane of q and e, [`goals`] finds the designs
+//! that meet several goals.
 //!
 //! ```
 //! use clatter_answer::design;
@@ -26,13 +27,13 @@ use crate::numbers::neat;
 pub struct Answer<'a> {
     /// The product.
     pub file: &'a ProductFile,
-    /// As it is.
+    /// The assessment of the product as it is.
     pub assessment: Assessment,
     /// The changes.
     pub remedies: Vec<Remedies>,
-    /// Where in the plane of q and e its parts are safe.
+    /// The region of the plane of q and e in which its parts are safe.
     pub plane: Option<Plane>,
-    /// Asked for: allowed/demand − 1.
+    /// The requested margin: allowed/demand − 1.
     pub margin: f64,
 }
 
@@ -46,8 +47,8 @@ pub fn answer<'a>(file: &'a ProductFile, bounds: &Bounds, margin: f64) -> Result
     Ok(Answer::new(file, assessment, remedies, margin))
 }
 
-/// The changes that the printed pages tell, by the bounds and with the margin of a `clatter design` that is asked for none. Of a plate or a
-/// box they are none: to find them takes many times as long as to assess it.
+/// Finds the changes for the printed pages, by the bounds and with the margin that `clatter design` has by default. Of a plate or a
+/// box there are none: to find them takes many times as long as to assess it.
 ///
 /// # Errors
 /// As [`ProductFile::remedies_watched`].
@@ -59,13 +60,13 @@ pub fn of_pages(file: &ProductFile, assessment: &Assessment, watch: Watch<'_>) -
 }
 
 impl<'a> Answer<'a> {
-    /// Of changes that were found for this assessment, without the plane.
+    /// Makes the answer from changes that were found for this assessment, without the plane.
     #[must_use]
     pub fn new(file: &'a ProductFile, assessment: Assessment, remedies: Vec<Remedies>, margin: f64) -> Self {
         Self { file, assessment, remedies, plane: None, margin }
     }
 
-    /// Radius of gyration in mm behind an inertia ratio, which is what can be built.
+    /// Returns the radius of gyration in mm behind an inertia ratio, which is what can be built.
     #[must_use]
     pub fn gyration_mm(&self, q: f64) -> f64 {
         let product = self.file.product.with_inertia_ratio(q);
@@ -160,13 +161,13 @@ impl Serialize for Answer<'_> {
 #[derive(Serialize)]
 struct ProductJson<'a> {
     product: &'a str,
-    /// Null of a plate.
+    /// The inertia ratio; null of a plate.
     q: Option<Json>,
     restitution: [Json; 2],
     verdict: Verdict,
-    /// Asked for.
+    /// The requested margin.
     margin: Json,
-    /// How the plane was found, where it was asked for.
+    /// The description of how the plane was found, where it was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     plane: Option<PlaneJson>,
     components: Vec<PartJson<'a>>,
@@ -175,7 +176,7 @@ struct ProductJson<'a> {
 #[derive(Serialize)]
 struct PlaneJson {
     model: &'static str,
-    /// Values of q, and of e.
+    /// The number of values of q, and of e.
     side: usize,
     /// The worst that the closed form got wrong on drops all over the plane; null where one of the models has no answer.
     closed_form_error: Json,
@@ -185,12 +186,12 @@ struct PlaneJson {
 struct PartJson<'a> {
     name: &'a str,
     verdict: Verdict,
-    /// As [`ProductFile::least_margin`].
+    /// The margin, as of [`ProductFile::least_margin`].
     margin: Json,
     remedies: Vec<RemedyJson>,
-    /// Where no change alone is enough, the two that are together.
+    /// The two changes that are enough together, where no change alone is.
     pair: Option<TogetherJson>,
-    /// Where no two are enough either, how near one gets.
+    /// The two changes that come nearest, where no two are enough either.
     nearest: Option<TogetherJson>,
 }
 
@@ -207,7 +208,7 @@ struct ChangeJson {
     unit: &'static str,
     from: [Json; 2],
     to: [Json; 2],
-    /// Of an inertia ratio.
+    /// The radius of gyration of an inertia ratio.
     #[serde(skip_serializing_if = "Option::is_none")]
     radius_of_gyration_m: Option<Json>,
 }
@@ -225,7 +226,7 @@ struct RemedyJson {
     radius_of_gyration_m: Option<Json>,
     #[serde(skip_serializing_if = "Option::is_none")]
     margin_after: Option<Json>,
-    /// What else is to be known of the part then.
+    /// The warning about the part after the change.
     #[serde(skip_serializing_if = "Option::is_none")]
     warning: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]

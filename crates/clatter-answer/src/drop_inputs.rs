@@ -1,4 +1,4 @@
-//! One drop in numbers, as options of the command and arguments of the wheel give it.
+//! This module makes one drop from numbers, as the options of the command and the arguments of the wheel give them.
 
 use clatter::End;
 use clatter_assess::{Model, STANDARD_GRAVITY_M_S2};
@@ -8,8 +8,8 @@ use crate::Error;
 
 /// The inputs of one drop, in SI units and degrees: each where it is given.
 ///
-/// A length makes a bar, a width beside it a plate near level, a thickness beside both a box in any orientation. Where there is a drop
-/// already, these inputs count over its own.
+/// A length makes a bar, a width with it a plate near level, a thickness with both a box in any orientation. Where there is a drop
+/// already, these inputs replace its own.
 ///
 /// # Examples
 /// ```
@@ -31,11 +31,11 @@ use crate::Error;
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DropInputs {
-    /// From end to end.
+    /// The length of the body from end to end.
     pub length_m: Option<f64>,
-    /// Of a plate and a box.
+    /// The width of a plate or a box.
     pub width_m: Option<f64>,
-    /// Of a box; of a bar that stands on a corner at real tilt.
+    /// The thickness of a box, or of a bar that stands on a corner at real tilt.
     pub thickness_m: Option<f64>,
     /// Radii of gyration about the center of mass: along the length of a bar, along both sides of a plate, about the axes of a box.
     pub gyration_m: Option<Vec<f64>>,
@@ -53,7 +53,7 @@ pub struct DropInputs {
     pub height_m: Option<f64>,
     /// Tilt at the first touch.
     pub tilt_deg: Option<f64>,
-    /// Where a plate or a box rises to, from its length towards its width.
+    /// The direction in which a plate or a box rises, from its length towards its width.
     pub direction_deg: Option<f64>,
     /// Heights of corners b and d of a plate as a touches, in place of tilt and direction.
     pub gaps_m: Option<[f64; 2]>,
@@ -63,13 +63,13 @@ pub struct DropInputs {
     pub spin_rad_s: Option<Vec<f64>>,
     /// Gravity; standard gravity unless given.
     pub gravity_m_s2: Option<f64>,
-    /// How long a lone contact takes.
+    /// The duration of a lone contact.
     pub contact_time_s: Option<f64>,
-    /// What the ground does meanwhile; hysteretic unless given.
+    /// The law by which the ground acts during a contact; hysteretic unless given.
     pub contact_law: Option<ContactLaw>,
     /// The end of a bar that touches first; end a unless given.
     pub first: Option<End>,
-    /// Whether both ends of a bar land as one, without a tilt.
+    /// True where both ends of a bar land at the same instant, without a tilt.
     pub is_flat: bool,
 }
 
@@ -112,7 +112,7 @@ impl DropInputs {
             contact_law: self.contact_law.or(base.map(|drop| drop.contact_law)).unwrap_or_default(),
             ..drop
         };
-        // What no flight takes is refused by the input that says it.
+        // A value that no flight accepts is refused under the name of its input.
         drop.of_box().and(drop.of_level()).map_err(|error| self.input(error))?;
         if !drop.body.is_wide() {
             drop.scene().map_err(|error| self.input(error))?;
@@ -120,7 +120,7 @@ impl DropInputs {
         Ok(drop)
     }
 
-    /// Whether they say a box in any orientation.
+    /// Returns whether the inputs describe a box in any orientation.
     #[must_use]
     pub fn is_box(&self) -> bool {
         let is_in_space = self.orientation.is_some() || self.center_of_mass_m.is_some();
@@ -168,7 +168,7 @@ impl DropInputs {
         Ok((2.0 * gravity_m_s2 * height_m).sqrt())
     }
 
-    /// So many values of an input.
+    /// Returns the values of an input, of which there must be `N`.
     fn values<const N: usize>(given: Option<&Vec<f64>>, name: &'static str) -> Result<Option<[f64; N]>, Error> {
         let Some(given) = given else { return Ok(None) };
         let (takes, means) = [
@@ -181,7 +181,7 @@ impl DropInputs {
         values.map(Some).map_err(|_| Error::input(name, format!("{takes}, not {count}: {means}")))
     }
 
-    /// A bar or a plate.
+    /// Makes the body of a bar or a plate.
     fn level_body(&self, base: Option<&Body>) -> Result<Body, Error> {
         let is_given = self.length_m.is_some() || self.width_m.is_some() || self.thickness_m.is_some();
         let is_given = is_given || self.gyration_m.is_some() || self.center_of_mass.is_some();
@@ -234,7 +234,7 @@ impl DropInputs {
         Ok(Body { length, thickness: thick.map(Side::even), feet: base.and_then(|body| body.feet), ..body })
     }
 
-    /// A bar or a plate as it is tilted and turns at the first touch.
+    /// Tilts and turns a bar or a plate as it is at the first touch.
     fn turned(&self, mut drop: Drop, is_over: bool) -> Result<Drop, Error> {
         if drop.body.is_wide() && (self.is_flat || self.first.is_some()) {
             let name = if self.is_flat { "flat" } else { "first" };
@@ -288,7 +288,7 @@ impl DropInputs {
             };
             return Err(Error::input(name, "it does not go with a box: an orientation says how it lands"));
         }
-        // That they are given was checked before.
+        // The sides are given, as was checked before.
         let size_m = [self.length_m, self.width_m, self.thickness_m].map(|side| side.unwrap_or(f64::NAN));
         let center = Self::values::<3>(self.center_of_mass.as_ref(), "center_of_mass")?;
         let center_m = center.map(|center| std::array::from_fn(|axis| 0.5 * size_m[axis] * center[axis]));
@@ -312,7 +312,7 @@ impl DropInputs {
         Ok(Drop::of_block(&lands, restitution))
     }
 
-    /// The input that says what was refused.
+    /// Makes the error that names the refused input.
     fn input(&self, error: impl Into<clatter_flight::Error>) -> Error {
         let reason = match error.into() {
             clatter_flight::Error::Given(reason) => reason,
@@ -340,7 +340,7 @@ impl DropInputs {
     }
 }
 
-/// A side so long with its mass, over another: what is not given is stretched with the length.
+/// Makes a side of this length with its mass, over another side: values that are not given are scaled with the length.
 fn side(m: Option<f64>, gyration_m: Option<f64>, center: Option<f64>, base: Option<Side>) -> Result<Side, Error> {
     let m = m.or(base.map(|side| side.m())).unwrap_or(f64::NAN);
     let center = center.or(base.map(|side| 2.0 * side.center_m() / side.m())).unwrap_or(0.0);

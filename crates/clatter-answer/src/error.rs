@@ -1,4 +1,4 @@
-//! Why a question has no answer.
+//! This module has the reasons why a question has no answer.
 
 use clatter_assess::fit::MOST_SAMPLES;
 use clatter_shock::Pulse;
@@ -10,7 +10,7 @@ pub enum Error {
     /// A number outside its range.
     #[error("{name} = {value:?} is not {allowed}")]
     Quantity {
-        /// What the value stands for, with its unit.
+        /// The quantity that the value stands for, with its unit.
         name: &'static str,
         /// The value.
         value: f64,
@@ -20,7 +20,7 @@ pub enum Error {
     /// Inputs without which there is no drop.
     #[error("the drop is not whole: give {}", .0.join(", "))]
     Missing(Vec<&'static str>),
-    /// An input that no drop has, or not beside the others.
+    /// An input that no drop has, or that does not go together with the others.
     #[error("{name}: {reason}")]
     Input {
         /// Its name, with its unit.
@@ -31,9 +31,9 @@ pub enum Error {
     /// A pulse that no part is followed through.
     #[error("a pulse of {duration_s:?} s lasts more than 100000 periods of a component of {frequency_hz:?} Hz")]
     LongPulse {
-        /// Of the longest pulse.
+        /// The duration of the longest pulse.
         duration_s: f64,
-        /// The highest that is asked for.
+        /// The highest requested frequency.
         frequency_hz: f64,
     },
     /// Goals of which the first is no safe zone.
@@ -42,19 +42,19 @@ pub enum Error {
     /// A record without shocks, or with too many for a spectrum of each.
     #[error("{count} shocks beyond {threshold_m_s2:?} m/s2; spectra are made of 1 to {most}")]
     Shocks {
-        /// How many there are.
+        /// The number of shocks.
         count: usize,
-        /// What they pass.
+        /// The threshold that the shocks exceed.
         threshold_m_s2: f64,
-        /// How many there may be.
+        /// The largest number that is allowed.
         most: usize,
     },
-    /// What one of several records does not hold.
+    /// A fault in one of several records.
     #[error("{file}: {reason}")]
     OfRecord {
         /// Its file.
         file: String,
-        /// What it is.
+        /// The fault.
         reason: clatter_record::Error,
     },
     /// A record of an acceleration with more channels than the one of its place.
@@ -63,28 +63,28 @@ pub enum Error {
     /// A record that is longer than a fit takes.
     #[error("{0} samples; a fit takes {MOST_SAMPLES} at most")]
     Samples(usize),
-    /// A record of bounces beside others.
+    /// A record of bounces together with other records.
     #[error("a record of bounces is of another drop: fit it alone")]
     Bounces,
     /// A radius of gyration in m that counts as known, and is a range.
     #[error("the radius of gyration is to be known, and the product has a range, {} to {} m", .0[0], .0[1])]
     GyrationRange([f64; 2]),
-    /// What the bar or the plate does not accept.
+    /// A fault in the bar or the plate.
     #[error(transparent)]
     Bar(#[from] clatter::Error),
-    /// What the flight does not accept.
+    /// A fault in the flight.
     #[error(transparent)]
     Flight(#[from] clatter_flight::Error),
-    /// What the part or its shocks do not accept.
+    /// A fault in the part or its shocks.
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
-    /// What the product or its drop does not accept.
+    /// A fault in the product or its drop.
     #[error(transparent)]
     Assess(clatter_assess::Error),
-    /// What measured drops do not tell.
+    /// A fault in the fit of measured drops.
     #[error(transparent)]
     Fit(#[from] clatter_assess::fit::Error),
-    /// What a record does not hold.
+    /// A fault in a record.
     #[error(transparent)]
     Record(#[from] clatter_record::Error),
 }
@@ -101,7 +101,7 @@ impl From<clatter_assess::Error> for Error {
     }
 }
 
-/// Periods of a part that a pulse may last: each of its turning points is found.
+/// The number of periods of a part that a pulse may last: each of its turning points is found.
 const MOST_PERIODS: f64 = 1e5;
 
 /// Refuses pulses that last too many periods of a part.

@@ -1,5 +1,5 @@
-//! Which model the worst drops of a product need, and why: the models of [`clatter_assess::ladder`] without their times, which are of
-//! the machine that measured them.
+//! This module shows which model the worst drops of a product need, and why: the models of [`clatter_assess::ladder`] without their
+//! times, which depend on the machine that measured them.
 //!
 //! ```
 //! use clatter_answer::explain;
@@ -25,7 +25,7 @@ struct AnswerJson<'a> {
     tolerance: Json,
     limits: Vec<LimitJson<'a>>,
     left_out: &'a [LeftOut],
-    /// Of a box.
+    /// The drops of a box.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     landings: &'a [LandingLadder],
 }

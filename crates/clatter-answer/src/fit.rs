@@ -1,4 +1,4 @@
-//! From a measured drop to the data of the product.
+//! This module finds the data of a product from a measured drop.
 //!
 //! ```
 //! use clatter_answer::fit::{self, Data, Record};
@@ -17,11 +17,11 @@
 mod list;
 
 use clatter::End;
-use clatter_assess::ProductFile;
 use clatter_assess::fit::{
     self, Estimate, Explanation, Fit, Known, MOST_SAMPLES, Measured, MeasuredDrop, RecordFit, StrikeFit, Undetermined,
     Written,
 };
+use clatter_assess::{ProductFile, optional_inputs};
 use serde::{Serialize, Serializer};
 
 pub use list::{List, options, refusal};
@@ -31,13 +31,13 @@ use crate::{Error, Json, VERSION, letter};
 /// A record of a drop.
 #[derive(Debug, Clone)]
 pub struct Record {
-    /// How it is called in the answer: by its file.
+    /// The name of the record in the answer, which is that of its file.
     pub name: String,
-    /// What it holds.
+    /// The measured data.
     pub data: Data,
 }
 
-/// What a record holds.
+/// The measured data of a record.
 #[derive(Debug, Clone)]
 pub enum Data {
     /// Strikes, heights or an acceleration.
@@ -47,7 +47,7 @@ pub enum Data {
 }
 
 impl Data {
-    /// An acceleration of one channel over even times, measured at a place from the middle of the product towards end b.
+    /// Takes an acceleration of one channel over even times, measured at a place from the middle of the product towards end b.
     ///
     /// # Errors
     /// More channels than one, uneven times, more samples than a fit takes.
@@ -62,7 +62,7 @@ impl Data {
         Ok(Self::Measured(Measured::Acceleration { position_m, start_s: times.start_s(), step_s, values_m_s2 }))
     }
 
-    /// `bounces`, `strikes`, `heights` or `acceleration`.
+    /// Returns `bounces`, `strikes`, `heights` or `acceleration`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -82,14 +82,14 @@ pub struct Question<'a> {
     pub file: &'a ProductFile,
     /// The records; bounces are of another drop, and stand alone.
     pub records: Vec<Record>,
-    /// Standard deviation of the times of bounces; unless given, their scatter about the fit tells it.
+    /// Standard deviation of the times of bounces; unless given, it is found from their scatter about the fit.
     pub timing_s: Option<f64>,
-    /// Whether the radius of gyration of the product is known.
+    /// True where the radius of gyration of the product is known.
     pub gyration_known: bool,
 }
 
 impl<'a> Question<'a> {
-    /// With the radius of gyration to be found.
+    /// Makes a question with the radius of gyration to be found.
     #[must_use]
     pub fn new(file: &'a ProductFile, records: Vec<Record>) -> Self {
         Self { file, records, timing_s: None, gyration_known: false }
@@ -100,7 +100,7 @@ impl<'a> Question<'a> {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Answer<'a> {
-    /// What was asked.
+    /// The question.
     pub question: &'a Question<'a>,
     /// The drop.
     pub fit: Fit,
@@ -110,7 +110,7 @@ pub struct Answer<'a> {
 const MADE_BY: &str = "# Fitted by clatter ";
 
 impl Answer<'_> {
-    /// [`fit::written`] below a line with the version of clatter; such a line of an earlier fit is replaced.
+    /// Writes as [`fit::written`] does, below a line with the version of clatter; such a line of an earlier fit is replaced.
     ///
     /// # Errors
     /// As there.
@@ -127,8 +127,8 @@ impl Answer<'_> {
 /// Finds the nearest drop.
 ///
 /// # Errors
-/// A radius of gyration that is to be known and has a range; a plate, a spin or several drops, but for flat bounces; contacts of their own; bounces beside other
-/// records; those of [`fit::fit`] and [`fit::bounces`].
+/// Fails for a radius of gyration that is to be known and has a range; for a plate, a spin or several drops, except with flat bounces; for
+/// contacts of their own; for bounces together with other records; and as [`fit::fit`] and [`fit::bounces`] do.
 pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
     let Question { file, ref records, timing_s, gyration_known } = *question;
     let gyration = &file.product.gyration_m;
@@ -145,8 +145,9 @@ pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
     if !(file.landings.is_empty() || bounces) {
         return Err(clatter_assess::Error::OneDrop("a fit of strikes, heights or accelerations").into());
     }
-    if file.drop.may_spin() && !bounces {
-        return Err(clatter_assess::Error::NoSpin("a fit of strikes, heights or accelerations").into());
+    let mut optional = optional_inputs().filter(|(row, _)| row.input.is_there(&file.product, &file.drop));
+    if let Some((row, _)) = optional.next().filter(|_| !bounces) {
+        return Err(clatter_assess::Error::Without("a fit of strikes, heights or accelerations", row.name).into());
     }
     let known = Known { gyration_known, ..Known::from(file) };
     Ok(Answer { question, fit: nearest(&known, records, timing_s)? })
@@ -163,10 +164,10 @@ fn nearest(known: &Known, records: &[Record], timing_s: Option<f64>) -> Result<F
     Ok(fit::fit(known, &records.iter().map(measured).collect::<Result<Vec<_>, _>>()?)?)
 }
 
-/// Records of one drop that stand beside an assessment.
+/// Records of one drop that stand next to an assessment.
 #[derive(Debug, Clone)]
 pub struct DropRecords {
-    /// What the drop is called.
+    /// The name of the drop.
     pub name: String,
     /// Its records.
     pub records: Vec<Record>,
@@ -175,7 +176,7 @@ pub struct DropRecords {
 }
 
 impl DropRecords {
-    /// The nearest drop. That none comes near what was measured is an answer.
+    /// Finds the nearest drop. A result without any near drop is an answer as well.
     ///
     /// # Errors
     /// As [`answer`], where a record is not what a fit takes.
@@ -188,7 +189,7 @@ impl DropRecords {
         Ok(self.told(found))
     }
 
-    /// The same with what was found, or why nothing was.
+    /// Returns the measured drop with the fit that was found, or with the reason why there is none.
     #[must_use]
     pub fn told(self, found: Result<Fit, String>) -> MeasuredDrop {
         MeasuredDrop { name: self.name, files: self.records.into_iter().map(|record| record.name).collect(), found }

@@ -1,4 +1,4 @@
-//! The impacts of one drop of a bar, the largest shocks, and what the train amounts to.
+//! This module computes the impacts of one drop of a bar, the largest shocks, and the totals of the train.
 //!
 //! ```
 //! use clatter::{Bar, Start};
@@ -25,21 +25,21 @@ pub struct Question {
     pub bar: Bar,
     /// Velocities and height gap at the first touch.
     pub start: Start,
-    /// Positions in [−1, 1] whose velocity shocks are asked for.
+    /// Positions in [−1, 1] whose velocity shocks are requested.
     pub at: Vec<f64>,
-    /// Impacts listed at most.
+    /// The largest number of impacts in the list.
     pub limit: usize,
 }
 
 impl Question {
-    /// With 1000 impacts listed at most, and no position but the ends.
+    /// Makes a question with at most 1000 impacts in the list, and no position but the ends.
     #[must_use]
     pub fn new(bar: Bar, start: Start) -> Self {
         Self { bar, start, at: Vec::new(), limit: 1000 }
     }
 }
 
-/// What one drop of a bar amounts to, and its impacts.
+/// The totals of one drop of a bar, and its impacts.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Answer<'a> {
@@ -48,22 +48,22 @@ pub struct Answer<'a> {
     /// Center of mass in [−1, 1]; only where it is not the middle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_of_mass: Option<Json>,
-    /// For strikes at end a and end b; only where the center of mass is not the middle.
+    /// The inertia ratios for strikes at end a and end b; only where the center of mass is not the middle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_ratios: Option<[Json; 2]>,
     /// Radius of gyration over half-length.
     pub gyration_ratio: Json,
     /// Coefficient of restitution.
     pub e: Json,
-    /// Of ends a and b at the first touch, in v0, upward positive.
+    /// The velocities of ends a and b at the first touch, in v0, upward positive.
     pub velocity: [Json; 2],
-    /// Of end b at the first touch, in h0.
+    /// The height of end b at the first touch, in h0.
     pub height_gap: Json,
-    /// The positions asked for.
+    /// The requested positions.
     pub at: Vec<Json>,
     /// Number of impacts.
     pub count: JsonCount,
-    /// Whether the count is that of the masses as given.
+    /// True where the count is that of the masses as given.
     pub count_exact: bool,
     /// Time of the last impact, or the limit it tends to, in h0/v0.
     pub duration: Json,
@@ -82,16 +82,16 @@ pub struct Answer<'a> {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Peak {
-    /// Of the end that strikes, in v0.
+    /// The largest shock of the end that strikes, in v0.
     pub end: Json,
     /// The impact that gives it, the first if several do.
     #[serde(serialize_with = "peak_impact")]
     pub impact: PeakImpact,
-    /// Of the center of mass, in v0.
+    /// The largest shock of the center of mass, in v0.
     pub center: Json,
     /// Change of angular velocity, in v0/L.
     pub angular: Json,
-    /// Of ends a and b whichever is struck, in v0; only where the center of mass is not the middle.
+    /// The largest shocks of ends a and b whichever is struck, in v0; only where the center of mass is not the middle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ends: Option<[Json; 2]>,
 }
@@ -100,13 +100,13 @@ pub struct Peak {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Net {
-    /// Of end a, in v0.
+    /// The change of velocity of end a, in v0.
     pub a: Option<Json>,
-    /// Of end b, in v0.
+    /// The change of velocity of end b, in v0.
     pub b: Option<Json>,
-    /// Of the center of mass, in v0.
+    /// The change of velocity of the center of mass, in v0.
     pub center: Json,
-    /// Of the angular velocity, in v0/L.
+    /// The change of the angular velocity, in v0/L.
     pub angular: Option<Json>,
 }
 
@@ -114,17 +114,17 @@ pub struct Net {
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Impact {
-    /// From 1.
+    /// The number of the impact, from 1.
     pub number: u64,
     /// The end that strikes, `"a"` or `"b"`.
     pub end: &'static str,
-    /// From the first touch, in h0/v0.
+    /// The time from the first touch, in h0/v0.
     pub time: Json,
     /// Velocity of the end before it strikes, in v0.
     pub approach: Json,
     /// Velocity shocks of ends a and b, in v0.
     pub delta_v: [Json; 2],
-    /// Velocity shocks at the positions asked for, in v0.
+    /// Velocity shocks at the requested positions, in v0.
     pub delta_v_at: Vec<Json>,
 }
 
@@ -133,7 +133,7 @@ pub struct Impact {
 pub struct Impacts<'a>(&'a Question);
 
 impl<'a> Impacts<'a> {
-    /// From the first impact on.
+    /// Returns the impacts from the first on.
     pub fn iter(&self) -> impl Iterator<Item = Impact> + use<'a> {
         let Question { bar, start, at, limit } = self.0;
         bar.train(start).take(*limit).map(move |impact| Impact {

@@ -1,18 +1,19 @@
-//! What the commands answer: typed questions in, answers out that serialize to what `--format json` prints.
+//! This crate answers the questions of the commands: it takes typed questions and returns answers that serialize to the output of
+//! `--format json`.
 //!
-//! No arguments, no printing, no files. A module a question:
+//! The crate reads no arguments, prints nothing and opens no files. It has one module for each question:
 //!
 //! - If you have a bar and how it falls, call [`impacts::answer`] for its impacts; of a plate [`impacts::plate::answer`].
 //! - If you have a bar and what velocity shock a part survives, call [`zone::answer`]; of a plate [`zone::plate::answer`].
 //! - If you want one quantity over all bars, call [`map::answer`].
-//! - If you have a drop in m and m/s, [`DropInputs`] makes it of numbers: call [`simulate::answer`] for its strikes in time, and
-//!   [`respond::drop::answer`] for what it does to a part.
-//! - If you have a part and what shakes it, a bar, shocks or pulses, call [`respond::answer`].
+//! - If you have a drop in m and m/s, [`DropInputs`] makes it from numbers: call [`simulate::answer`] for its strikes in time, and
+//!   [`respond::drop::answer`] for its effect on a part.
+//! - If you have a part and the source of its shocks (a bar, shocks or pulses), call [`respond::answer`].
 //! - If you have a product file, call [`assess::answer`] for verdicts, [`scatter::answer`] for how likely its parts survive,
-//!   [`design::answer`] for what would make them safe; with records of a measured drop [`fit::answer`].
-//! - If you have a record of accelerations, call [`record::answer`] for what it holds, [`spectrum::answer`] for what parts make of it.
+//!   [`design::answer`] for the changes that make them safe; with records of a measured drop [`fit::answer`].
+//! - If you have a record of accelerations, call [`record::answer`] for its content, [`spectrum::answer`] for the response of parts to it.
 //! - If you have models that were measured on worst drops, [`explain::Answer`] shows them without their times.
-//! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
+//! - If you have a plate and want the result of every direction of tilt, call [`atlas::answer`].
 //!
 //! ```
 //! use clatter_answer::assess;
@@ -23,7 +24,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Whoever writes an answer writes it as [`Versioned`]: with the version that it is of.
+//! Every answer is written as [`Versioned`]: with the version of the program that made it.
 //!
 //! Where names have no units, velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a
 //! touches; positions in half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
@@ -45,6 +46,7 @@ pub mod simulate;
 pub mod spectrum;
 pub mod study;
 mod versioned;
+mod words;
 pub mod zone;
 
 use clatter::End;
@@ -54,8 +56,9 @@ pub use drop_inputs::DropInputs;
 pub use error::Error;
 pub use numbers::{Json, JsonCount, JsonWhole, figures, neat, significant, whole};
 pub use versioned::{VERSION, Versioned};
+pub use words::drop_in_words;
 
-/// The letter of an end.
+/// Returns the letter of an end.
 #[must_use]
 pub fn letter(end: End) -> &'static str {
     match end {
@@ -64,7 +67,7 @@ pub fn letter(end: End) -> &'static str {
     }
 }
 
-/// A pulse shape as it is typed.
+/// Names a pulse shape as it is typed.
 #[must_use]
 pub fn shape_name(shape: Shape) -> String {
     let name = match shape {
@@ -79,7 +82,7 @@ pub fn shape_name(shape: Shape) -> String {
     name.to_owned()
 }
 
-/// That all positions lie on the body.
+/// Checks that all positions lie on the body.
 fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), clatter::Error> {
     match positions.into_iter().find(|s| !(-1.0..=1.0).contains(s)) {
         Some(value) => Err(clatter::Error::Quantity { name: "position", value, allowed: "in [-1, 1]" }),
@@ -87,12 +90,12 @@ fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), clatter::Erro
     }
 }
 
-/// That all places lie on the plate.
+/// Checks that all places lie on the plate.
 fn on_plate(places: &[[f64; 2]]) -> Result<(), clatter::Error> {
     on_body(places.iter().flatten().copied())
 }
 
-/// That all thresholds are in the bounds of velocities, so that no safe zone overflows.
+/// Checks that all thresholds are in the bounds of velocities, so that no safe zone overflows.
 fn in_bounds(thresholds: &[f64]) -> Result<(), clatter::Error> {
     match thresholds.iter().find(|x| !(1e-150..=1e150).contains(*x)) {
         Some(value) => {

@@ -1,4 +1,4 @@
-//! One quantity over a grid of q, or gyration ratio, and e.
+//! This module computes one quantity over a grid of q, or gyration ratio, and e.
 //!
 //! ```
 //! use clatter::{Axis, Quantity};
@@ -15,7 +15,7 @@ use serde::{Serialize, Serializer};
 
 use crate::{Json, JsonWhole, in_bounds};
 
-/// What is asked of the bars of a grid, which fall without spin.
+/// A quantity to compute for the bars of a grid, which fall without spin.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Question {
@@ -28,7 +28,7 @@ pub struct Question {
 }
 
 impl Question {
-    /// Of every pair of values.
+    /// Requests the quantity for every pair of values.
     #[must_use]
     pub fn new(quantity: Quantity, inertia: Axis, e: Axis) -> Self {
         Self { quantity, inertia, e }
@@ -39,9 +39,9 @@ impl Question {
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Answer {
-    /// By its [`name`].
+    /// The quantity, by its [`name`].
     pub quantity: &'static str,
-    /// What a part survives, in v0: of the safe zone alone.
+    /// The velocity shock that a part survives, in v0: of the safe zone alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threshold: Option<Json>,
     /// Values of q, where the map is over them.
@@ -57,7 +57,7 @@ pub struct Answer {
     pub map: Map,
 }
 
-/// What a quantity is called.
+/// Returns the name of a quantity.
 #[must_use]
 pub fn name(quantity: Quantity) -> &'static str {
     match quantity {
@@ -79,7 +79,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { quantity, inertia, e } = *question;
     let threshold = if let Quantity::Zone(threshold) = quantity { Some(threshold) } else { None };
     in_bounds(threshold.as_slice())?;
-    // Before the axes, as it refuses those that are too long.
+    // The map comes before the axes, as it refuses those that are too long.
     let map = Map::compute(quantity, inertia, e)?;
     let axis = |axis: Axis| (0..axis.points()).map(|i| Json(axis.value(i))).collect();
     let of = |variable| (inertia.variable() == variable).then(|| axis(inertia));
@@ -100,7 +100,7 @@ fn rows<S: Serializer>(map: &Map, serializer: S) -> Result<S::Ok, S::Error> {
 
 struct Row<'a> {
     values: &'a [f64],
-    /// Whether they are whole numbers.
+    /// True where the values are whole numbers.
     counts: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Numbers as programs read them: every digit, a word for infinity, whole numbers without a fraction.
+//! This module writes numbers as programs read them: every digit, a word for infinity, whole numbers without a fraction.
 
 use clatter::Count;
 use serde::{Serialize, Serializer};
@@ -18,7 +18,7 @@ impl Serialize for Json {
     }
 }
 
-/// Six significant digits, so that a column tells at a glance how exact it is; −0 is 0.
+/// Writes a number with six significant digits, so that a column shows at a glance how exact it is; −0 is 0.
 ///
 /// From 10⁻³ to 10⁶ without an exponent. A digit more or less is never a matter of the row: each value is
 /// rounded by itself.
@@ -37,26 +37,26 @@ pub fn figures(x: f64) -> String {
     }
 }
 
-/// So many significant digits, without an exponent where [`figures`] has none.
+/// Writes a number with so many significant digits, without an exponent where [`figures`] has none.
 #[must_use]
 pub fn significant(x: f64, digits: i32) -> String {
     let shown = figures(x);
     if shown.contains('e') || !x.is_finite() || x == 0.0 {
         return shown;
     }
-    // From the rounded number, so that 9.9996 is 10.00.
+    // The exponent is that of the rounded number, so that 9.9996 is 10.00.
     let rounded = format!("{x:.*e}", usize::try_from(digits - 1).unwrap_or(0));
     let exponent = rounded.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
     format!("{x:.*}", usize::try_from(digits - 1 - exponent).unwrap_or(0))
 }
 
-/// A number without the digits that a conversion adds.
+/// Rounds a number to remove the digits that a conversion adds.
 #[must_use]
 pub fn neat(x: f64) -> f64 {
     format!("{x:.13e}").parse().unwrap_or(x)
 }
 
-/// A count that is kept as a float, for csv: without a fraction as long as every whole number has its own float.
+/// Writes a count that is kept as a float, for csv: without a fraction as long as every whole number has its own float.
 #[must_use]
 pub fn whole(x: f64) -> String {
     if x.abs() < TWO_TO_53 { format!("{x:.0}") } else { format!("{:?}", x + 0.0) }

@@ -1,5 +1,5 @@
-//! What a record of accelerations holds: its channels, what is odd, and where they are asked for its shocks, the pulse of the
-//! largest, velocity and displacement.
+//! This module describes a record of accelerations: its channels and its faults, and on request its shocks, the pulse of the largest one,
+//! velocity and displacement.
 //!
 //! ```
 //! use clatter_answer::record;
@@ -23,40 +23,40 @@ use serde::{Serialize, Serializer};
 
 use crate::{Json, shape_name};
 
-/// Offsets are judged by what they do to a spectrum from this frequency on: where a spectrum begins unless others are asked for.
+/// Offsets are assessed by their effect on a spectrum from this frequency on: a spectrum begins here unless others are requested.
 pub const LOWEST_HZ: f64 = 10.0;
 
-/// A record, and what is asked of it.
+/// A record, and the requests about it.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Question<'a> {
     /// The record.
     pub record: &'a Record,
-    /// How its shocks are found, if they are to be.
+    /// The search for its shocks, if they are to be found.
     pub find: Option<Search>,
-    /// Whether pulses are fitted to the largest shock, and held against the tolerances of standards.
+    /// True where pulses are fitted to the largest shock and compared with the tolerances of standards.
     pub fit_pulse: bool,
     /// The pulse that tolerances are about; else the best that fits.
     pub nominal: Option<Pulse>,
-    /// Whether velocity and displacement are asked for, from rest.
+    /// True where velocity and displacement are requested, from rest.
     pub integrate: bool,
 }
 
 impl<'a> Question<'a> {
-    /// Its channels alone.
+    /// Makes a question about its channels alone.
     #[must_use]
     pub fn new(record: &'a Record) -> Self {
         Self { record, find: None, fit_pulse: false, nominal: None, integrate: false }
     }
 }
 
-/// What a record holds; each list has a place for each channel.
+/// The content of a record; each list has one entry for each channel.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Answer<'a> {
     /// The record.
     pub record: &'a Record,
-    /// What is odd about it.
+    /// The faults and oddities of the record.
     pub findings: Vec<Finding>,
     /// Its shocks.
     pub shocks: Option<Vec<Shocks>>,
@@ -70,13 +70,13 @@ pub struct Answer<'a> {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Fitted {
-    /// Best first.
+    /// The fits, the best first.
     pub fits: [PulseFit; 3],
-    /// How long the shock lasts.
+    /// The durations of the shock.
     pub durations: EffectiveDuration,
-    /// What it is held against, where it fits best.
+    /// The pulse that the shock is compared with, placed where it fits best.
     pub nominal: Pulse,
-    /// By the keyword of each standard.
+    /// The checks, by the keyword of each standard.
     pub checks: Vec<(&'static str, PulseCheck)>,
 }
 
@@ -93,7 +93,7 @@ impl Fitted {
     }
 }
 
-/// Works out what is asked for.
+/// Computes the requested results.
 ///
 /// # Errors
 /// Uneven times, which shocks, pulses and motions need even; a record in which they cannot be.
@@ -113,7 +113,7 @@ pub fn answer<'a>(question: &Question<'a>) -> Result<Answer<'a>, Error> {
     })
 }
 
-/// The first samples that hold the largest and the smallest value.
+/// Returns the first samples that hold the largest and the smallest value.
 #[must_use]
 pub fn extremes(channel: &Channel) -> [usize; 2] {
     let values = &channel.values;
@@ -123,13 +123,13 @@ pub fn extremes(channel: &Channel) -> [usize; 2] {
     [first(|a, b| a > b), first(|a, b| a < b)]
 }
 
-/// Time of a sample, on the axis of the file.
+/// Returns the time of a sample, on the axis of the file.
 #[must_use]
 pub fn time_s(channel: &Channel, sample: usize) -> f64 {
     channel.times().start_s() + channel.times().since_s(sample)
 }
 
-/// The last velocity and displacement, in m/s and m.
+/// Returns the last velocity and displacement, in m/s and m.
 #[must_use]
 pub fn end(motion: &Motion) -> [f64; 2] {
     [&motion.velocity_m_s, &motion.displacement_m].map(|values| values.last().copied().unwrap_or(0.0))
@@ -137,12 +137,12 @@ pub fn end(motion: &Motion) -> [f64; 2] {
 
 #[derive(Serialize)]
 struct AnswerJson<'a> {
-    /// Of all channels; null where they differ.
+    /// The times of all channels; null where they differ.
     #[serde(flatten)]
     times: TimesJson,
     channels: Vec<ChannelJson<'a>>,
     findings: Vec<String>,
-    /// What became of every line and column; null for files that are no text.
+    /// The use of every line and column; null for files that are not text.
     account: Option<AccountJson<'a>>,
 }
 
@@ -202,7 +202,7 @@ struct TimesJson {
     samples: Option<usize>,
     start_s: Option<Json>,
     duration_s: Option<Json>,
-    /// Null where the samples are uneven, too.
+    /// The step; null where the samples are uneven, too.
     step_s: Option<Json>,
     sample_rate_hz: Option<Json>,
 }
@@ -266,7 +266,7 @@ impl<'a> ChannelJson<'a> {
 struct ShocksJson {
     threshold_m_s2: Json,
     count: usize,
-    /// The largest, if there are more than are listed.
+    /// The shocks; the largest ones where there are too many for the list.
     list: Vec<ShockJson>,
 }
 
@@ -298,7 +298,7 @@ impl ShocksJson {
 
 #[derive(Serialize)]
 struct PulseJson {
-    /// Best first.
+    /// The fits, the best first.
     fits: Vec<FitJson>,
     effective_duration_third_of_peak_s: Json,
     effective_duration_tenth_of_rms_s: Json,
@@ -320,7 +320,7 @@ struct FitJson {
 struct ToleranceJson {
     standard: &'static str,
     within: bool,
-    /// Measured, least and most allowed; null where the standard limits none, or by a figure that is not built in.
+    /// The measured, the least and the most allowed value; null where the standard limits none, or by a figure that is not built in.
     velocity_change_m_s: Option<[Json; 3]>,
     duration_s: Option<[Json; 3]>,
     largest_difference_m_s2: Option<[Json; 3]>,

@@ -1,4 +1,4 @@
-//! What one clatter, or a list of shocks or pulses, does to one part.
+//! This module computes the effect of one clatter, or of a list of shocks or pulses, on one part.
 //!
 //! ```
 //! use clatter::{Bar, Start};
@@ -34,7 +34,7 @@ pub use peaks::{
     ServiceCondition,
 };
 
-/// What shakes a part.
+/// The source of the shocks on a part.
 #[derive(Debug, Clone)]
 pub enum Excitation {
     /// The clatter of a bar. In v0 and h0, or all in SI units.
@@ -43,7 +43,7 @@ pub enum Excitation {
         bar: Bar,
         /// Velocities and height gap at the first touch.
         start: Start,
-        /// Where the part is, in [−1, 1].
+        /// The position of the part, in [−1, 1].
         at: f64,
     },
     /// Velocity shocks.
@@ -52,31 +52,31 @@ pub enum Excitation {
     Pulses(Vec<Pulse>),
 }
 
-/// A part and what shakes it.
+/// A part and the source of its shocks.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Question {
-    /// What shakes it.
+    /// The source of its shocks.
     pub excitation: Excitation,
     /// The part.
     pub suspension: Suspension,
-    /// A table whose half-sine is to do the same to the part; asked in SI units alone.
+    /// A shock table whose half-sine is to have the same effect on the part; it is accepted in SI units alone.
     pub shock_table: Option<ShockTable>,
 }
 
 impl Question {
-    /// Without an equivalent pulse.
+    /// Makes a question without an equivalent pulse.
     #[must_use]
     pub fn new(excitation: Excitation, suspension: Suspension) -> Self {
         Self { excitation, suspension, shock_table: None }
     }
 }
 
-/// What a part does, and single shocks beside it.
+/// The response of a part, with that to single shocks for comparison.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Answer {
-    /// What clatters.
+    /// The bar that clatters.
     #[serde(flatten)]
     pub bar: Option<BarAnswer>,
     /// The part and its peaks.
@@ -84,20 +84,20 @@ pub struct Answer {
     pub part: Peaks,
     /// The shocks at its place.
     pub shocks: Shocks,
-    /// What their sum at once would do.
+    /// The response to the sum of the shocks at one instant.
     pub soft: Factors,
-    /// What the largest alone would do; null without damping, and for pulses.
+    /// The response to the largest shock alone; null without damping, and for pulses.
     pub stiff: Option<Factors>,
-    /// What (1 + e) v0 at once would do, as without clatter: of clatters alone, as the next two.
+    /// The response to (1 + e) v0 at one instant, as without clatter: of clatters alone, as the next two.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clatter_free: Option<Factors>,
-    /// What 2 v0 would do, as standards assume.
+    /// The response to 2 v0, as standards assume.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub standard: Option<Factors>,
     /// Peak acceleration over that of the standards' shock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gain: Option<Json>,
-    /// Where a shock table was given.
+    /// The equivalent pulse, where a shock table was given.
     #[serde(flatten)]
     pub equivalent: Option<Equivalent>,
 }
@@ -112,11 +112,11 @@ pub struct BarAnswer {
     pub gyration_ratio: Json,
     /// Coefficient of restitution.
     pub e: Json,
-    /// Of ends a and b at the first touch.
+    /// The velocities of ends a and b at the first touch.
     pub velocity: [Json; 2],
-    /// Of end b at the first touch.
+    /// The height of end b at the first touch.
     pub height_gap: Json,
-    /// Where the part is.
+    /// The position of the part.
     pub at: Json,
 }
 
@@ -124,23 +124,23 @@ pub struct BarAnswer {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Shocks {
-    /// How many were followed.
+    /// The number of shocks that were followed.
     pub count: usize,
     /// Their sum.
     pub net: Json,
     /// The largest, in size.
     pub largest: Json,
-    /// What an endless train leaves out changes W z by at most this.
+    /// The bound on the change of W z by the shocks that are omitted from an endless train.
     pub omitted: Json,
-    /// As `count`, with what many at one instant do together as one more.
+    /// The count, with one more for the many shocks at one instant.
     #[serde(skip)]
     pub listed: usize,
 }
 
-/// Angular frequencies whose squares, and times between, are floats beside the pulses', in rad/s.
+/// The range of angular frequencies, in rad/s, whose squares and times stay floating-point numbers together with those of the pulses.
 const SWINGS: RangeInclusive<f64> = 1e-100..=1e100;
 
-/// Peaks are exact, from turning points and not from samples, the ring-down complete.
+/// Computes the exact peaks, from turning points and not from samples, with the complete ring-down.
 ///
 /// # Errors
 /// A place off the bar, or at q = 1 off the middle; pulses that are none, or last too long for the part; a part too slow or too fast
@@ -187,7 +187,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     })
 }
 
-/// The response, the velocity changes at the place in order of time, and what they leave out.
+/// Returns the response, the velocity changes at the place in order of time, and the bound on those that are omitted.
 fn felt(excitation: &Excitation, suspension: &Suspension) -> Result<(Response, VelocityShocks, f64), Error> {
     match excitation {
         Excitation::Bar { bar, start, at } => {
@@ -214,7 +214,7 @@ fn felt(excitation: &Excitation, suspension: &Suspension) -> Result<(Response, V
     }
 }
 
-/// Refuses a part of a drop that is too slow or too fast: beyond, no motion can be told from rounding, and to search it would take
+/// Refuses a part of a drop that is too slow or too fast: beyond, no motion can be distinguished from rounding, and the search would take
 /// for ever.
 fn swings(suspension: Option<&Suspension>) -> Result<(), Error> {
     match suspension.map(Suspension::omega).filter(|omega| !(1e-12..=1e12).contains(omega)) {

@@ -1,4 +1,4 @@
-//! How likely each part of a product survives, and what that hangs on.
+//! This module computes how likely each part of a product survives, and which inputs decide that.
 //!
 //! ```
 //! use clatter_answer::scatter;
@@ -26,11 +26,11 @@ use serde::{Serialize, Serializer};
 
 use crate::Json;
 
-/// What a sample of a box is.
+/// The definition of a sample of a box.
 pub const SEQUENCE: &str = "a sample is one product that goes through all drops: what [product] and [[component]] give is drawn once \
 for it, height or speed and attitude for each drop, every attitude within the tolerance equally likely; it survives if it survives each drop";
 
-/// What came of all samples.
+/// The result of all samples.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Answer<'a> {
@@ -43,12 +43,12 @@ pub struct Answer<'a> {
 }
 
 impl<'a> Answer<'a> {
-    /// Of samples that were drawn of this product, without a target.
+    /// Makes the answer from samples that were drawn of this product, without a target.
     #[must_use]
     pub fn new(file: &'a ProductFile, scatter: Scatter) -> Self {
         Self { file, scatter, target: None }
     }
-    /// Whether the interval of the survival lies above the target, if there is one.
+    /// Returns whether the interval of the survival lies above the target, if there is one.
     #[must_use]
     pub fn is_met(&self) -> bool {
         self.target.is_none_or(|share| self.scatter.survival.lo >= share)
@@ -76,13 +76,13 @@ struct AnswerJson<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     target: Option<TargetJson>,
     unanswered: u64,
-    /// Why the first of them is not answered.
+    /// The reason why the first of them has no answer.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
-    /// Samples in which what answers may be off by, or the energy left, decides.
+    /// The number of samples that the error of answers, or the energy left, decides.
     open: u64,
     components: Vec<ComponentJson<'a>>,
-    /// Of several drops, each of them.
+    /// Each drop, where there are several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     landings: Vec<LandingJson<'a>>,
 }
@@ -101,7 +101,7 @@ struct LandingComponentJson<'a> {
     open: u64,
     unanswered: u64,
     survival: SurvivalJson,
-    /// Null where no drop was answered.
+    /// The largest utilization; null where no drop was answered.
     largest_utilization: Option<Json>,
 }
 
@@ -109,10 +109,10 @@ struct LandingComponentJson<'a> {
 struct ModelJson {
     bar: &'static str,
     reason: &'static str,
-    /// How a plate is followed.
+    /// The way in which a plate is followed.
     #[serde(skip_serializing_if = "Option::is_none")]
     plate: Option<PlateJson>,
-    /// Of several drops, what a sample is.
+    /// The definition of a sample, where there are several drops.
     #[serde(skip_serializing_if = "Option::is_none")]
     sequence: Option<&'static str>,
 }
@@ -122,10 +122,10 @@ struct ModelJson {
 enum PlateJson {
     Box {
         thickness_m: Json,
-        /// Whether the file tells no thickness.
+        /// True where the file gives no thickness.
         assumed: bool,
     },
-    /// On feet: real tilt is left out.
+    /// A plate on feet: real tilt is left out.
     LevelPlate,
 }
 
@@ -144,16 +144,16 @@ struct InputJson {
     /// The drop of several that it belongs to.
     #[serde(skip_serializing_if = "Option::is_none")]
     landing: Option<DropName>,
-    /// Of a limit, which one.
+    /// The kind of limit, where the input belongs to one.
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<&'static str>,
-    /// Whether the file gives no distribution, only a range.
+    /// True where the file gives only a range, without a distribution.
     assumed_uniform: bool,
 }
 
 #[derive(Serialize)]
 struct SurvivalJson {
-    /// Null where nothing was answered.
+    /// The probability; null where nothing was answered.
     probability: Option<Json>,
     interval: [Json; 2],
     at_least: Json,
@@ -163,12 +163,12 @@ struct SurvivalJson {
 struct ComponentJson<'a> {
     name: &'a str,
     failed: u64,
-    /// Drops whose utilization is so near 1 that what it may be off by decides.
+    /// The number of drops whose utilization is so near 1 that its error decides.
     open: u64,
     unanswered: u64,
     survival: SurvivalJson,
     limits: Vec<LimitJson>,
-    /// Null where no drop was answered.
+    /// The utilization; null where no drop was answered.
     utilization: Option<UtilizationJson>,
     drivers: Vec<DriverJson>,
 }
@@ -219,7 +219,7 @@ impl ModelJson {
     }
 }
 
-/// The limit that an input is.
+/// Returns the name of the limit, where an input is one.
 fn limit(input: &Varied) -> Option<&'static str> {
     if let Varied::Limit(_, kind) = input { Some(kind.name()) } else { None }
 }

@@ -1,4 +1,4 @@
-//! One drop in time: its strikes, how hard they are, and how it comes to rest.
+//! This module follows one drop in time: its strikes, how hard they are, and how it comes to rest.
 //!
 //! ```
 //! use clatter_answer::simulate::{self, Answer};
@@ -27,21 +27,21 @@ use crate::{Error, Json};
 pub struct Question {
     /// The drop.
     pub drop: Drop,
-    /// What is kept of it.
+    /// The model, which decides the physics that are kept.
     pub model: Model,
-    /// Places of a bar or a plate whose velocity shocks are asked for, in half-lengths and half-widths from the middle, seen so that what
-    /// touches first is end a or corner a.
+    /// Places of a bar or a plate whose velocity shocks are requested, in half-lengths and half-widths from the middle; end a or corner a
+    /// is the one that touches first.
     pub at: Vec<[f64; 2]>,
     /// Height from which it fell, where that was given.
     pub height_m: Option<f64>,
-    /// Until when it is followed, where that is limited.
+    /// The time until which the drop is followed, where that is limited.
     pub time_limit_s: Option<f64>,
-    /// Strikes that are followed at most: 100 000 unless given, of a plate without gravity 1000.
+    /// The largest number of strikes that are followed: 100 000 unless given, of a plate without gravity 1000.
     pub impact_limit: Option<usize>,
 }
 
 impl Question {
-    /// Until it rests, without a place but its ends or corners.
+    /// Makes a question that follows the drop until it rests, without a place but the ends or corners.
     #[must_use]
     pub fn new(drop: Drop, model: Model) -> Self {
         Self { drop, model, at: Vec::new(), height_m: None, time_limit_s: None, impact_limit: None }
@@ -52,11 +52,11 @@ impl Question {
 #[derive(Debug, Clone, Serialize)]
 #[serde(untagged)]
 pub enum Answer {
-    /// Strikes of two ends.
+    /// The drop of a bar, with two ends.
     Bar(Box<bar::Answer>),
-    /// Of four corners.
+    /// The drop of a plate, with four corners.
     Plate(Box<plate::Answer>),
-    /// Of eight corners.
+    /// The drop of a box, with eight corners.
     Block(Box<block::Answer>),
 }
 
@@ -83,11 +83,11 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct ContactAnswer {
-    /// Of a lone contact.
+    /// The duration of a lone contact.
     pub contact_time_s: Json,
-    /// What the ground does meanwhile.
+    /// The law by which the ground acts during a contact.
     pub contact_law: &'static str,
-    /// What the energy of the body changes by without reason, over that at the first touch.
+    /// The numerical error of the energy of the body, over its energy at the first touch.
     pub energy_error: Json,
 }
 
@@ -109,7 +109,7 @@ struct StopJson {
     rest: Option<RestJson>,
 }
 
-/// What is left takes no longer, null where nothing bounds it, and no shock left out is larger.
+/// The bounds on the rest of the motion: its time, null where nothing bounds it, and its largest shock.
 #[derive(Serialize)]
 struct RestJson {
     time_bound_s: Option<Json>,
@@ -127,7 +127,7 @@ fn stop<S: Serializer>(stop: &Stop, serializer: S) -> Result<S::Ok, S::Error> {
     StopJson { reason: stop.reason(), time_s: Json(stop.time_s()), rest }.serialize(serializer)
 }
 
-/// Whether a limit has ended a motion, so that a contact that still presses is not known to its end.
+/// Returns whether a limit has ended a motion, so that a contact that still presses is not known to its end.
 fn is_cut(stop: &Stop) -> bool {
     !matches!(stop, Stop::AtRest { .. } | Stop::BouncedClear { .. })
 }

@@ -1,4 +1,4 @@
-//! Shock response spectra of records, pulses and velocity shocks, and what is held beside them.
+//! This module computes shock response spectra of records, pulses and velocity shocks, and compares them with limits and required spectra.
 //!
 //! ```
 //! use clatter_answer::spectrum::{self, Excitation};
@@ -29,7 +29,7 @@ use crate::record::LOWEST_HZ;
 use crate::{Error, visible};
 use boundary::Boundary;
 
-/// What shakes the parts.
+/// The source of the shocks on the parts.
 #[derive(Debug, Clone)]
 pub enum Excitation {
     /// Records: a spectrum for each channel.
@@ -45,20 +45,20 @@ pub enum Excitation {
 pub struct Measured {
     /// Its file, as the answer has it.
     pub file: String,
-    /// How its spectra are called beside those of other records.
+    /// The name that distinguishes its spectra from those of other records.
     pub name: Option<String>,
     /// The record.
     pub record: Record,
-    /// Which of its shocks, where they are told apart.
+    /// The name of the shock, where the record is split into its shocks.
     pub shock: Option<String>,
 }
 
-/// Shocks of one record that have spectra at most.
+/// The largest number of shocks of one record that have spectra.
 const MOST: usize = 100;
 
 impl Measured {
-    /// A record as its shocks, found on the channel with the largest one: of all channels, from half the quiet time before a shock to
-    /// the next one.
+    /// Splits a record into its shocks, found on the channel with the largest one: of all channels, from half the quiet time before a
+    /// shock to the next one.
     ///
     /// # Errors
     /// Uneven times, or no shocks, or more than 100.
@@ -85,38 +85,38 @@ impl Measured {
     }
 }
 
-/// What shakes parts, and which.
+/// The source of the shocks, and the parts that it acts on.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Question {
-    /// What shakes them.
+    /// The source of the shocks.
     pub excitation: Excitation,
     /// Their natural frequencies; else 12 to the octave, from 10 Hz to 10 kHz, of records up to a third of the sampling rate.
     pub frequencies: Option<Frequencies>,
     /// A spectrum for each.
     pub dampings: Vec<DampingRatio>,
-    /// What is asked of them.
+    /// The requested quantity of the response.
     pub quantity: Quantity,
-    /// What is between the samples of a record.
+    /// The course of a record between its samples.
     pub between: Between,
-    /// What they stand.
+    /// The limit that the parts survive.
     pub limit: Option<LimitCurve>,
-    /// What a test was to reach.
+    /// The spectrum that a test had to reach.
     pub required: Option<RequiredSpectrum>,
-    /// Of which shape a pulse is found that envelops each spectrum.
+    /// The shape of the pulse that is found to envelop each spectrum.
     pub enveloping: Option<Shape>,
-    /// Whether the root of the sum of squares of all channels of a record is given as well.
+    /// True where the root of the sum of squares of all channels of a record is given as well.
     pub resultant: bool,
-    /// Whether the largest of all channels of all records is.
+    /// True where the largest value of all channels of all records is given as well.
     pub envelope: bool,
-    /// Whether the mean of all channels of all records and 3 dB is.
+    /// True where the mean of all channels of all records, plus 3 dB, is given as well.
     pub mean_3db: bool,
-    /// In which unit the quantity is serialized; in SI where it is none.
+    /// The unit in which the quantity is serialized; SI where there is none.
     pub unit: Option<&'static Unit>,
 }
 
 impl Question {
-    /// Of the absolute acceleration, records taken as band-limited, with nothing beside.
+    /// Requests the absolute acceleration, with records taken as band-limited, and nothing else.
     #[must_use]
     pub fn new(excitation: Excitation, damping: DampingRatio) -> Self {
         Self {
@@ -135,13 +135,13 @@ impl Question {
         }
     }
 
-    /// The records, if they are what shakes the parts.
+    /// Returns the records, if they are the source of the shocks.
     #[must_use]
     pub fn records(&self) -> &[Measured] {
         if let Excitation::Records(records) = &self.excitation { records } else { &[] }
     }
 
-    /// The natural frequencies.
+    /// Returns the natural frequencies.
     ///
     /// # Errors
     /// Records whose samples are so far apart that there are none.
@@ -152,13 +152,13 @@ impl Question {
         let times = self.records().iter().flat_map(|measured| measured.record.times());
         let third = |times: &TimeAxis| times.step_s().map(|step_s| (3.0 * step_s).recip());
         let high = times.filter_map(third).fold(HIGHEST_HZ, f64::min);
-        // Three decades, where the samples are few.
+        // The range is three decades where the samples are few.
         let low = LOWEST_HZ.min(high * LOWEST_HZ / HIGHEST_HZ);
         Ok(Frequencies::per_octave(low, high, PER_OCTAVE)?)
     }
 }
 
-/// Natural frequencies unless others are asked for, and how many to the octave.
+/// The highest natural frequency unless others are requested, and how many there are to the octave.
 const HIGHEST_HZ: f64 = 10_000.0;
 const PER_OCTAVE: f64 = 12.0;
 
@@ -166,13 +166,13 @@ const PER_OCTAVE: f64 = 12.0;
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Answer<'a> {
-    /// What was asked.
+    /// The question.
     pub question: &'a Question,
     /// The natural frequencies.
     pub frequencies: Frequencies,
-    /// One for each channel and damping ratio, and those made of several; at least one.
+    /// The spectra: one for each channel and damping ratio, and those made of several; at least one.
     pub parts: Vec<Part>,
-    /// The damage boundary that stands beside them.
+    /// The damage boundary that is shown with the spectra.
     pub boundary: Option<Boundary>,
 }
 
@@ -180,13 +180,13 @@ pub struct Answer<'a> {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Part {
-    /// Of which record or channel, where there are several.
+    /// The name of the record or channel, where there are several.
     pub name: Option<String>,
     /// The spectrum.
     pub spectrum: Spectrum,
-    /// Beside the limit.
+    /// The margins to the limit.
     pub margins: Option<Vec<Option<Margin>>>,
-    /// From what was to be reached.
+    /// The deviations from the required spectrum.
     pub deviations: Option<Vec<Option<Deviation>>>,
     /// The pulse that envelops it.
     pub enveloping: Option<EnvelopingPulse>,
@@ -204,13 +204,13 @@ impl Part {
         })
     }
 
-    /// Whether it exceeds the limit.
+    /// Returns whether the spectrum exceeds the limit.
     #[must_use]
     pub fn exceeds(&self) -> bool {
         self.margins.iter().flatten().flatten().any(|margin| !margin.is_safe())
     }
 
-    /// Whether it reaches a required spectrum; not known where a part of that is not judged.
+    /// Returns whether the spectrum reaches a required one; none where a part of the required one is not covered and the rest is reached.
     #[must_use]
     pub fn reaches(&self, required: &RequiredSpectrum) -> Option<bool> {
         let mut told = self.deviations.iter().flatten().flatten().peekable();
@@ -220,7 +220,7 @@ impl Part {
     }
 }
 
-/// The range of a required spectrum and that of the frequencies, where these do not cover it.
+/// Returns the range of a required spectrum and that of the frequencies, where these do not cover it.
 #[must_use]
 pub fn beyond(required: &RequiredSpectrum, hz: &[f64]) -> Option<[f64; 4]> {
     let [from, to] = required.curve().range_hz()?;
@@ -228,7 +228,7 @@ pub fn beyond(required: &RequiredSpectrum, hz: &[f64]) -> Option<[f64; 4]> {
     (from < low || to > high).then_some([from, to, low, high])
 }
 
-/// The lowest and the highest of the deviations, with their places.
+/// Returns the lowest and the highest of the deviations, with their places.
 #[must_use]
 pub fn outermost(deviations: &[Option<Deviation>]) -> Option<[(usize, Deviation); 2]> {
     let told = || deviations.iter().enumerate().filter_map(|(i, of)| Some((i, (*of)?)));
@@ -238,7 +238,7 @@ pub fn outermost(deviations: &[Option<Deviation>]) -> Option<[(usize, Deviation)
     Some([low, high])
 }
 
-/// What a quantity is called, and its unit.
+/// Returns the name of a quantity, and its unit.
 #[must_use]
 pub fn name(quantity: Quantity) -> [&'static str; 2] {
     match quantity {
@@ -250,7 +250,7 @@ pub fn name(quantity: Quantity) -> [&'static str; 2] {
     }
 }
 
-/// The largest acceleration of a channel, in size.
+/// Returns the largest acceleration of a channel, in size.
 #[must_use]
 pub fn largest(channel: &Channel) -> f64 {
     channel.values.iter().fold(0.0_f64, |most, a| most.max(a.abs()))
@@ -259,13 +259,13 @@ pub fn largest(channel: &Channel) -> f64 {
 /// Works out all spectra.
 ///
 /// # Errors
-/// Frequencies that a record does not tell of, records whose channels have no one time for a resultant, pulses that are none or last too
-/// long.
+/// Fails for frequencies that a record does not cover, records whose channels have no one time for a resultant, pulses that are none or
+/// that last too long.
 pub fn answer(question: &Question) -> Result<Answer<'_>, Error> {
     counted(question, |_| ())
 }
 
-/// The same, counted in samples of records that are done, of each damping ratio.
+/// Works out all spectra as [`answer`] does, and counts the samples of records that are done, of each damping ratio.
 ///
 /// # Errors
 /// As [`answer`].
@@ -289,7 +289,7 @@ pub fn counted(question: &Question, mut progress: impl FnMut(u64)) -> Result<Ans
 
 const RESULTANT: &str = "resultant";
 
-/// A spectrum for each channel and damping ratio, then those made of several.
+/// Computes a spectrum for each channel and damping ratio, then those made of several.
 fn of_records(
     question: &Question,
     records: &[Measured],
@@ -345,7 +345,8 @@ fn of_records(
 }
 
 impl Measured {
-    /// A channel by its record, where there are several of them, by its name where that tells it apart, and by the shock.
+    /// Names a channel by its record where there are several records, by its own name where there are several channels or no other name,
+    /// and by the shock.
     fn called(&self, channel: &str) -> String {
         let several = self.record.channels().len() > 1 || channel == RESULTANT;
         let named = several || self.name.is_none() && self.shock.is_none();

@@ -1,4 +1,5 @@
-//! Studies that are larger than one machine: a plan, its rows in shards that anybody may draw, and the answer of all of them.
+//! This module runs studies that are larger than one machine: a plan, its rows in shards that anybody may draw, and the answer of all of
+//! them.
 //!
 //! A plan names a product file and, over a grid, products that differ from it. Its rows are the drops of each of them in turn, or of a
 //! search the products themselves. A row depends on the plan and its number alone. [`Study::write`] makes those of a shard, [`Parts`]
@@ -41,11 +42,11 @@ pub use answer::{Answer, Member, Outcome, SearchedLimit};
 pub use merge::Merge;
 pub use parts::{Parts, Shard};
 
-/// Why there is no study, or no answer of its shards.
+/// The reason why there is no study, or no answer of its shards.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// What is wrong with the plan or its product.
+    /// The faults of the plan or of its product.
     #[error(transparent)]
     Faults(#[from] Faults),
     /// A product of which nothing is drawn.
@@ -62,9 +63,9 @@ pub enum Error {
     /// A shard that there is not.
     #[error("shard {index}/{of} is none: the plan has {rows} rows, in shards from 1/N to N/N with N from 1 to {rows}")]
     Shard {
-        /// Which.
+        /// The number of the shard.
         index: u64,
-        /// Of how many.
+        /// The number of shards.
         of: u64,
         /// Rows of the plan.
         rows: u64,
@@ -79,15 +80,15 @@ pub enum Error {
 pub struct Study {
     plan: Plan,
     family: Family,
-    /// What differs from row to row of what is drawn.
+    /// The columns that differ from row to row where rows are drawn.
     drawn: Vec<Column>,
     /// The parts of all products.
     components: Vec<Component>,
-    /// What the drops of all products are called that they go through one after the other; none of those that fall once, and of a search.
+    /// The names of the drops that each product goes through in sequence; empty where products fall once, and for a search.
     drop_names: Vec<DropName>,
 }
 
-/// Rows of a group of the file: 1 MiB of each column.
+/// The number of rows in a group of the file: 1 MiB of each column.
 const GROUP: usize = 1 << 17;
 /// A confidence where rows are drawn, which have no interval.
 const NO_INTERVAL: f64 = 0.5;
@@ -124,19 +125,19 @@ impl Study {
         Ok(study)
     }
 
-    /// The plan.
+    /// Returns the plan.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// Its products.
+    /// Returns the products of the study.
     #[must_use]
     pub fn family(&self) -> &Family {
         &self.family
     }
 
-    /// All rows: drops of each product, or of a search the products.
+    /// Returns the number of all rows: drops of each product, or of a search the products.
     #[must_use]
     pub fn rows(&self) -> u64 {
         self.family.members() * self.rows_a_member()
@@ -146,7 +147,7 @@ impl Study {
         if self.plan.search { 1 } else { self.plan.samples }
     }
 
-    /// The rows of a shard: as many in each as in any other, or one less.
+    /// Returns the rows of a shard: as many in each as in any other, or one less.
     ///
     /// # Errors
     /// [`Error::Shard`] where there is no such shard.
@@ -159,12 +160,12 @@ impl Study {
         Ok(at(index - 1)..at(index))
     }
 
-    /// How many columns tell the place of a row.
+    /// Returns how many columns give the place of a row.
     fn numbers(&self) -> usize {
         self.place(0).count()
     }
 
-    /// The number of the product, where there are several, and that of the sample in it, where there are any.
+    /// Returns the number of the product, where there are several, and that of the sample in it, where there are any.
     fn place(&self, row: u64) -> impl Iterator<Item = f64> {
         let each = self.rows_a_member();
         let several = self.plan.search || !self.plan.grid.is_empty();
@@ -177,7 +178,7 @@ impl Study {
         Ok(Sampler::new(file, Settings { samples, seed, confidence, merge_s: Accuracy::default().merge_s })?)
     }
 
-    /// What a row holds.
+    /// Returns the fields of a row.
     #[must_use]
     pub fn fields(&self) -> Vec<Field> {
         let field = |name: &str, unit: &str, kind| Field { name: name.to_owned(), unit: unit.to_owned(), kind };
@@ -204,13 +205,14 @@ impl Study {
         fields
     }
 
-    /// What is asked of a part in a row: through all of its drops, and where several are listed in each of them too, by its number from 0.
+    /// Returns the parts that a row has values of: each through all of its drops, and where there are several drops also in each of them,
+    /// by its number from 0.
     fn asked(&self) -> impl Iterator<Item = (&Component, Option<usize>)> {
         let drops = std::iter::once(None).chain((0..self.drop_names.len()).map(Some));
         drops.flat_map(|on| self.components.iter().map(move |component| (component, on)))
     }
 
-    /// Places in [`fields`](Self::fields) of what [`Merge`] counts.
+    /// Returns the places in [`fields`](Self::fields) of the columns that [`Merge`] counts.
     #[must_use]
     pub fn counted(&self) -> Vec<usize> {
         let drawn = self.numbers()..self.numbers() + self.drawn.len();
@@ -221,7 +223,7 @@ impl Study {
         self.components.iter().flat_map(|part| part.limits.kinds().into_iter().map(move |kind| (part, kind)))
     }
 
-    /// Of one of several drops, by its number from 0.
+    /// Names a quantity of one of several drops, by its number from 0.
     fn on(&self, what: &str, n: usize) -> String {
         match self.drop_names.get(n) {
             Some(DropName::On(attitude)) => format!("{what} on drop {}, {attitude}", n + 1),
@@ -249,8 +251,8 @@ impl Study {
         Field { name, unit: unit.to_owned(), kind }
     }
 
-    /// Makes rows in order and hands them to `write` column by column, in groups of equal size but for the last; `done` is told of so many
-    /// more, by any thread.
+    /// Makes rows in order and hands them to `write` column by column, in groups of equal size except the last; `done` receives the
+    /// number of new rows, from any thread.
     ///
     /// # Errors
     /// Those of `write`.
@@ -310,7 +312,7 @@ impl Study {
     }
 }
 
-/// What stands in a row for what is not answered.
+/// The entry of a row for a part without an answer.
 const UNANSWERED: PartRow = PartRow { utilization: f64::NAN, open: false, exceeded: [false; LimitKind::ALL.len()] };
 
 fn push(group: &mut [Vec<f64>], row: impl Iterator<Item = f64>) {
@@ -322,17 +324,18 @@ fn float(count: u64) -> f64 {
     count as f64
 }
 
-/// A name such as `acceleration_demand_m_s2`.
+/// Makes a name such as `acceleration_demand_m_s2`.
 fn in_unit(kind: LimitKind, what: &str) -> String {
     format!("{}_{what}_{}", kind.name(), kind.unit().name()).replace(['-', '/'], "_")
 }
 
-/// What a searched limit has in SI: of a damage boundary nothing, as the one of its two quantities that leaves more room counts.
+/// Returns whether a limit of a search has SI values: a damage boundary has none, as that one of its two quantities counts that leaves
+/// more room.
 fn in_si(kind: LimitKind) -> bool {
     kind != LimitKind::DamageBoundary
 }
 
-/// Columns of a limit of a search.
+/// Returns the columns of a limit of a search.
 fn searched(component: &Component, kind: LimitKind) -> Vec<Field> {
     let name = kind.name().replace('-', "_");
     let field = |what: String, unit: &str, kind| Field {
@@ -343,12 +346,12 @@ fn searched(component: &Component, kind: LimitKind) -> Vec<Field> {
     let si = |what| field(in_unit(kind, what), kind.unit().name(), FieldKind::FloatOrNone);
     let mut fields = if in_si(kind) { vec![si("allowed"), si("demand"), si("bound")] } else { Vec::new() };
     fields.push(field(format!("{name}_margin"), "1", FieldKind::FloatOrNone));
-    // 1: safe, 0: undecided, -1: unsafe.
+    // The verdict is 1 for safe, 0 for undecided and -1 for unsafe.
     fields.push(field(format!("{name}_verdict"), "", FieldKind::Whole));
     fields
 }
 
-/// What was found of each limit, in the order of [`searched`].
+/// Returns the results of each limit, in the order of [`searched`].
 fn found(assessment: &Assessment) -> impl Iterator<Item = f64> {
     let limits = assessment.components.iter().flat_map(|component| &component.limits);
     limits.flat_map(|limit| {

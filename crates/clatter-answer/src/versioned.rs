@@ -1,4 +1,4 @@
-//! Answers as they are written.
+//! This module adds the version to answers as they are written.
 
 use serde::Serialize;
 
@@ -23,7 +23,7 @@ pub struct Versioned<'a, A> {
 }
 
 impl<'a, A: Serialize> Versioned<'a, A> {
-    /// Of an answer that is an object in JSON; a list of answers is a list of these.
+    /// Adds the version to an answer that is an object in JSON; a list of answers is a list of these.
     pub const fn new(answer: &'a A) -> Self {
         Self { clatter: VERSION, answer }
     }

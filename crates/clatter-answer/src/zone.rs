@@ -1,4 +1,4 @@
-//! Where on a bar no velocity shock exceeds a threshold: the safe zone (Eq. 5).
+//! This module finds where on a bar no velocity shock exceeds a threshold: the safe zone (Eq. 5).
 //!
 //! ```
 //! use clatter::Bar;
@@ -26,12 +26,12 @@ pub struct Question {
     pub bar: Bar,
     /// Velocity shocks that a part survives, in v0.
     pub thresholds: Vec<f64>,
-    /// The end that strikes first, where the safe interval of that drop is asked for as well.
+    /// The end that strikes first, where the safe interval of that drop is requested as well.
     pub first: Option<End>,
 }
 
 impl Question {
-    /// Whichever end strikes first.
+    /// Makes a question for whichever end strikes first.
     #[must_use]
     pub fn new(bar: Bar, thresholds: Vec<f64>) -> Self {
         Self { bar, thresholds, first: None }
@@ -47,20 +47,20 @@ pub struct Answer {
     /// Center of mass in [−1, 1]; only where it is not the middle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_of_mass: Option<Json>,
-    /// For strikes at end a and end b; only where the center of mass is not the middle.
+    /// The inertia ratios for strikes at end a and end b; only where the center of mass is not the middle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_ratios: Option<[Json; 2]>,
-    /// Where the largest shock is least, whichever end strikes first; only where the center of mass is not the middle.
+    /// The place where the largest shock is least, whichever end strikes first; only where the center of mass is not the middle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub safest: Option<Safest>,
     /// Radius of gyration over half-length.
     pub gyration_ratio: Json,
     /// Coefficient of restitution.
     pub e: Json,
-    /// The first end asked for, `"a"` or `"b"`.
+    /// The requested first end, `"a"` or `"b"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first: Option<&'static str>,
-    /// One for each threshold.
+    /// The zones: one for each threshold.
     pub zones: Vec<Zone>,
 }
 
@@ -68,22 +68,22 @@ pub struct Answer {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Zone {
-    /// In v0.
+    /// The threshold, in v0.
     pub threshold: Json,
     /// Half the width in half-lengths, not clipped: below 0 nothing is safe, from 1 on the whole bar is.
     pub s: Json,
-    /// How much of the bar that is.
+    /// The share of the bar that is safe: none, a part or all.
     #[serde(serialize_with = "extent")]
     pub extent: Extent,
     /// The bounds, whichever end strikes first; only where the center of mass is not the middle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub zone: Option<Interval>,
-    /// The bounds if the end asked for strikes first.
+    /// The bounds if the requested end strikes first.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interval: Option<Interval>,
 }
 
-/// Between these positions in [−1, 1]; none where nothing is safe.
+/// An interval between two positions in [−1, 1]; none where nothing is safe.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Interval(pub Option<[Json; 2]>);
 
@@ -97,7 +97,7 @@ pub struct Safest {
     pub shock: Json,
 }
 
-/// `"none"`, `"part"` or `"whole"`.
+/// Returns `"none"`, `"part"` or `"whole"`.
 #[must_use]
 pub fn name(extent: Extent) -> &'static str {
     match extent {

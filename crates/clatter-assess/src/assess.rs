@@ -1,4 +1,4 @@
-//! From a product to its verdict.
+//! This module goes from a product to its verdict.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -18,28 +18,28 @@ use crate::{
 };
 use clatter_flight::Drop;
 
-/// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
+/// The part of a worst case that the search may miss, as a share of it: tests hold single drops of the same ranges to this.
 pub(crate) const COVERAGE: f64 = 0.02;
-/// The same of a box, of which fewer drops are followed, and of what any product asks after rebounds, which hangs on every input: single
-/// drops of 200 limits of boxes passed what was found by 5 % at most, and climbs from thousands of drops of 240 limits of lively bars by
-/// 10 % in 4, in which energy allowed more.
+/// The same of a box, of which fewer drops are followed, and of the demand of any product after rebounds, which depends on every input:
+/// single drops of 200 limits of boxes passed what was found by 5 % at most, and climbs from thousands of drops of 240 limits of lively
+/// bars by 10 % in 4, in which energy allowed more.
 const COVERAGE_WHERE_ROUGH: f64 = 0.1;
 
-/// A drop that asks for more than is of use.
+/// A drop with a larger demand than is of use.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Breaker {
-    /// By the other contact law than that of the product.
+    /// True where the search is by the other contact law than that of the product.
     pub(crate) other_law: bool,
-    /// Which of the drops that are searched.
+    /// The number of the drop among those that are searched.
     pub(crate) listed: usize,
     pub(crate) place: Coordinates,
 }
 
-/// What no drop exceeds, by either contact law.
+/// The demands that no drop exceeds, by either contact law.
 const NOTHING_BREAKS: [f64; 2] = [f64::INFINITY; 2];
 
 impl ProductFile {
-    /// The worst drop of every component over all stated ranges, and whether it stands it: [`assess_to`](Self::assess_to) 1 %.
+    /// Finds the worst drop of every component over all stated ranges, and whether it stands it: [`assess_to`](Self::assess_to) 1 %.
     ///
     /// # Errors
     /// As [`assess_to`](Self::assess_to).
@@ -57,7 +57,7 @@ impl ProductFile {
         self.assess_to(&Accuracy::default())
     }
 
-    /// The same to a tolerance, or by a named model.
+    /// Assesses the product to a tolerance, or by a named model.
     ///
     /// # Method
     /// Drops of the ranges are followed by the model with the most physics that the data allow: contacts that take time where
@@ -66,9 +66,8 @@ impl ProductFile {
     ///
     /// A limit is *unsafe* where a drop was found that exceeds it. It is *safe* where the energy of the drops allows no more than
     /// it, or where every drop of the search was answered and the worst leaves room for what its answer may be off by, for what
-    /// the search may miss, 2 %, or 10 % of a box and after rebounds, and for what rebounds may ask by their energy. Else it is *undecided*,
-    /// and the reason is told.
-    /// The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
+    /// the search may miss, 2 %, or 10 % of a box and after rebounds, and for the demand of rebounds by their energy. Else it is
+    /// *undecided*, and the reason is reported. The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
     ///
     /// # Errors
     /// Those of [`check`](Self::check) for data that product files do not allow; [`Error::Tolerance`] for a tolerance outside
@@ -78,8 +77,8 @@ impl ProductFile {
         self.assess_watched(accuracy, &|_, _| true)
     }
 
-    /// The same, watched. Where `watch` says to stop, no more drops are followed: what was found by then is answered, unsafe
-    /// limits as ever, and the others are undecided unless energy alone says that they are safe.
+    /// Assesses the product to a tolerance, watched. Where `watch` says to stop, no more drops are followed: what was found by then is
+    /// answered, unsafe limits as ever, and the others are undecided unless energy alone says that they are safe.
     ///
     /// # Errors
     /// As [`assess_to`](Self::assess_to).
@@ -92,7 +91,7 @@ impl ProductFile {
         Ok(Assessment { product, verdict, assumed, components, landings, accuracy: *accuracy })
     }
 
-    /// What [`assess_watched`](Self::assess_watched) says of one component, found in the same drops.
+    /// Assesses one component as [`assess_watched`](Self::assess_watched) does, with the same drops.
     ///
     /// # Errors
     /// As [`assess_to`](Self::assess_to); [`Error::OtherProduct`] for a component that is none of this product.
@@ -118,9 +117,9 @@ impl ProductFile {
         Ok(found.map_or_else(|_| unreachable!("nothing exceeds infinity"), |mut found| found.components.remove(0)))
     }
 
-    /// What [`assess_watched`](Self::assess_watched) says of some components, found in the drops of all, where only drops are of use
-    /// that ask for no more than `most` of any of their limits, by the first contact law and by the other: the search is left as soon as
-    /// a drop is answered that asks for more, which is told.
+    /// Assesses some components as [`assess_watched`](Self::assess_watched) does, with the drops of all, where only drops are of use
+    /// that demand no more than `most` of any of their limits, by the first contact law and by the other: the search ends as soon as
+    /// a drop is answered that demands more, which is reported.
     pub(crate) fn assess_these(
         &self,
         these: &[&Component],
@@ -145,7 +144,7 @@ impl ProductFile {
         let tasks: Vec<Task<'_>> = these.iter().copied().flat_map(limits_of).collect();
         let all_tasks: Vec<Task<'_>> = self.components.iter().flat_map(limits_of).collect();
         let laws = |ranges: Ranges<'_>| match ranges.model {
-            // Those that differ are hysteretic.
+            // Contacts that differ are hysteretic.
             Model::Compliant if !own => vec![ranges.law, ranges.law.other()],
             _ => vec![ranges.law],
         };
@@ -177,7 +176,7 @@ impl ProductFile {
                 }
             }
         }
-        // Of each limit by each law, what every drop that is listed says.
+        // The results of all listed drops, of each limit by each law.
         let judged = |n: usize, task: &Task<'_>, drop: usize| -> Result<Vec<Judged>, Error> {
             let laws = searched[drop].iter().zip(&worst[drop]);
             laws.map(|(ranges, worst)| self.judge(ranges, task, &worst[n])).collect()
@@ -191,7 +190,7 @@ impl ProductFile {
             .map(|(name, landing)| LandingAssessment::new(*name, landing, &self.product))
             .collect();
         for component in these {
-            // Of each limit what every drop says, and then of each drop what stops make of that.
+            // The results are collected for each limit over all drops, and then stops change those of each drop.
             let mut of_limits = Vec::new();
             for (n, task) in all.by_ref().take(component.limits.kinds().len()) {
                 let said = |drop: usize| Ok(self.limit(&searched[drop][0], task, judged(n, task, drop)?));
@@ -216,7 +215,7 @@ impl ProductFile {
         Ok(Ok(Found { components, landings }))
     }
 
-    /// The drops that are searched one after the other: all that are listed, or the one of the file.
+    /// Returns the drops that are searched one after the other: all that are listed, or the one of the file.
     pub(crate) fn listed(&self) -> Vec<Listed> {
         let base = |landing: &Landing| {
             let (faces_m, attitude) = self.product.body.faces_m().zip(landing.attitude)?;
@@ -228,7 +227,7 @@ impl ProductFile {
         self.landings.iter().map(|landing| Listed { drop: landing.drop, base: base(landing) }).collect()
     }
 
-    /// The ranges as the search takes them, of a product that falls once.
+    /// Returns the ranges as the search takes them, of a product that falls once.
     #[cfg(test)]
     pub(crate) fn ranges(&self, accuracy: &Accuracy) -> Ranges<'_> {
         self.ranges_of(&self.drop, None, accuracy)
@@ -243,12 +242,12 @@ impl ProductFile {
         Ranges { product: &self.product, drop, model, base, listed, law, tolerance, merge_s }
     }
 
-    /// What the worst drop by one contact law says of a limit.
+    /// Judges a limit by the worst drop that one contact law gives.
     fn judge(&self, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst) -> Result<Judged, Error> {
         let bound = bound(&self.product, ranges.drop, ranges.base, task.component, &task.limit, ranges.law);
         let bound = bound.filter(|bound| bound.is_finite());
         let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound)) };
-        // What takes further drops is left where the time is over.
+        // The steps that need further drops are left out where the time is over.
         let flat = if worst.stopped { None } else { Self::flat(ranges, task, &asked)? };
         if let Some(flat) = flat.filter(|flat| ranges.hold(flat) && flat.exceeds(&asked)) {
             asked = flat;
@@ -314,7 +313,7 @@ impl ProductFile {
             let refused = worst.refused.as_ref().map_or(0, |(count, _)| *count);
             of.doubts.push(Doubt::Stopped { answered: worst.drops.saturating_sub(refused) });
         }
-        // What is not known of some drops may be any number that energy allows; a damage boundary has two.
+        // The demand of drops that are not known may be any number that energy allows; a damage boundary has two.
         let is_known = of.doubts.iter().all(|doubt| matches!(doubt, Doubt::Stopped { .. }));
         if !is_known {
             let by_energy = bound.filter(|_| task.limit.kind.source() != Source::Boundary);
@@ -344,8 +343,8 @@ impl ProductFile {
         Ok(of)
     }
 
-    /// What the worst drop would ask if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the same
-    /// place of them.
+    /// Returns the demand of the worst drop if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the
+    /// same place of them.
     fn flat(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Candidate) -> Result<Option<Candidate>, Error> {
         let drop = ranges.single(&worst.place).flattened();
         let part = worst.part_there(task.component);
@@ -358,7 +357,7 @@ impl ProductFile {
         Ok(flat.map(|answer| Candidate { place, part: worst.part, answer, late: false }))
     }
 
-    /// The limit by its contact laws: its own first, and then the other one where contacts take time.
+    /// Returns the limit by its contact laws: its own first, and then the other one where contacts take time.
     fn limit(&self, ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitAssessment {
         let mut judged = judged.into_iter();
         let Some(own) = judged.next() else { unreachable!("drops are followed by one law at least") };
@@ -381,7 +380,7 @@ impl ProductFile {
         }
         let (demand, unit) = (asked.map(|asked| asked.answer), task.limit.kind.unit());
         let utilization = demand.map_or(0.0, |answer| answer.utilization());
-        // Of nothing asked and nothing to come it is 0.
+        // With no demand and none to come it is 0.
         let uncertainty = if demand.is_none() { f64::INFINITY } else { (most / utilization - 1.0).max(0.0) };
         let shown = asked.map_or_else(|| ranges.middle(task.component), |asked| asked.place);
         let mut limit = LimitAssessment {
@@ -426,15 +425,15 @@ impl LimitAssessment {
     }
 }
 
-/// Searches that are made side by side: of each drop that is listed by each law. The first of all that is left tells why, the same on any
-/// number of threads.
+/// Searches that are made side by side: of each listed drop by each law. The first of all that stops early gives the reason, the same on
+/// any number of threads.
 const SIDE_BY_SIDE: usize = 8;
 
 /// The progress of searches side by side.
 struct SideBySide<'a> {
     /// Searches that are over.
     done: AtomicUsize,
-    /// What was told, which never goes back.
+    /// The progress that was reported, which never goes back.
     told: AtomicUsize,
     count: usize,
     watch: Watch<'a>,
@@ -450,7 +449,7 @@ impl SideBySide<'_> {
     }
 }
 
-/// What was found of components, and of each drop of a box.
+/// The results for components, and for each drop of a box.
 pub(crate) struct Found {
     pub(crate) components: Vec<ComponentAssessment>,
     landings: Vec<LandingAssessment>,
@@ -459,15 +458,15 @@ pub(crate) struct Found {
 /// A drop that is searched.
 pub(crate) struct Listed {
     pub(crate) drop: DropRanges,
-    /// How a box lies as it lands.
+    /// The posture of a box as it lands.
     pub(crate) base: Option<Base>,
 }
 
-/// What the drops that are listed say of a limit together. The demand is the largest of all drops that were answered, with the drop that
-/// asks for it; the verdict is the worst of all. Where another drop decides that, it is named, and the reasons are its own. The bound and
-/// what others may ask beyond the demand are those of all.
+/// Returns the result of all listed drops together for one limit. The demand is the largest of all drops that were answered, with the drop
+/// that causes it; the verdict is the worst of all. Where another drop decides the verdict, it is named, and the reasons are its own. The
+/// bound and the demand that others may add are those of all.
 fn governing(of_drops: &[LimitAssessment], names: &[DropName]) -> LimitAssessment {
-    // As shares of what is allowed: a damage boundary is told in either of two units.
+    // The values are shares of the allowed value: a damage boundary is reported in either of two units.
     let share = |limit: &LimitAssessment, value: f64| value / limit.allowed;
     let most = |limit: &LimitAssessment| {
         limit.demand.map_or(f64::INFINITY, |demand| share(limit, demand) * (1.0 + limit.uncertainty))
@@ -479,7 +478,7 @@ fn governing(of_drops: &[LimitAssessment], names: &[DropName]) -> LimitAssessmen
     let bound = all(&|limit| limit.bound.filter(|_| Some(limit.unit) == unit));
     let other_law = all(&|limit| limit.other_law.map(|other| share(limit, other)));
     let asked = |limit: &LimitAssessment| limit.demand.map_or(-1.0, |demand| share(limit, demand));
-    // Of several that are alike the first.
+    // The first of several that are alike counts.
     let first_of = |order: &dyn Fn(&LimitAssessment, &LimitAssessment) -> std::cmp::Ordering| {
         let numbered = of_drops.iter().enumerate().rev();
         numbered.max_by(|(_, a), (_, b)| order(a, b)).map_or(0, |(n, _)| n)
@@ -521,24 +520,24 @@ fn governing(of_drops: &[LimitAssessment], names: &[DropName]) -> LimitAssessmen
     limit
 }
 
-/// The limits of a component, each to be searched.
+/// Returns the limits of a component, each to be searched.
 fn limits_of(component: &Component) -> impl Iterator<Item = Task<'_>> {
     Limit::of(component).into_iter().map(move |limit| Task { component, limit })
 }
 
-/// What the search by one contact law says of a limit.
+/// The result of the search by one contact law for a limit.
 struct Judged {
-    /// The drop that asks most.
+    /// The drop with the largest demand.
     asked: Option<Candidate>,
     verdict: Verdict,
-    /// Why it is not safe though nothing exceeds it.
+    /// The reasons why it is not safe though nothing exceeds it.
     doubts: Vec<Doubt>,
     notes: Vec<Note>,
     /// The utilization that other drops of the ranges may reach.
     most: f64,
-    /// By energy.
+    /// The bound by energy.
     bound: Option<f64>,
-    /// What the drop that asks most would ask if it landed flat.
+    /// The demand of the worst drop if it landed flat.
     flat: Option<f64>,
 }
 
@@ -558,17 +557,17 @@ impl Judged {
     }
 }
 
-/// What the worst drop by another law asks, in the unit of the demand.
+/// Returns the demand of the worst drop by another law, in the unit of the demand.
 fn in_unit_of(own: &Candidate, other: &Candidate) -> f64 {
     if own.answer.unit == other.answer.unit {
         other.answer.value
     } else {
-        // Of a damage boundary by its share: one law leaves more room by the velocity change, the other by the acceleration.
+        // A damage boundary counts by its share: one law leaves more room by the velocity change, the other by the acceleration.
         other.answer.utilization() * own.answer.allowed
     }
 }
 
-/// The limit whose demand has this unit: of a damage boundary the velocity change or the acceleration.
+/// Returns the limit whose demand has this unit: of a damage boundary the velocity change or the acceleration.
 fn in_unit(limit: &Limit, unit: Unit) -> Limit {
     match limit.kind.source() {
         Source::Boundary if unit != limit.kind.unit() => {
@@ -692,8 +691,8 @@ mod tests {
         assert!(fails.notes.iter().any(|note| note.to_string().contains("please report it")), "{:?}", fails.notes);
     }
 
-    /// A damage boundary that one drop uses up by its velocity change and another by its acceleration has no bound in one unit; what others may
-    /// ask is told by shares: 0.5 of 8 m/s within 60 %, beside 0.4 of 5000 m/s² within 150 %, is all of it, twice what is shown.
+    /// A damage boundary that one drop uses up by its velocity change and another by its acceleration has no bound in one unit; what others
+    /// may add is reported by shares: 0.5 of 8 m/s within 60 %, next to 0.4 of 5000 m/s² within 150 %, is all of it, twice what is shown.
     #[test]
     fn drops_in_two_units_are_told_by_shares() {
         let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
@@ -718,8 +717,8 @@ mod tests {
         }
     }
 
-    /// One law uses up a damage boundary by its velocity change, the other by its acceleration: they are told beside one another by what
-    /// they use up.
+    /// One law uses up a damage boundary by its velocity change, the other by its acceleration: they are reported next to one another by
+    /// the shares that they use up.
     #[test]
     fn what_the_other_law_asks_is_told_in_the_unit_of_the_demand() {
         let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();

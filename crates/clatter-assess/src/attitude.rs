@@ -1,4 +1,4 @@
-//! How a box lands: on a face, an edge or a corner, or tilted by an angle.
+//! This module describes how a box lands: on a face, an edge or a corner, or tilted by an angle.
 //!
 //! Axes x, y, z run along length, width and thickness. A face is named by its side of an axis: `end-a` −x, `end-b` +x, `front` −y,
 //! `back` +y, `bottom` −z, `top` +z. An edge is where two faces meet, a corner where three do.
@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use serde::{Serialize, Serializer};
 
-/// What a box lands on.
+/// The face, edge or corner on which a box lands, or the tilt at which it lands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attitude(Lands);
 
@@ -23,8 +23,8 @@ enum Lands {
 const FACES: [[&str; 2]; 3] = [["end-a", "end-b"], ["front", "back"], ["bottom", "top"]];
 
 impl Attitude {
-    /// Landing on the faces of these names together: on one of them flat, on the edge of two, on the corner of three; none of a name
-    /// that is none, of faces that do not meet, and without any.
+    /// Returns the landing on the faces of these names together: on one of them flat, on the edge of two, on the corner of three; none of a
+    /// name that is none, of faces that do not meet, and without any.
     ///
     /// ```
     /// use clatter_assess::Attitude;
@@ -53,32 +53,32 @@ impl Attitude {
         let given = (0.0..=FRAC_PI_2).contains(&tilt_rad) && (-TAU..=TAU).contains(&direction_rad);
         given.then_some(Self(Lands::Tilted { tilt_rad, direction_rad }))
     }
-    /// All of those on so many faces at once: the 6 faces, the 12 edges or the 8 corners.
+    /// Returns all of those on so many faces at once: the 6 faces, the 12 edges or the 8 corners.
     #[must_use]
     pub fn all(faces: usize) -> Vec<Self> {
         let side = |k: usize| [-1, 1, 0][k];
         let every = (0..27).map(|k| Self(Lands::On([side(k / 9), side(k / 3 % 3), side(k % 3)])));
         every.filter(|attitude| attitude.faces() == faces).collect()
     }
-    /// On how many faces at once: 1 a face, 2 an edge, 3 a corner; 0 of one that is tilted by an angle.
+    /// Returns on how many faces at once it lands: 1 a face, 2 an edge, 3 a corner; 0 of one that is tilted by an angle.
     #[must_use]
     pub fn faces(self) -> usize {
         let Lands::On(sides) = self.0 else { return 0 };
         sides.iter().filter(|side| **side != 0).count()
     }
-    /// The axes of a box along which what it lands on lies level: two of a face, one of an edge, none of a corner.
+    /// Returns the axes of a box along which its lowest face, edge or corner lies level: two of a face, one of an edge, none of a corner.
     pub(crate) fn level(self, faces_m: [[f64; 2]; 3]) -> Vec<usize> {
         let upward = self.upward(faces_m);
         (0..3).filter(|axis| upward[*axis] == 0.0).collect()
     }
-    /// The axis of the box about which the tilt of one that is tilted grows; none of one that lands on faces.
+    /// Returns the axis of the box about which the tilt of one that is tilted grows; none of one that lands on faces.
     pub(crate) fn about(self) -> Option<[f64; 3]> {
         let Lands::Tilted { direction_rad, .. } = self.0 else { return None };
         let (across, along) = libm::sincos(direction_rad);
         Some([across, -along, 0.0])
     }
-    /// The vertical in axes of a box whose faces have these distances from the center of mass, −x, +x, −y and so on: the center of mass
-    /// is over the face, or straight over the edge or corner.
+    /// Returns the vertical in axes of a box whose faces have these distances from the center of mass, −x, +x, −y and so on: the center of
+    /// mass is over the face, or straight over the edge or corner.
     pub(crate) fn upward(self, faces_m: [[f64; 2]; 3]) -> [f64; 3] {
         let up = match self.0 {
             Lands::On(sides) => [0, 1, 2].map(|axis| match sides[axis] {
@@ -124,7 +124,7 @@ impl Serialize for Attitude {
     }
 }
 
-/// How a box lies as it lands, but for its tolerance.
+/// The posture of a box as it lands, but for its tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Base {
     /// The vertical in its axes.

@@ -1,4 +1,4 @@
-//! What no drop of the ranges exceeds, by the energy that the body has as it touches.
+//! This module finds the bound that no drop of the ranges exceeds, by the energy that the body has as it touches.
 //!
 //! Per mass that is `E = ½ v₀² + ½ ρ² ω₀² + g y`, y the height of the center of mass over where it lies. It bounds every speed from then
 //! on, whatever the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by
@@ -10,11 +10,11 @@ use crate::attitude::Base;
 use crate::quantity::Source;
 use crate::{Component, DropRanges, Limit, Mount, Product};
 
-/// Drops are followed without friction. Parts of a box that move along the ground are judged with what so much friction may add: steel,
-/// glass and hard plastics on concrete and wood have less, rubber may have more.
+/// Drops are followed without friction. Parts of a box that move along the ground are assessed with the demand that so much friction may
+/// add: steel, glass and hard plastics on concrete and wood have less, rubber may have more.
 pub(crate) const FRICTION: f64 = 0.6;
 
-/// The largest value of a limited quantity that the energy of the drops allows; none for the response of a suspended part and for
+/// Returns the largest value of a limited quantity that the energy of the drops allows; none for the response of a suspended part and for
 /// contacts without a bound.
 ///
 /// # Formula
@@ -41,7 +41,7 @@ pub(crate) fn bound(
     let rho = product.gyration_m.lo();
     let [_, fastest] = drop.speeds_m_s();
     let height = a.max(b) * libm::sin(drop.tilt_rad.hi());
-    // What it turns with grows with the radius of gyration.
+    // The share of the turning grows with the radius of gyration.
     let turns = drop.fastest_rad_s() * product.gyration_m.hi();
     let speed = (fastest * fastest + turns * turns + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
     let e = product.restitution.hi();
@@ -73,7 +73,7 @@ pub(crate) fn bound(
             Some((1.0 + e) * speed * one)
         }
         (Source::Turn, _) => Some(2.0 * speed / rho),
-        // How hard edges beyond feet press is not known.
+        // The force on edges beyond feet is not known.
         (Source::Response(peak), Some(_)) if peak.is_acceleration() && product.body.feet.is_none() => {
             let hard = component.mount == Mount::Hard && law.leaves_a_dent();
             let contacts = product.stiffest(law).filter(|_| hard)?;
@@ -88,7 +88,7 @@ pub(crate) fn bound(
     }
 }
 
-/// The same of a plate or a box, whose contacts take time.
+/// Returns the same of a plate or a box, whose contacts take time.
 ///
 /// # Formula
 /// Speeds at a place p are at most √(2E (1 + p²)), p in radii of gyration, and may turn around. A corner that holds E_i on its line of
@@ -163,15 +163,16 @@ fn of_plate(
     }
 }
 
-/// The largest acceleration that the ground gives a place of a box, whatever it lands on, with `speed` = √(2E) and a contact that stops the
-/// center of mass alone from that speed with `stops_m_s2`.
+/// Returns the largest acceleration that the ground gives a place of a box, whatever it lands on, with `speed` = √(2E) and a contact that
+/// stops the center of mass alone from that speed with `stops_m_s2`.
 ///
 /// # Formula
 /// A force F over the mass at corner i gives the place, along the axis of its part, at most F √μ_i √(1 + p²). The corner is as stiff as
 /// its arm was when it touched, and presses with at most √(2E_i) ω₁/√μ_i of that moment; while it presses √μ grows at most by
 /// 1 + ω τ r/k, as the box turns by ω τ (r the distance of the farthest corner, k the least radius of gyration, ω = √(2E)/k). Four
-/// corners of a face do at most √4 times as much as one that has all of the energy. A box that turns feels ω² |p| besides, and of a
-/// torque-free change of its axis of spin at most ω² |p|/√3. Friction of the ground pushes across by [`FRICTION`] of each force.
+/// corners of a face do at most √4 times as much as one that has all of the energy. A place of a turning box has an acceleration of ω² |p|
+/// as well, and of a torque-free change of its axis of spin at most ω² |p|/√3. Friction of the ground pushes across by [`FRICTION`] of each
+/// force.
 pub(crate) fn box_acceleration(drop: &Drop, place: &Place, speed: f64, stops_m_s2: f64, longest_s: f64) -> f64 {
     let Some(Levers { farthest_m, place_m, across }) = drop.levers(place) else { return f64::INFINITY };
     let least = drop.least_gyration_m();
@@ -183,7 +184,7 @@ pub(crate) fn box_acceleration(drop: &Drop, place: &Place, speed: f64, stops_m_s
     2.0 * stops_m_s2 * pushed + (1.0 + 3_f64.sqrt().recip()) * spins * spins * place_m
 }
 
-/// The largest radius of gyration about an axis that a plate or a box turns about, as thick as it is taken where real tilt counts.
+/// Returns the largest radius of gyration about an axis that a plate or a box turns about, as thick as it is taken where real tilt counts.
 fn most_gyration_m(product: &Product, is_box: bool) -> f64 {
     let Some(width) = &product.body.width else { return product.gyration_m.hi() };
     let along = product.gyration_m.hi();

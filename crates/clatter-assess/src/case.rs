@@ -27,15 +27,15 @@ pub struct Case {
     pub drop: Drop,
     /// The model that answers it.
     pub model: Model,
-    /// To which tolerance.
+    /// The tolerance of the answer.
     pub tolerance: f64,
-    /// Where the part is, and along which axis it moves.
+    /// The place of the part, and the axis along which it moves.
     pub place: Place,
-    /// How it swings; null where it is mounted rigidly.
+    /// The free vibration of the part; null where it is mounted rigidly.
     pub swings: Option<Swings>,
 }
 
-/// How a part swings by itself.
+/// The free vibration of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Swings {
@@ -46,14 +46,14 @@ pub struct Swings {
 }
 
 impl Case {
-    /// That of a worst drop.
+    /// Returns the case of a worst drop.
     #[must_use]
     pub fn of(worst: &WorstCase) -> Self {
         let WorstCase { drop, part, model, tolerance, .. } = *worst;
         let swings = |part: Suspension| Swings { omega_rad_s: part.omega(), damping_ratio: part.damping().get() };
         Self { drop, model, tolerance, place: part.place, swings: part.suspension.map(swings) }
     }
-    /// The part.
+    /// Returns the part.
     ///
     /// # Errors
     /// [`Error::Shock`] for one that does not swing.

@@ -1,4 +1,4 @@
-//! What a product must be to be assessed: the same for one from a file and for one that was built in code.
+//! This module checks that a product can be assessed: the rules are the same for one from a file and for one that was built in code.
 
 use std::collections::HashSet;
 
@@ -17,7 +17,7 @@ use crate::{
 
 /// Feet may lie so far inside the edges, over the side.
 pub(crate) const FEET_INSIDE: f64 = 0.4;
-/// How far the center of mass may lie from the middle, over the length.
+/// The largest distance of the center of mass from the middle, over the length.
 const FARTHEST_CENTER: f64 = 0.45;
 /// Product of inertia over the mass, over the product of both radii of gyration: next to 1 all mass is along one line.
 const FARTHEST_LEAN: f64 = 0.99;
@@ -29,7 +29,7 @@ pub(crate) const WRITTEN: f64 = 1e-5;
 const ROUNDINGS: f64 = 1e-9;
 
 impl ProductFile {
-    /// Checks everything that a product file would be refused for. What assesses, scatters, or designs a product calls it.
+    /// Checks everything that a product file would be refused for. Each function that assesses, scatters, or designs a product calls it.
     ///
     /// # Errors
     /// [`Error::Data`] for the first value that is not allowed, with the component that has it; [`Error::ContactTime`] for a stiff
@@ -111,7 +111,7 @@ impl ProductFile {
         }
         Ok(())
     }
-    /// Whether feet touch first, also in the steepest drop.
+    /// Checks that feet touch first, also in the steepest drop.
     fn check_feet(&self) -> Result<(), DataFault> {
         let Some(feet) = &self.product.body.feet else { return Ok(()) };
         if self.is_box() {
@@ -127,11 +127,11 @@ impl ProductFile {
     pub(crate) fn check_alike(&self, what: &'static str) -> Result<(), Error> {
         if self.product.own_contacts.is_none() { Ok(()) } else { Err(Error::AlikeContacts(what)) }
     }
-    /// Whether what touches first comes down, whatever the spin.
+    /// Checks that the place that touches first comes down, whatever the spin.
     fn check_spin(&self) -> Result<(), DataFault> {
         self.listed().iter().try_for_each(|one| spin_down(&self.product, &one.drop, one.base.is_some()))
     }
-    /// Whether strikes that are apart are told apart: without contact time those within a time would be one, which with a spin they are not.
+    /// Checks that separate strikes stay separate: without contact time those within a time would be one, which with a spin they are not.
     pub(crate) fn check_apart(&self, merge_s: f64) -> Result<(), DataFault> {
         if self.product.contact_time_s.is_some() {
             return Ok(());
@@ -250,8 +250,8 @@ impl Product {
     }
 }
 
-/// Whether what touches first comes down in all drops of the ranges, with a thousandth of the speed at least: of a bar an end, of a plate a
-/// corner, of a box any corner.
+/// Checks that the place that touches first comes down in all drops of the ranges, with a thousandth of the speed at least: of a bar an
+/// end, of a plate a corner, of a box any corner.
 pub(crate) fn spin_down(product: &Product, drop: &DropRanges, is_box: bool) -> Result<(), DataFault> {
     let [speed_m_s, _] = drop.speeds_m_s();
     let [x, y] = product.body.feet.map_or([0.0; 2], |feet| feet.inset_m);
@@ -286,7 +286,7 @@ pub(crate) fn spin_down(product: &Product, drop: &DropRanges, is_box: bool) -> R
     Err(DataFault::SpinUp { spin_rad_s, speed_m_s: (1.0 - LEAST_APPROACH) * speed_m_s, arm_m, both: is_box })
 }
 
-/// What touches first comes down with this share of the speed at least.
+/// The place that touches first comes down with this share of the speed at least.
 const LEAST_APPROACH: f64 = 1e-3;
 
 pub(crate) fn mass(mass_kg: f64) -> Result<(), DataFault> {
@@ -299,8 +299,8 @@ fn center(side: &'static str, center_m: f64, side_m: f64) -> Result<(), DataFaul
     if is_within { Ok(()) } else { Err(DataFault::CenterOfMass { side, center_m, side_m }) }
 }
 
-/// Refuses a radius of gyration larger than that of masses at both ends of a side, √(a b), which lie a and b from the center of mass: of all
-/// masses between them with this center these have the largest.
+/// Refuses a radius of gyration larger than that of masses at both ends of a side, √(a b), which lie a and b from the center of mass: of
+/// all masses between them with this center these have the largest.
 fn gyration(side: &'static str, gyration_m: f64, least_m: f64, [a, b]: [f64; 2]) -> Result<(), DataFault> {
     let most_m = (a * b).sqrt();
     let is_possible = (least_m..=most_m * (1.0 + WRITTEN)).contains(&gyration_m);
@@ -320,14 +320,14 @@ pub(crate) fn within(
     if is_within { Ok(()) } else { Err(DataFault::Outside { what, side, reach_m, half_m }) }
 }
 
-/// The largest radius of gyration of masses within a product, about its center of mass.
+/// Returns the largest radius of gyration of masses within a product, about its center of mass.
 pub(crate) fn most_gyration_m(product: &Product) -> f64 {
     let inset_m = product.body.feet.map_or(0.0, |feet| feet.inset_m[0]);
     let [a, b] = product.body.arms_m().map(|arm_m| arm_m + inset_m);
     (a * b).sqrt()
 }
 
-/// The body with its center of mass so far from the middle, towards end b; the product goes on beyond it by `inset_m`.
+/// Returns the body with its center of mass so far from the middle, towards end b; the product goes on beyond it by `inset_m`.
 pub(crate) fn body_of(length_m: f64, inset_m: f64, center_m: f64, gyration_m: f64) -> Result<Body, DataFault> {
     center("length", center_m, length_m)?;
     let half = 0.5 * length_m;
@@ -343,7 +343,7 @@ pub(crate) fn body_of(length_m: f64, inset_m: f64, center_m: f64, gyration_m: f6
     body.map_err(|_| DataFault::Gyration { side: "length", gyration_m, allowed_m })
 }
 
-/// The side across a plate with its center of mass so far from the middle; the product goes on beyond it by `inset_m`.
+/// Returns the side across a plate with its center of mass so far from the middle; the product goes on beyond it by `inset_m`.
 pub(crate) fn width_of(width_m: f64, inset_m: f64, center_m: f64, gyration_m: f64) -> Result<Side, DataFault> {
     center("width", center_m, width_m)?;
     let half = 0.5 * width_m;
@@ -371,11 +371,11 @@ impl DropRanges {
     }
 }
 
-/// How messages call a part.
+/// The words of messages for a part.
 const PART: &str = "the component with its extent";
 
 impl Component {
-    /// Whether it moves along an axis that it has.
+    /// Checks that it moves along an axis that it has.
     pub(crate) fn check_axis(&self, of_box: bool) -> Result<(), DataFault> {
         let Inside { height_m, axis } = self.inside;
         one(keys::COMPONENT, "height", height_m)?;
@@ -397,7 +397,7 @@ impl Component {
         thickness.map_or(Ok(()), |side| within(PART, "thickness", reach_m, side.m(), ROUNDINGS))
     }
 
-    /// Everything but whether its name is its own.
+    /// Checks everything but that its name is its own.
     pub(crate) fn check(&self, product: &Product) -> Result<(), Error> {
         let own = || -> Result<(), DataFault> {
             named(&self.name)?;
@@ -458,7 +458,7 @@ impl RecordFile {
     }
 }
 
-/// Whether an acceleration was measured at a place of the product.
+/// Checks that an acceleration was measured at a place of the product.
 pub(crate) fn sensor(position_m: f64, product: &Product) -> Result<(), DataFault> {
     within("the sensor", "length", position_m.abs(), product.sides_m()[0], ROUNDINGS)
 }
@@ -467,7 +467,7 @@ pub(crate) fn named(name: &str) -> Result<(), DataFault> {
     if name.trim().is_empty() { Err(DataFault::NoName) } else { Ok(()) }
 }
 
-/// What of a name tells a component from others: blanks around it do not.
+/// Returns the part of a name that distinguishes a component from others: blanks around it do not.
 pub(crate) fn told_apart(name: &str) -> &str {
     name.trim_matches(' ')
 }
@@ -476,7 +476,7 @@ fn number_of_components(count: usize) -> Result<(), DataFault> {
     if (1..=MOST_COMPONENTS).contains(&count) { Ok(()) } else { Err(DataFault::Components(count)) }
 }
 
-/// A range or a distribution, all of whose numbers are within the bounds of its key.
+/// Checks that all numbers of a range or a distribution are within the bounds of its key.
 /// Checks the inputs of a drop, or those that all drops share, against their keys.
 fn inputs(product: &Product, drop: &DropRanges, of_drop: bool) -> Result<(), DataFault> {
     INPUTS.iter().filter(|row| row.input.is_of_drop() == of_drop).try_for_each(|row| {
@@ -498,7 +498,7 @@ fn optional(table: &'static [Key], name: &'static str, value: Option<f64>) -> Re
     value.map_or(Ok(()), |value| one(table, name, value))
 }
 
-/// A value in SI within the bounds of its key.
+/// Checks that a value in SI is within the bounds of its key.
 fn one(table: &'static [Key], name: &'static str, value: f64) -> Result<(), DataFault> {
     let key = keys::find(table, name).map(|key| key.kind.of_side());
     let Some(Kind::Quantity(dimension, bounds) | Kind::Spread(dimension, bounds)) = key else {

@@ -9,27 +9,27 @@ use crate::{Error, LimitKind, Spread, Unit, units};
 /// A fragile part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Component {
-    /// As the file names it.
+    /// The name in the file.
     pub name: String,
-    /// Where its middle is.
+    /// The place of its middle.
     pub position_m: Spread,
-    /// How far it extends along the bar, both sides together; 0 for a point.
+    /// The extent along the bar, both sides together; 0 for a point.
     pub extent_m: f64,
-    /// Where its middle is across a plate; 0 of a bar.
+    /// The place of its middle across a plate; 0 of a bar.
     pub across_m: Spread,
-    /// How far it extends across a plate; 0 for a point.
+    /// The extent across a plate; 0 for a point.
     pub extent_across_m: f64,
-    /// How it lies in a box.
+    /// The place and axis of the part in a box.
     pub inside: Inside,
-    /// How it is held.
+    /// The mounting of the part.
     pub mount: Mount,
-    /// What it stands.
+    /// The limits that it stands.
     pub limits: Limits,
-    /// Where its limits are from, as the file tells it.
+    /// The source of its limits, as the file states it.
     pub limit_source: Option<String>,
 }
 
-/// How a part is held.
+/// The mounting of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Mount {
     /// Rigidly: it goes through what the bar goes through at its place.
@@ -53,14 +53,14 @@ pub enum Damping {
 }
 
 impl Damping {
-    /// What was given, a ratio or a quality factor.
+    /// Returns the given value, a ratio or a quality factor.
     #[must_use]
     pub fn spread(&self) -> &Spread {
         match self {
             Self::Ratio(spread) | Self::Quality(spread) => spread,
         }
     }
-    /// The damping ratio for a value of what was given.
+    /// Returns the damping ratio for a value of the given quantity.
     ///
     /// # Errors
     /// [`Error::Shock`] for one out of range.
@@ -70,7 +70,7 @@ impl Damping {
             Self::Quality(_) => DampingRatio::from_quality_factor(given)?,
         })
     }
-    /// The range of damping ratios, from the least.
+    /// Returns the range of damping ratios, from the least.
     #[must_use]
     pub fn ratios(&self) -> [f64; 2] {
         match self {
@@ -80,7 +80,7 @@ impl Damping {
     }
 }
 
-/// What a part stands; at least one limit is set. Each is finite and positive. Where one has a range, its least value is held
+/// The limits of a part; at least one is set. Each is finite and positive. Where one has a range, its least value is held
 /// against the worst drop.
 ///
 /// # Examples
@@ -99,27 +99,27 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The same with what is allowed of a kind, in its SI unit ([`LimitKind::unit`]). A damage boundary needs its acceleration too: see
-    /// [`with_damage_boundary`](Self::with_damage_boundary).
+    /// Returns the same limits with this allowed value of a kind, in its SI unit ([`LimitKind::unit`]). A damage boundary needs its
+    /// acceleration too: see [`with_damage_boundary`](Self::with_damage_boundary).
     #[must_use]
     pub fn with(mut self, kind: LimitKind, allowed: Spread) -> Self {
         self.allowed[kind as usize] = Some(allowed);
         self
     }
-    /// The same with a damage boundary: a shock of the product at the part does damage only beyond both, a velocity change and an
+    /// Returns the same with a damage boundary: a shock of the product at the part does damage only beyond both, a velocity change and an
     /// acceleration.
     #[must_use]
     pub fn with_damage_boundary(self, velocity_change_m_s: Spread, acceleration_m_s2: Spread) -> Self {
         let with = self.with(LimitKind::DamageBoundary, velocity_change_m_s);
         Self { critical_acceleration_m_s2: Some(acceleration_m_s2), ..with }
     }
-    /// The same without a limit of a kind.
+    /// Returns the same without a limit of a kind.
     #[must_use]
     pub fn without(mut self, kind: LimitKind) -> Self {
         self.allowed[kind as usize] = None;
         self
     }
-    /// What is allowed of a kind; of a damage boundary the critical velocity change.
+    /// Returns the allowed value of a kind; of a damage boundary the critical velocity change.
     #[must_use]
     pub fn get(&self, kind: LimitKind) -> Option<&Spread> {
         self.allowed[kind as usize].as_ref()
@@ -127,17 +127,17 @@ impl Limits {
     pub(crate) fn get_mut(&mut self, kind: LimitKind) -> Option<&mut Spread> {
         self.allowed[kind as usize].as_mut()
     }
-    /// The critical acceleration of a damage boundary.
+    /// Returns the critical acceleration of a damage boundary.
     #[must_use]
     pub fn critical_acceleration_m_s2(&self) -> Option<&Spread> {
         self.critical_acceleration_m_s2.as_ref().filter(|_| self.get(LimitKind::DamageBoundary).is_some())
     }
-    /// Those that are set, in a fixed order.
+    /// Returns the kinds that are set, in a fixed order.
     #[must_use]
     pub fn kinds(&self) -> Vec<LimitKind> {
         LimitKind::ALL.into_iter().filter(|kind| self.get(*kind).is_some()).collect()
     }
-    /// The unit in which the file gives a limit; of a damage boundary that of its velocity change or, by the SI unit, of its
+    /// Returns the unit in which the file gives a limit; of a damage boundary that of its velocity change or, by the SI unit, of its
     /// acceleration.
     #[must_use]
     pub fn unit(&self, kind: LimitKind, si: Unit) -> Option<&'static units::Unit> {
@@ -146,17 +146,17 @@ impl Limits {
     }
 }
 
-/// How a part lies in the thickness of a box.
+/// The place and axis of a part in the thickness of a box.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Inside {
-    /// Where its middle is across the thickness, from the middle; 0 of every bar and plate.
+    /// The place of its middle across the thickness, from the middle; 0 of every bar and plate.
     pub height_m: f64,
     /// Along which axis it moves.
     pub axis: Axis,
 }
 
 impl Inside {
-    /// The place of a part there, along the product and across it.
+    /// Returns the place of a part there, along the product and across it.
     #[must_use]
     pub fn place(&self, [x, y]: [f64; 2]) -> Place {
         Place { at_m: [x, y, self.height_m], axis: self.axis }
@@ -164,14 +164,14 @@ impl Inside {
 }
 
 impl Component {
-    /// A part without extent, whose limits are from nowhere that is told.
+    /// Returns a part without extent, whose limits have no stated source.
     #[must_use]
     pub fn new(name: impl Into<String>, position_m: Spread, mount: Mount, limits: Limits) -> Self {
         let (extent_m, across_m, extent_across_m) = (0.0, Spread::finite(0.0), 0.0);
         let (name, inside, limit_source) = (name.into(), Inside::default(), None);
         Self { name, position_m, extent_m, across_m, extent_across_m, inside, mount, limits, limit_source }
     }
-    /// The ends of where the part may be, \[x, y\]: one where it is a point, both ends along a bar, the corners of a rectangle on a
+    /// Returns the ends of where the part may be, \[x, y\]: one where it is a point, both ends along a bar, the corners of a rectangle on a
     /// plate.
     ///
     /// The worst place is one of them for all but changes of velocity, see [`places_m`](Self::places_m): for one drop the motion of the
@@ -188,12 +188,12 @@ impl Component {
     pub fn places_m(&self) -> Vec<[f64; 2]> {
         places(self.reaches_m(), self.limits.kinds())
     }
-    /// The same of a part whose middle is at one place of its ranges.
+    /// Returns the same of a part whose middle is at one place of its ranges.
     #[must_use]
     pub fn places_at_m(&self, at_m: [f64; 2]) -> Vec<[f64; 2]> {
         places(self.reaches_from_m(at_m.map(Spread::finite)), self.limits.kinds())
     }
-    /// From where to where the part may be along the length and across it.
+    /// Returns the range of places where the part may be, along the length and across it.
     pub(crate) fn reaches_m(&self) -> [[f64; 2]; 2] {
         self.reaches_from_m([self.position_m, self.across_m])
     }
@@ -201,13 +201,13 @@ impl Component {
         let reach = |of: Spread, half: f64| [of.lo() - half, of.hi() + half];
         [reach(along, 0.5 * self.extent_m), reach(across, 0.5 * self.extent_across_m)]
     }
-    /// How many places lie between its ends along each side.
+    /// Returns how many places lie between its ends along each side.
     pub(crate) fn between(&self) -> u32 {
         between(self.reaches_m())
     }
 }
 
-/// The ends of where a part reaches and, where a limit of these kinds asks for it, places between.
+/// Returns the ends of where a part reaches and, where a limit of these kinds needs it, places between.
 pub(crate) fn places(reaches: [[f64; 2]; 2], kinds: impl IntoIterator<Item = LimitKind>) -> Vec<[f64; 2]> {
     let [along, across] = reaches;
     let mut places = corners(along, across);
@@ -221,13 +221,13 @@ pub(crate) fn places(reaches: [[f64; 2]; 2], kinds: impl IntoIterator<Item = Lim
     places
 }
 
-/// How many places lie between the ends along each side.
+/// Returns how many places lie between the ends along each side.
 fn between(reaches: [[f64; 2]; 2]) -> u32 {
     let is_rectangle = reaches.iter().all(|[lo, hi]| lo < hi);
     if is_rectangle { BETWEEN_ON_PLATE } else { BETWEEN }
 }
 
-/// The corners of a rectangle, of which a side may be none.
+/// Returns the corners of a rectangle, of which a side may be none.
 pub(crate) fn corners([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Vec<[f64; 2]> {
     let along = if left < right { vec![left, right] } else { vec![left] };
     let mut all: Vec<_> = along.iter().map(|&x| [x, front]).collect();
@@ -241,7 +241,7 @@ pub(crate) fn corners([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Vec<[
 const BETWEEN: u32 = 7;
 const BETWEEN_ON_PLATE: u32 = 2;
 
-/// Both ends, and so many places that lie evenly between them; one where both are the same.
+/// Returns both ends, and so many places that lie evenly between them; one where both are the same.
 fn with_between([lo, hi]: [f64; 2], count: u32) -> Vec<f64> {
     if lo >= hi {
         return vec![lo];
@@ -251,7 +251,7 @@ fn with_between([lo, hi]: [f64; 2], count: u32) -> Vec<f64> {
 }
 
 impl Mount {
-    /// The suspension at a frequency and a damping ratio; none of a part that is mounted rigidly.
+    /// Returns the suspension at a frequency and a damping ratio; none of a part that is mounted rigidly.
     ///
     /// # Errors
     /// [`Error::Shock`] unless the frequency is finite and positive and the ratio in range.

@@ -1,10 +1,10 @@
-//! What data of a product may be wrong by: the words that messages of product files and errors of the library share.
+//! This module lists the faults of the data of a product: the words that messages of product files and errors of the library share.
 
 use crate::keys::MOST_COMPONENTS;
 use crate::standard;
 use crate::{DropName, LimitKind};
 
-/// What is wrong with data of a product.
+/// A fault in the data of a product.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum DataFault {
@@ -16,7 +16,7 @@ pub enum DataFault {
         value: f64,
         /// Its SI unit; empty for a plain number.
         unit: &'static str,
-        /// What is allowed.
+        /// The allowed values.
         allowed: String,
     },
     /// A center of mass too far out.
@@ -25,12 +25,12 @@ pub enum DataFault {
         side: &'static str,
         /// Its place, from the middle.
         center_m: f64,
-        /// How long that side is.
+        /// The length of that side.
         side_m: f64,
     },
     /// A radius of gyration that no masses within the body have.
     Gyration {
-        /// Of the mass along `length`, `width` or `thickness`.
+        /// The side of the mass, along `length`, `width` or `thickness`.
         side: &'static str,
         /// The radius.
         gyration_m: f64,
@@ -39,11 +39,11 @@ pub enum DataFault {
     },
     /// Something beyond a face of the body.
     Outside {
-        /// How messages call it.
+        /// The words of messages for it.
         what: &'static str,
         /// Along `length`, `width` or `thickness`.
         side: &'static str,
-        /// How far it reaches from the middle.
+        /// The reach from the middle.
         reach_m: f64,
         /// Half of that side.
         half_m: f64,
@@ -64,12 +64,12 @@ pub enum DataFault {
     },
     /// A plate without contact time.
     PlateWithoutContactTime,
-    /// What a plate does not have.
+    /// A key that a plate does not have.
     OfPlate {
         /// The key.
         field: &'static str,
     },
-    /// What a product without width does not have.
+    /// A key that a product without width does not have.
     OfBar {
         /// The key.
         field: &'static str,
@@ -78,11 +78,11 @@ pub enum DataFault {
     BoxWithoutThickness,
     /// A drop that is listed twice.
     Twice(DropName),
-    /// Drops on faces, edges and corners beside drops at a tilt.
+    /// Drops on faces, edges and corners together with drops at a tilt.
     BoxAndPlate,
     /// Gravity that is not that of the other drops.
     Gravity,
-    /// What an attitude is not called.
+    /// A value that is not the name of an attitude.
     Attitude {
         /// The key.
         field: &'static str,
@@ -97,14 +97,14 @@ pub enum DataFault {
     StandardMass {
         /// Its mass.
         mass_kg: f64,
-        /// At most.
+        /// The largest mass.
         most_kg: f64,
     },
     /// An axis of a part that is no box's, or that a part on a suspension does not have.
     Axis(&'static str),
     /// A body with another radius of gyration than the middle of the range of the product.
     OtherGyration {
-        /// That of the body.
+        /// The radius of gyration of the body.
         gyration_m: f64,
         /// The middle of the range.
         middle_m: f64,
@@ -115,13 +115,13 @@ pub enum DataFault {
     Components(usize),
     /// A component without a name.
     NoName,
-    /// Two components of one name: answers could not be told apart.
+    /// Two components of one name: answers could not be distinguished.
     SameName(String),
     /// Feet that are too close to one another.
     FeetApart {
-        /// How far inside the edges.
+        /// The distance inside the edges.
         inset_m: f64,
-        /// From edge to edge.
+        /// The side from edge to edge.
         side_m: f64,
     },
     /// Feet of a box that lands on any side.
@@ -155,9 +155,9 @@ pub enum DataFault {
         spin_rad_s: f64,
         /// The least speed of the drops.
         speed_m_s: f64,
-        /// How far from the center of mass it touches at most.
+        /// The largest distance of the touch from the center of mass.
         arm_m: f64,
-        /// Whether a spin of either sign may do so, as of a box.
+        /// True where a spin of either sign may do so, as of a box.
         both: bool,
     },
     /// A spin of a product without contact time whose ends may land as one.
@@ -177,7 +177,7 @@ pub enum DataFault {
 }
 
 impl DataFault {
-    /// What is wrong, with the value, and what is allowed.
+    /// Returns the fault with the value, and the allowed values.
     #[must_use]
     #[expect(clippy::too_many_lines, reason = "a sentence for each")]
     pub fn told(&self) -> [String; 2] {
@@ -372,7 +372,7 @@ impl std::fmt::Display for DataFault {
     }
 }
 
-/// What messages say of a value as it was written.
+/// Returns the words of messages for a value as it was written.
 pub(crate) fn out_of_range(field: &str, value: impl std::fmt::Display) -> String {
     format!("`{field}` = {value} is out of its range")
 }
@@ -387,7 +387,7 @@ fn mm(length_m: f64) -> f64 {
     (1e6 * length_m).round() / 1e3
 }
 
-/// Square millimeters to a thousandth.
+/// Returns square millimeters to a thousandth.
 fn mm2(product_m2: f64) -> f64 {
     (1e9 * product_m2).round() / 1e3
 }

@@ -1,7 +1,7 @@
 //! The one way from a drop to an answer.
 //!
-//! [`answer`] follows a drop by a model, takes what the place of the part feels, and gives the largest value of one limited
-//! quantity. Commands that ask for many answers of one drop keep the drop between them; nothing else is different.
+//! [`answer`] follows a drop by a model, takes the acceleration at the place of the part, and gives the largest value of one limited
+//! quantity. Commands that need many answers of one drop keep the drop between them; nothing else is different.
 
 mod friction;
 mod later;
@@ -22,74 +22,74 @@ use crate::{DataFault, Error, Limit, Model, Unit};
 /// A part at one place of the product.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Part {
-    /// Where it is, and along which axis it moves.
+    /// The place of the part, and the axis along which it moves.
     pub place: Place,
-    /// How it is held; none where it is mounted rigidly.
+    /// The suspension; none where it is mounted rigidly.
     pub suspension: Option<Suspension>,
 }
 
 impl Part {
-    /// A part of a bar, so far from its middle towards end b.
+    /// Returns a part of a bar, so far from its middle towards end b.
     #[must_use]
     pub fn new(position_m: f64, suspension: Option<Suspension>) -> Self {
         Self::at(Place::flat([position_m, 0.0]), suspension)
     }
-    /// A part at a place.
+    /// Returns a part at a place.
     #[must_use]
     pub fn at(place: Place, suspension: Option<Suspension>) -> Self {
         Self { place, suspension }
     }
-    /// Where it is, along and across the product.
+    /// Returns its place, along and across the product.
     pub(crate) fn at_m(&self) -> [f64; 2] {
         self.place.plan_m()
     }
 }
 
-/// What a drop asks of a part.
+/// The demand of a drop on a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Answer {
     /// The largest value of the quantity; of a damage boundary the velocity change or the acceleration, whichever leaves more
     /// room.
     pub value: f64,
-    /// What is allowed of it.
+    /// The allowed value of the quantity.
     pub allowed: f64,
     /// Their unit.
     pub unit: Unit,
-    /// When, since the first touch.
+    /// The time since the first touch.
     pub time_s: f64,
     /// The strike that does it, or that the peak follows; from 1.
     pub impact: u64,
-    /// How far off the value may be for what the model leaves out of its own motion, in the unit of the value: what lever arms kept
-    /// through a phase get wrong, and what later strikes could still do. It says nothing of the physics that the model lacks.
+    /// The error bound of the value for the part of its own motion that the model leaves out, in the unit of the value: what lever arms
+    /// kept through a phase get wrong, and what later strikes could still do. It says nothing of the physics that the model lacks.
     pub off_by: f64,
 }
 
 impl Answer {
-    /// Value over allowed: beyond 1 the limit is exceeded.
+    /// Returns the value over the allowed one: beyond 1 the limit is exceeded.
     #[must_use]
     pub fn utilization(&self) -> f64 {
         self.value / self.allowed
     }
-    /// How far off the value may be, as a share of it; infinite where the value is 0 and may be off.
+    /// Returns how far off the value may be, as a share of it; infinite where the value is 0 and may be off.
     #[must_use]
     pub fn error(&self) -> f64 {
         if self.off_by > 0.0 { self.off_by / self.value } else { 0.0 }
     }
 }
 
-/// What one drop asks of one limit of a part: the largest value of the quantity over the whole motion.
+/// Returns the demand of one drop for one limit of a part: the largest value of the quantity over the whole motion.
 ///
 /// `tolerance` is how exact the answer is for its model: how long a phase may keep its lever arms, how finely damped
 /// vibrations are cut, and when nothing later can count.
 ///
 /// # Validity
-/// The part is light and linear; the product is rigid. Of instant impacts a suspended part feels velocity shocks, and the
-/// acceleration of a part mounted rigidly is that of half-sines of the contact time. From when the product lies still a part on it
-/// feels its weight.
+/// The part is light and linear; the product is rigid. Instant impacts act on a suspended part as velocity shocks, and the acceleration of
+/// a part mounted rigidly is that of half-sines of the contact time. From when the product lies still, the weight of a part on it acts on
+/// the part.
 ///
 /// # Accuracy
-/// [`Answer::off_by`]; within `tolerance` of independent integrations until the product lands again (tests). What each strike gets
-/// wrong is then multiplied by the next ones, and the error is the difference to a drop followed ten times as exactly.
+/// The error is bounded by [`Answer::off_by`]; it is within `tolerance` of independent integrations until the product lands again (tests).
+/// The error of each strike is then multiplied by the next ones, and the error is the difference to a drop followed ten times as exactly.
 ///
 /// # Errors
 /// [`Error::Tolerance`]; [`Error::Contact`] where the contact time is needed and not known; [`Error::Flight`], [`Error::Bar`] and
@@ -98,7 +98,7 @@ impl Answer {
 /// [`Error::Unfinished`] for a motion that was given up before nothing later counts.
 ///
 /// # Examples
-/// The end of the paper's reference bar (q = ½, e = 0.3) feels 2.145 v₀ at most, by instant impacts without gravity:
+/// The end of the paper's reference bar (q = ½, e = 0.3) has a velocity change of 2.145 v₀ at most, by instant impacts without gravity:
 /// ```
 /// use clatter_assess::{Body, Drop, Limit, LimitKind, Model, Part, answer};
 /// let drop = Drop { gravity_m_s2: 0.0, ..Drop::new(Body::new(0.15, 0.15 / 12_f64.sqrt())?, 4.0, 0.05, 0.3) };
@@ -128,7 +128,7 @@ pub fn answer(drop: &Drop, part: &Part, limit: &Limit, model: Model, tolerance: 
     Ok(once(drop, part, limit, model, tolerance)?.with_what_strikes_multiply(drop, part, limit, model, tolerance))
 }
 
-/// Differences are told so many times as large as they are: the factor of the grid convergence index (Roache 1994) for three runs
+/// Differences are reported so many times as large as they are: the factor of the grid convergence index (Roache 1994) for three runs
 /// and more.
 const SAFETY: f64 = 1.25;
 /// A box that differs a little is followed so far past the peak.
@@ -139,9 +139,9 @@ const FINER: f64 = 0.1;
 const UPRIGHT: f64 = FRAC_PI_2 * (1.0 - 1e-9);
 
 impl Answer {
-    /// Each strike multiplies what the ones before it got wrong, by more than a bound could tell. A drop whose peak comes after the
+    /// Each strike multiplies what the ones before it got wrong, by more than a bound could cover. A drop whose peak comes after the
     /// second is followed again: more exactly, and with a tilt or with shocks that differ by what lever arms may get wrong. The
-    /// largest difference is told.
+    /// largest difference is reported.
     pub(crate) fn with_what_strikes_multiply(
         self,
         drop: &Drop,
@@ -155,10 +155,10 @@ impl Answer {
         }
         // Where a drop next to this one is not answered, nothing tells how far off this one is.
         let off = |other: &Drop, tolerance: f64| {
-            // How a box lands again is another question: the energy that is left answers it.
+            // The next landing of a box is another question: the energy that is left answers it.
             let until = if drop.is_solid() { Until::Past(PAST_PEAK * self.time_s) } else { Until::Over };
             let other = follow(other, model, tolerance, until).and_then(|other| of_followed(&other, part, limit));
-            // As shares of what is allowed: of a damage boundary one may be a change of velocity, the other an acceleration.
+            // The values are shares of the allowed one: of a damage boundary one may be a change of velocity, the other an acceleration.
             other.map_or(f64::INFINITY, |other| (other.utilization() - self.utilization()).abs() * self.allowed)
         };
         // A box is followed as exactly for any tolerance.
@@ -175,17 +175,17 @@ impl Answer {
     }
 }
 
-/// The answer of a drop that is followed once, whose error leaves out that strikes multiply those before them.
+/// Returns the answer of a drop that is followed once, whose error leaves out that strikes multiply those before them.
 pub(crate) fn once(drop: &Drop, part: &Part, limit: &Limit, model: Model, tolerance: f64) -> Result<Answer, Error> {
     of_followed(&follow(drop, model, tolerance, Until::Over)?, part, limit)
 }
 
-/// The same of a drop that is followed already.
+/// Returns the same of a drop that is followed already.
 pub(crate) fn of_followed(followed: &Followed, part: &Part, limit: &Limit) -> Result<Answer, Error> {
     PlaceHistory::new(followed, part.place)?.answer_or_nothing(limit, part.suspension.as_ref())
 }
 
-/// An answer from the largest shock or the net change of velocity alone, without following a strike.
+/// Returns an answer from the largest shock or the net change of velocity alone, without following a strike.
 fn closed_form(drop: &Drop, part: &Part, limit: &Limit, model: Model) -> Result<Answer, Error> {
     let [a, b] = drop.body.arms_m();
     let flat_m_s = (1.0 + drop.restitution) * drop.speed_m_s;
@@ -228,7 +228,7 @@ fn closed_form(drop: &Drop, part: &Part, limit: &Limit, model: Model) -> Result<
     })
 }
 
-/// The response of a suspension at the place of a part in one drop, with all its peaks.
+/// Computes the response of a suspension at the place of a part in one drop, with all its peaks.
 ///
 /// # Errors
 /// As [`answer`].
@@ -242,11 +242,11 @@ pub fn respond(
     check_drop(drop, &place.place)?;
     let followed = follow(drop, model, tolerance, Until::Over)?;
     let pulses = PlaceHistory::new(&followed, place.place)?.pulses;
-    // What comes after a motion that was left early is no ring-down.
+    // The motion after one that was left early is no ring-down.
     Ok(if followed.is_early() { pulses.respond_within(suspension) } else { pulses.respond(suspension) })
 }
 
-/// What one place of a followed drop feels.
+/// The history of the acceleration at one place of a followed drop.
 #[derive(Debug)]
 pub(crate) struct PlaceHistory<'a> {
     followed: &'a Followed,
@@ -254,9 +254,9 @@ pub(crate) struct PlaceHistory<'a> {
     pulses: Pulses,
     place: Place,
     fastest_rad_s: f64,
-    /// Its velocity shocks, as they are asked for.
+    /// Its velocity shocks, made when they are first requested.
     shocks: OnceLock<Vec<Shock>>,
-    /// How parts move as it ends, of those that were asked for.
+    /// The motion of parts as it ends, of those that were requested.
     ends: Mutex<Vec<(Suspension, State)>>,
     /// The same until earlier, of which all answers are known.
     known: Option<&'a PlaceHistory<'a>>,
@@ -267,7 +267,7 @@ impl<'a> PlaceHistory<'a> {
         Self::rough(followed, place, f64::INFINITY)
     }
 
-    /// The same for responses of parts up to a natural frequency, to about 1 %: pulses that are short beside the period of
+    /// Returns the same for responses of parts up to a natural frequency, to about 1 %: pulses that are short compared with the period of
     /// the fastest part are taken as velocity shocks of the same impulse at the mean time.
     pub(crate) fn rough(followed: &'a Followed, place: Place, fastest_rad_s: f64) -> Result<Self, Error> {
         if followed.is_cut() {
@@ -279,12 +279,12 @@ impl<'a> PlaceHistory<'a> {
         Ok(Self { followed, history, pulses, place, fastest_rad_s, shocks, ends, known: None })
     }
 
-    /// The same place in the same drop, followed for longer.
+    /// Returns the same place in the same drop, followed for longer.
     pub(crate) fn longer(&'a self, followed: &'a Followed) -> Result<Self, Error> {
         Ok(Self { known: Some(self), ..Self::rough(followed, self.place, self.fastest_rad_s)? })
     }
 
-    /// The answer for one limit, if its utilization passes `above`.
+    /// Returns the answer for one limit, if its utilization passes `above`.
     pub(crate) fn answer(
         &self,
         limit: &Limit,
@@ -328,7 +328,7 @@ impl<'a> PlaceHistory<'a> {
         Ok(Some(answer).filter(|answer| answer.utilization() > above))
     }
 
-    /// The answer for one limit; 0 where nothing is asked of it.
+    /// Returns the answer for one limit; 0 where it has no demand.
     pub(crate) fn answer_or_nothing(&self, limit: &Limit, suspension: Option<&Suspension>) -> Result<Answer, Error> {
         let (allowed, unit) = (limit.allowed, limit.kind.unit());
         let nothing =
@@ -369,33 +369,33 @@ impl<'a> PlaceHistory<'a> {
         }
         all
     }
-    /// The velocity shocks.
+    /// Returns the velocity shocks.
     pub(crate) fn shocks(&self) -> &[Shock] {
         self.shocks.get_or_init(|| shocks_at(self.followed, &self.place, &self.history))
     }
-    /// Peak of a suspended part where it passes `above`: value, time and what it may be off by.
+    /// Returns the peak of a suspended part where it passes `above`: value, time and error bound.
     fn peak(&self, of: ResponsePeak, part: &Suspension, above: f64) -> Option<(f64, f64, f64)> {
         let (omega, peaked) = (part.omega(), of.peaked);
         let unit = of.of_velocity(1.0, omega);
-        // What comes after a motion that was left early is no ring-down.
+        // The motion after one that was left early is no ring-down.
         let (peak, end) = self.pulses.peak_and_end(part, peaked, above / unit, !self.followed.is_early());
         self.ends().push((*part, end));
         let peak = peak?;
         let velocity = peak.value.abs();
-        // What rings on as the motion is left, and the later shocks, as if all came at its crest.
+        // The vibration that rings on as the motion is left, and the later shocks, are taken as if all came at its crest.
         let doubt = if self.followed.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
             let most = libm::hypot(omega * end.displacement, end.velocity) + self.later().shock_of(part);
             most * libm::hypot(of.of_damper(part.damping()), 1.0) - velocity
         } else {
             0.0
         };
-        // A part that is fast beside a contact follows its force and not its velocity.
+        // A part that is fast compared with a contact follows its force and not its velocity.
         let follows = (omega / self.peak_per_change()).max(1.0);
         let off = kept_arms(self.followed) * self.followed.largest_m_s / follows;
         Some((unit * velocity, peak.time, unit * (off + doubt.max(0.0))))
     }
 
-    /// How a part moves as the history ends.
+    /// Returns how a part moves as the history ends.
     fn end_of(&self, part: &Suspension) -> State {
         let known = self.ends().iter().find(|(other, _)| other == part).map(|(_, end)| *end);
         known.unwrap_or_else(|| {
@@ -408,7 +408,7 @@ impl<'a> PlaceHistory<'a> {
         self.ends.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Largest acceleration in a lone contact over its change of velocity; infinite where no contact time is known.
+    /// Returns the largest acceleration in a lone contact over its change of velocity; infinite where no contact time is known.
     fn peak_per_change(&self) -> f64 {
         let half_sine = || self.followed.drop.contact_time_s.map_or(f64::INFINITY, |time| FRAC_PI_2 / time);
         self.followed.peak_per_change().unwrap_or_else(half_sine)
@@ -418,15 +418,15 @@ impl<'a> PlaceHistory<'a> {
         self.followed.drop.contact_time_s.ok_or(Error::Contact)
     }
 
-    /// Largest acceleration of the product at the place, and when. Instant impacts are half-sines of the contact time: their largest
-    /// value is that of hysteretic contacts as well.
+    /// Returns the largest acceleration of the product at the place, and when. Instant impacts are half-sines of the contact time: their
+    /// largest value is that of hysteretic contacts as well.
     fn largest_acceleration(&self, contact_s: f64) -> Option<(f64, f64)> {
         let of = |shock: &Shock| if shock.peak.is_finite() { shock.peak } else { shock.change * FRAC_PI_2 / contact_s };
         let all = self.shocks();
         all.iter().map(|shock| (of(shock), shock.time_s)).reduce(|most, one| if one.0 > most.0 { one } else { most })
     }
 
-    /// Of every shock, what leaves more room of velocity change and acceleration; the shock that leaves least.
+    /// Returns the shock that leaves least room, each by velocity change or acceleration, whichever leaves more.
     fn boundary(&self, limit: &Limit, above: f64) -> Option<Answer> {
         let contact_s = self.followed.drop.contact_time_s;
         let mut worst: Option<Answer> = None;
@@ -453,10 +453,10 @@ impl<'a> PlaceHistory<'a> {
     }
 }
 
-/// What lever arms kept through a phase may get wrong of a shock, in precisions of the flight (clatter-flight).
+/// The error of a shock from lever arms kept through a phase, at most, in precisions of the flight (clatter-flight).
 const KEPT_ARMS: f64 = 4.0;
 
-/// Share of the largest shock that lever arms kept through a phase may get wrong.
+/// Returns the share of the largest shock that lever arms kept through a phase may get wrong.
 fn kept_arms(followed: &Followed) -> f64 {
     if followed.has_contacts() { KEPT_ARMS * followed.precision } else { 0.0 }
 }

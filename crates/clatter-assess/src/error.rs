@@ -1,4 +1,4 @@
-//! What can be wrong with a product that was not read from a file, and with an assessment.
+//! This module lists the errors of a product that was not read from a file, and of an assessment.
 
 use crate::{DataFault, Law};
 
@@ -11,7 +11,7 @@ pub enum Error {
     Data {
         /// The component that has them, by name; none of what all share.
         component: Option<String>,
-        /// What is wrong.
+        /// The fault.
         fault: DataFault,
     },
     /// A time within which impacts are one that is negative or not finite.
@@ -20,11 +20,11 @@ pub enum Error {
     /// A setting of a design or of a drop that cannot be.
     #[error("{name} is {value:?}; allowed: {allowed}")]
     Setting {
-        /// What it is.
+        /// Its name.
         name: &'static str,
         /// Its value, in SI.
         value: f64,
-        /// What is allowed.
+        /// The allowed values.
         allowed: &'static str,
     },
     /// A component that is none of the product, or an assessment of another one.
@@ -52,10 +52,10 @@ pub enum Error {
     /// A tolerance that no model could be held to, or that says nothing.
     #[error("the tolerance is {0:?}; allowed: a share in [1e-4, 0.5]")]
     Tolerance(f64),
-    /// What the bar does not accept.
+    /// The bar refuses a value.
     #[error(transparent)]
     Bar(#[from] clatter::Error),
-    /// What the component does not accept.
+    /// The component refuses a value.
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
     /// A part for which the pulse is no velocity shock, in a product without contact time.
@@ -63,7 +63,7 @@ pub enum Error {
     ContactTime {
         /// Name of the component.
         component: String,
-        /// Why.
+        /// The reason.
         reason: String,
     },
     /// A drop that a flight does not answer.
@@ -72,7 +72,7 @@ pub enum Error {
     /// A motion that was given up while more was to come.
     #[error("the motion goes on beyond 1024 strikes or 150 000 phases, and was left there")]
     Unfinished,
-    /// A search that was told to stop.
+    /// A search that was stopped by its caller.
     #[error("the search for the worst drop was stopped before")]
     Stopped,
     /// A model that does not follow plates.
@@ -81,21 +81,21 @@ pub enum Error {
     /// A model that does not follow contacts that differ.
     #[error("contacts of their own are followed by the model compliant, not by {}", .0.name())]
     OwnContacts(crate::Model),
-    /// What takes products alone whose contacts are alike.
+    /// A method that takes only products whose contacts are alike.
     #[error("{0} takes a product whose contacts are alike, without `contacts` of their own")]
     AlikeContacts(&'static str),
-    /// What takes a product that falls once.
+    /// A method that takes only a product that falls once.
     #[error("{0} takes a file with one drop")]
     OneDrop(&'static str),
-    /// What takes no spin.
-    #[error("{0} takes a drop without `spin`")]
-    NoSpin(&'static str),
+    /// A method that takes only a drop without this key, such as `spin`.
+    #[error("{0} takes a drop without `{1}`")]
+    Without(&'static str, &'static str),
     /// A fit of a plate.
     #[error(
         "a fit takes a bar: drop the product on one of its edges, so that it moves as one, and give it without `width`"
     )]
     FitOfPlate,
-    /// What takes bars alone.
+    /// A method that takes only bars.
     #[error("{0} takes a product without `width`")]
     OfBars(&'static str),
     /// A model of the contact, in a product without contact time.
@@ -104,7 +104,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Of edges that touch the one that does deeper, so that what is told is enough; else the first.
+    /// Returns, of edges that touch, the error of the one that does deeper, so that the report is enough; else the first.
     pub(crate) fn or_deeper(self, other: Self) -> Self {
         let depth_m = |error: &Self| match error {
             Self::Flight(clatter_flight::Error::Edge { depth_m, .. }) => Some(*depth_m),

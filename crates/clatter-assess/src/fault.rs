@@ -1,4 +1,4 @@
-//! What is wrong with a product file, shown where it stands.
+//! This module shows the faults of a product file where they stand.
 
 use std::fmt;
 use std::ops::Range;
@@ -12,11 +12,11 @@ use crate::{visible, visible_lines};
 pub struct Fault {
     /// Bytes of the file it is about.
     pub span: Range<usize>,
-    /// What is wrong, with the value.
+    /// The fault, with the value.
     pub message: String,
-    /// What stands there, or should.
+    /// The text that stands there, or should.
     pub label: String,
-    /// What is allowed, or what to do; may be empty.
+    /// The allowed values, or the action to take; may be empty.
     pub help: String,
     /// Another place that it is about, and what stands there.
     pub also: Option<(Range<usize>, String)>,
@@ -43,17 +43,17 @@ impl Faults {
         }
         Self { origin: origin.to_owned(), source: source.to_owned(), list, warnings }
     }
-    /// Each of what is wrong.
+    /// Returns the faults.
     #[must_use]
     pub fn list(&self) -> &[Fault] {
         &self.list
     }
-    /// Each of what is allowed and likely a slip.
+    /// Returns the warnings: values that are allowed and likely a slip.
     #[must_use]
     pub fn warnings(&self) -> &[Fault] {
         &self.warnings
     }
-    /// Line and column of a fault, from 1; columns count characters.
+    /// Returns the line and column of a fault, from 1; columns count characters.
     #[must_use]
     pub fn place(&self, fault: &Fault) -> (usize, usize) {
         let before = self.source.get(..fault.span.start).unwrap_or(&self.source);
@@ -61,7 +61,7 @@ impl Faults {
         (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
     }
 
-    /// A fault with its place in the file.
+    /// Returns a fault with its place in the file.
     fn rendered(&self, fault: &Fault, level: Level<'_>) -> String {
         let mark = AnnotationKind::Primary.span(fault.span.clone()).label(visible(&fault.label));
         let also = fault.also.iter();

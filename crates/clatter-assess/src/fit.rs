@@ -1,23 +1,24 @@
-//! From what was measured of a drop to the data of the product.
+//! This module goes from the measured data of a drop to the data of the product.
 //!
 //! A drop that was measured, by the times of its strikes, the heights of the ends from a video, or the acceleration at a place,
-//! tells what a product file asks for: the restitution, the radius of gyration, the contact time, how the drop fell. [`fit`]
+//! determines the data that a product file needs: the restitution, the radius of gyration, the contact time, how the drop fell. [`fit`]
 //! finds the values with which a computed drop is nearest to the measured one, how far they may be off, and what the data cannot
 //! tell. Of a product that bounces flat, [`bounces`] tells the restitution by the ratio of flight times.
 //!
 //! # Method
 //! Least squares by Levenberg and Marquardt (MINPACK, the crate `levenberg-marquardt`) over the flights of `clatter-flight`, from
 //! several starts. Each strike multiplies what is off before it, so that the sum of squares has a long and narrow valley: for any
-//! restitution the first three strikes tell the radius of gyration and the gap over the speed, and where the fourth is met too, searches
-//! go down, over more and more of the strikes. Where that leads to no fit, they begin at the best of a grid over the restitution, the
-//! radius of gyration and the range of the speed; then the first strikes are met as they may be within their noise, and the later strikes
-//! one by one. Where nothing says which end touches first, what explains the record with one end is a start for the other, and both are told.
+//! restitution the first three strikes determine the radius of gyration and the gap over the speed, and where the fourth is met too,
+//! searches go down, over more and more of the strikes. Where that leads to no fit, they begin at the best of a grid over the restitution,
+//! the radius of gyration and the range of the speed; then the first strikes are met as they may be within their noise, and the later
+//! strikes one by one. Where nothing says which end touches first, an explanation of the record with one end is a start for the other, and
+//! both are reported.
 //!
 //! # What the product file gives in a range
 //! The speed, the contact time and the restitution are data as long as the records do not tell them better: any value of the range is
 //! as likely, with the standard deviation of half its width over √3 (JCGM 100:2008, 4.3.7). The range of the speed stays a datum where
 //! strikes tell the speed as well. One value counts as exact, until the
-//! data contradict it. Where the scatter of the data is not given, a range counts beside it by its leverage.
+//! data contradict it. Where the scatter of the data is not given, the leverage of a range sets its weight.
 //!
 //! # Which strike is which
 //! Measured strikes are computed ones in the same order, the first is the first. Strikes at the end may be missing freely. All strikes
@@ -26,7 +27,7 @@
 //! end is freed, a time is taken for wrong, a strike for none, or one or two for missing, anywhere among the first 16 (two
 //! strikes measured as one are one that is missing). Akaike's criterion decides: each unknown pays, each strike that is dropped or invented
 //! as well, and for being one of so many ways. None is taken that leaves no degree of freedom. Explanations whose likelihood is
-//! a twentieth of the best one or more are all told, other minima of the plain one too, and the intervals hold all of them.
+//! a twentieth of the best one or more are all reported, other minima of the plain one too, and the intervals hold all of them.
 //! Contacts that take time take too long for that: there one time may be wrong where all else fits.
 //!
 //! Data that scatter more than the deviation given, which chance does once in ten thousand records, are no fit ([`Error::Scatter`]).
@@ -36,7 +37,8 @@
 //! more than s² t²: its profile (Bates and Watts 1988, chapter 6). t is the quantile of Student's t, s² the sum of squares over the
 //! number of data less that of unknowns; where the standard deviation of the data is given, s = 1 and t is normal. A quantity that is
 //! bound ends there. With heights, accelerations or contacts that take time a flight takes too long for that, and the derivatives
-//! at the minimum say how far it goes: the covariance is s² (JᵀJ)⁻¹, J the derivatives of the residuals over s. Correlations are those of the derivatives.
+//! at the minimum say how far it goes: the covariance is s² (JᵀJ)⁻¹, J the derivatives of the residuals over s. Correlations are those of
+//! the derivatives.
 //!
 //! Measured over a thousand drops of each kind (`tests/fit`): 94 to 97 of 100 hold the truth for strikes timed to 2 to 10 µs,
 //! with the radius of gyration known or fitted, the timing given or not. By the derivatives alone they would be about as many, but
@@ -45,8 +47,8 @@
 //!
 //! With gravity (`tests/fit/real.rs`: an own simulation, tilts of 0.5 to 5 degrees, a center of mass off by up to 5 %, e of 0.25 to 0.6,
 //! six strikes timed to 5 µs, at least a quarter of a millisecond apart), of 200 drops each with the speed exact, known to 1, 10 and
-//! 50 %, and with the timing not told, no true strike is left out, and 92 to 98 of 100 intervals hold the restitution, the radius of
-//! gyration and the tilt. Where neither the timing is told nor the speed to better than 50 %, 90 of 100 hold the restitution: that is
+//! 50 %, and with the timing not given, no true strike is left out, and 92 to 98 of 100 intervals hold the restitution, the radius of
+//! gyration and the tilt. Where neither the timing is given nor the speed to better than 50 %, 90 of 100 hold the restitution: that is
 //! too few. Where strikes come closer the search may fail, and the record is then refused.
 //!
 //! # Both ends
@@ -58,11 +60,11 @@
 //! of the records; a note says that it is one for both.
 //!
 //! # What the data cannot tell
-//! An unknown is left free as long as every direction in the space of unknowns is told: the singular values of J, each column scaled
-//! by how well the unknown has to be known to be of use, say so. What is not told is held at the value of the product file, unless
-//! the data contradict it, and what undoes its change in the data is named. Of strike times alone the radius of gyration stays free
-//! unless it is given as known: the file has no range of it by which the others could be widened, and a value that is a tenth
-//! off would leave every second interval wrong.
+//! An unknown is left free as long as every direction in the space of unknowns is determined: the singular values of J, each column scaled
+//! by how well the unknown has to be known to be of use, say so. An unknown that is not determined is held at the value of the product
+//! file, unless the data contradict it, and the unknown that undoes its change in the data is named. Of strike times alone the radius of
+//! gyration stays free unless it is given as known: the file has no range of it by which the others could be widened, and a value that is a
+//! tenth off would leave every second interval wrong.
 
 mod beside;
 mod bounces;
@@ -101,14 +103,14 @@ pub const MOST_STRIKES: usize = 4096;
 /// Samples of a record at most.
 pub const MOST_SAMPLES: usize = 1_000_000;
 
-/// What the product file says of the product and of its drop.
+/// The data of the product and of its drop that the product file states.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Known {
     /// Length and center of mass; the radius of gyration is where the search begins, and stays where the data do not tell it.
     pub body: Body,
     /// Range of the radius of gyration, in m.
     pub gyration_m: [f64; 2],
-    /// Whether the radius of gyration is known and not fitted. Strike times tell it and the restitution mostly together, so that
+    /// True where the radius of gyration is known and not fitted. Strike times tell it and the restitution mostly together, so that
     /// the restitution is then known several times better.
     pub gyration_known: bool,
     /// The end that touches first.
@@ -123,7 +125,7 @@ pub struct Known {
     pub tilt_rad: [f64; 2],
     /// Range of the contact time, where it is known: contacts then take time in the fit as well.
     pub contact_time_s: Option<[f64; 2]>,
-    /// What the ground does to an end while it touches.
+    /// The law of the force of the ground on an end while it touches.
     pub contact_law: ContactLaw,
 }
 
@@ -179,21 +181,21 @@ impl Known {
 pub enum Measured {
     /// Times of strikes.
     Strikes {
-        /// In order of time.
+        /// The strikes, in order of time.
         strikes: Vec<MeasuredStrike>,
         /// Standard deviation of a time; without it the scatter about the fit tells it.
         deviation_s: Option<f64>,
     },
     /// Heights of both ends over the ground, from a video.
     Heights {
-        /// In order of time.
+        /// The samples, in order of time.
         samples: Vec<MeasuredHeights>,
         /// Standard deviation of a height; without it the scatter about the fit tells it.
         deviation_m: Option<f64>,
     },
     /// Acceleration at a place, upward positive and 0 in free fall, as sensors have it.
     Acceleration {
-        /// From the middle of the product towards end b.
+        /// The place of the sensor from the middle of the product towards end b.
         position_m: f64,
         /// Time of the first value.
         start_s: f64,
@@ -207,7 +209,7 @@ pub enum Measured {
 /// One strike of a record.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredStrike {
-    /// On the time axis of the record.
+    /// The time, on the time axis of the record.
     pub time_s: f64,
     /// The end that strikes, where it is known.
     pub end: Option<End>,
@@ -216,21 +218,21 @@ pub struct MeasuredStrike {
 /// Heights of both ends at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredHeights {
-    /// On the time axis of the record.
+    /// The time, on the time axis of the record.
     pub time_s: f64,
-    /// Of ends a and b over the ground.
+    /// The heights of ends a and b over the ground.
     pub height_m: [f64; 2],
 }
 
-/// What a fit may tell.
+/// A quantity that a fit may determine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Quantity {
     /// Coefficient of restitution of both ends.
     Restitution,
-    /// That of end a.
+    /// The restitution of end a.
     RestitutionA,
-    /// That of end b.
+    /// The restitution of end b.
     RestitutionB,
     /// Radius of gyration about the center of mass, in m.
     RadiusOfGyration,
@@ -246,12 +248,12 @@ pub enum Quantity {
     Tilt,
     /// Angular velocity at the first touch, end b upward, in rad/s.
     Spin,
-    /// How long a lone contact takes, in s.
+    /// The time of a lone contact, in s.
     ContactTime,
 }
 
 impl Quantity {
-    /// `restitution`, `restitution-a`, `restitution-b`, `radius-of-gyration`, `inertia-ratio`, `gap-over-speed`, `speed`,
+    /// Returns the name: `restitution`, `restitution-a`, `restitution-b`, `radius-of-gyration`, `inertia-ratio`, `gap-over-speed`, `speed`,
     /// `drop-height`, `tilt`, `spin` or `contact-time`.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -286,32 +288,32 @@ impl Quantity {
 /// A quantity, its value and how far it may be off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// What it is.
+    /// The estimated quantity.
     pub quantity: Quantity,
     /// Its value with which the computed drop is nearest to the measured one.
     pub value: f64,
     /// Holds the true value in 95 of 100 measurements of this drop with other noise, for which see [`fit`]; none where nothing tells the
     /// scatter of the data.
     pub interval: Option<[f64; 2]>,
-    /// What the value owes to the product file.
+    /// A remark where the value depends on data of the product file; else none.
     pub note: Option<String>,
 }
 
 /// A quantity that the data do not tell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Undetermined {
-    /// What it is.
+    /// The quantity that is not determined.
     pub quantity: Quantity,
     /// Its value in the computed drop: that of the product file, or within its range there.
     pub held_at: f64,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
-/// What became of a measured strike.
+/// The outcome of a fit for one measured strike.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrikeFit {
-    /// As measured.
+    /// The strike as measured.
     pub measured: MeasuredStrike,
     /// The computed strike that it is, from 1; none if it was left out as wrong.
     pub number: Option<usize>,
@@ -319,18 +321,18 @@ pub struct StrikeFit {
     pub residual_s: Option<f64>,
 }
 
-/// What a fit makes of one record.
+/// The outcome of a fit for one record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordFit {
     /// The first touch on the time axis of the record.
     pub first_touch_s: f64,
     /// Root mean square of measured less computed values, in s, m or m/s².
     pub scatter: f64,
-    /// Of strikes, one by one; else empty.
+    /// The fits of strikes, one by one; else empty.
     pub strikes: Vec<StrikeFit>,
     /// Numbers of computed strikes before the last measured one that the record does not have.
     pub missing: Vec<usize>,
-    /// Of heights of ends a and b, or of accelerations: time, measured and computed value; else empty.
+    /// The curves of heights of ends a and b, or of accelerations: time, measured and computed value; else empty.
     pub curves: Vec<Vec<[f64; 3]>>,
 }
 
@@ -339,24 +341,24 @@ pub struct RecordFit {
 pub struct Explanation {
     /// The end that touches first.
     pub first: End,
-    /// Of each record the numbers of computed strikes that it does not have.
+    /// For each record, the numbers of computed strikes that it does not have.
     pub missing: Vec<Vec<usize>>,
-    /// Of each record the times of strikes that are left out.
+    /// For each record, the times of strikes that are left out.
     pub left_out_s: Vec<Vec<f64>>,
-    /// What it would tell, with intervals of its own.
+    /// The estimates that this record alone would give, with intervals of its own.
     pub estimates: Vec<Estimate>,
 }
 
-/// What was found.
+/// The result of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     /// The model of the computed drop: finite-tilt, or compliant where contacts take time.
     pub model: Model,
     /// The end that touches first.
     pub first: End,
-    /// What the data tell.
+    /// The quantities that the data determine, with their intervals.
     pub estimates: Vec<Estimate>,
-    /// What they do not.
+    /// The quantities that the data do not determine.
     pub untold: Vec<Undetermined>,
     /// Correlations of the estimates, in their order; empty where nothing tells the scatter of the data.
     pub correlations: Vec<Vec<f64>>,
@@ -368,46 +370,46 @@ pub struct Fit {
     pub records: Vec<RecordFit>,
     /// Computed strikes, up to the last one that was measured and three more: time since the first touch, and which end.
     pub computed: Vec<(f64, End)>,
-    /// What is odd: strikes missing or left out, a drop that does not explain the data.
+    /// Remarks on anything odd: strikes missing or left out, a drop that does not explain the data.
     pub notes: Vec<String>,
 }
 
-/// Why there is no fit.
+/// The reason why there is no fit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A number of a record that none can be.
     #[error("record {record}: {name} = {value:?} is not {allowed}")]
     Value {
-        /// Which record, from 1.
+        /// The number of the record, from 1.
         record: usize,
-        /// What it is.
+        /// Its name.
         name: &'static str,
-        /// As it is.
+        /// The given value.
         value: f64,
-        /// What it may be.
+        /// The allowed values.
         allowed: &'static str,
     },
     /// A value of the product or its drop that none has.
     #[error("{name} = {value:?} is not {allowed}")]
     Known {
-        /// What it is.
+        /// Its name.
         name: &'static str,
-        /// As it is.
+        /// The given value.
         value: f64,
-        /// What it may be.
+        /// The allowed values.
         allowed: &'static str,
     },
     /// Too few or too many data.
     #[error("record {record}: {count} {name}; allowed: {allowed}")]
     Count {
-        /// Which record, from 1.
+        /// The number of the record, from 1.
         record: usize,
-        /// How many.
+        /// The number of data.
         count: usize,
-        /// Of what.
+        /// The name of the data.
         name: &'static str,
-        /// What may be.
+        /// The allowed values.
         allowed: &'static str,
     },
     /// No records.
@@ -420,15 +422,15 @@ pub enum Error {
              missing strikes are not looked for"
     )]
     Far {
-        /// Which record, from 1.
+        /// The number of the record, from 1.
         record: usize,
-        /// What was measured.
+        /// The measured quantity.
         name: &'static str,
-        /// How far it is off, root mean square,
+        /// The root mean square of the difference in percent,
         percent: f64,
         /// as a share of this.
         of: &'static str,
-        /// How much of it is taken.
+        /// The largest share that is accepted, in percent.
         allowed: f64,
     },
     /// The data scatter more than the deviation given explains.
@@ -440,21 +442,21 @@ pub enum Error {
              later strikes out"
     )]
     Scatter {
-        /// Which record, from 1.
+        /// The number of the record, from 1.
         record: usize,
-        /// Over the standard deviation that was given.
+        /// The scatter over the standard deviation that was given.
         factor: f64,
     },
-    /// What the nearest drop leaves of accelerations is more than the noise before the first touch.
+    /// The nearest drop leaves more of the accelerations unexplained than the noise before the first touch.
     #[error(
         "record {record}: no drop was found that explains it: the nearest one leaves {factor:.1} times the noise before the first touch. \
              Either the case rings or the sensor filters, or another drop was not found: check --position, the sign of the axis, the units and \
              the length in the product file, or cut the record after the first strikes"
     )]
     Noise {
-        /// Which record, from 1.
+        /// The number of the record, from 1.
         record: usize,
-        /// Over the root mean square before the first touch.
+        /// The remainder over the root mean square before the first touch.
         factor: f64,
     },
     /// No computed drop comes near the data.
@@ -466,7 +468,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether the records are as they should be, and no drop explains them.
+    /// Returns whether the records are as they should be, and no drop explains them.
     #[must_use]
     pub const fn is_no_drop(&self) -> bool {
         matches!(self, Self::Far { .. } | Self::Scatter { .. } | Self::Noise { .. } | Self::NoDrop(_))

@@ -13,7 +13,7 @@ pub(crate) const SHORT: f64 = 0.7;
 /// Phase of a part over which impulses spread without doing less: by (0.1)²/2 of them.
 const NARROW: f64 = 0.1;
 
-/// The history of a place as the response takes it; sections that together take no longer than `short_s` are two velocity shocks
+/// Returns the history of a place as the response takes it; sections that together take no longer than `short_s` are two velocity shocks
 /// that do the same.
 /// `carried_m_s2` acts from their end on.
 pub(crate) fn pulses(felt: &Excitation, short_s: f64, carried_m_s2: f64) -> Result<Pulses, Error> {
@@ -25,7 +25,7 @@ pub(crate) fn pulses(felt: &Excitation, short_s: f64, carried_m_s2: f64) -> Resu
     Ok(pulses?.carried(carried_m_s2)?)
 }
 
-/// The same motion with sections that are short joined.
+/// Returns the same motion with sections that are short joined.
 fn joined(felt: &Excitation, short_s: f64) -> Excitation {
     let mut all = Excitation::with_capacity(2 * felt.sections().len());
     let (mut moments, mut first) = (Moments::default(), 0);
@@ -45,7 +45,7 @@ fn joined(felt: &Excitation, short_s: f64) -> Excitation {
     all
 }
 
-/// Of sections that follow one another: the change of velocity, and its first and second moments in time.
+/// The moments of sections that follow one another: the change of velocity, and its first and second moments in time.
 #[derive(Default)]
 struct Moments {
     length_s: f64,
@@ -58,7 +58,7 @@ impl Moments {
     fn add(&mut self, section: &Section<'_>) {
         let (begun, length) = (self.length_s, section.length);
         let [begin, middle, end] = [0.0, 0.5, 1.0].map(|share| section.velocity_after(share * length));
-        // By parts, and Simpson's rule: pulses are no more than half a period of a wave.
+        // The integral is by parts, and Simpson's rule: pulses are no more than half a period of a wave.
         let first = length * (end - (begin + 4.0 * middle + end) / 6.0);
         let second = length * length * (end - 2.0 * (2.0 * middle + end) / 6.0);
         self.change_m_s += end;
@@ -66,7 +66,7 @@ impl Moments {
         self.second += begun * begun * end + 2.0 * begun * first + second;
         self.length_s += length;
     }
-    /// Half of the impulse before and half after its mean time, as far apart as it spreads, or all at once where that is within
+    /// Puts half of the impulse before and half after its mean time, as far apart as it spreads, or all at once where that is within
     /// `narrow_s`; the sections themselves where they push to both sides.
     fn join(&self, felt: &Excitation, those: Range<usize>, narrow_s: f64, all: &mut Excitation) {
         let Self { length_s, change_m_s, first, second } = *self;

@@ -12,7 +12,7 @@ use crate::{DropRanges, Fall, Product, Spread};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Input {
-    /// Which end touches first: either is as likely.
+    /// The end that touches first: either is as likely.
     First,
     /// Height of the drop.
     Height,
@@ -20,13 +20,13 @@ pub enum Input {
     Speed,
     /// Tilt at the first touch.
     Tilt,
-    /// Where a plate rises to from its lowest corner: every direction is as likely unless the file has some.
+    /// The direction to which a plate rises from its lowest corner: every direction is as likely unless the file has some.
     Direction,
     /// Angular velocity at the first touch.
     Spin,
     /// Coefficient of restitution.
     Restitution,
-    /// How long a lone contact takes.
+    /// The time of a lone contact.
     ContactTime,
     /// Radius of gyration of the product.
     Gyration,
@@ -51,46 +51,46 @@ pub struct Row {
     numbers: (u32, Option<u32>),
     /// The value in a drop.
     value: fn(&Drop) -> Option<f64>,
-    /// What a file gives of it.
+    /// The range that a file gives of it.
     given: fn(&Product, &DropRanges) -> Option<Spread>,
     /// Puts a value that was drawn into a drop; none of what an attitude has.
     pub(crate) set: Option<fn(&mut Drop, f64)>,
-    /// Of one that a file may leave out.
+    /// The data of an input that a file may leave out.
     pub optional: Option<Optional>,
-    /// How it is searched.
+    /// The data of the search over it.
     pub(crate) search: Option<Search>,
 }
 
 /// An input of a drop that a product file may leave out.
 #[derive(Debug, Clone, Copy)]
 pub struct Optional {
-    /// What it is then.
+    /// The value that it has then.
     pub without: f64,
-    /// What stands before its value: `turning at`.
+    /// The words before its value: `turning at`.
     pub phrase: &'static str,
-    /// What a report says of its range, behind it.
+    /// The words behind its range in a report.
     pub report: &'static str,
     /// Puts it into the drops of a file.
     pub(crate) put: fn(&mut DropRanges, Spread),
 }
 
 impl Optional {
-    /// Whether this value is that of a file that leaves it out.
+    /// Returns whether this value is that of a file that leaves it out.
     #[must_use]
     pub fn is_left_out(&self, value: f64) -> bool {
         value - self.without == 0.0
     }
 }
 
-/// How the range of an input is searched.
+/// The data of the search over the range of an input.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Search {
     /// Its axis.
     pub(crate) axis: usize,
-    /// Whether its root goes evenly from end to end.
+    /// True where its root goes evenly from end to end.
     pub(crate) is_root: bool,
-    /// Where it is in lines of drops: at this end of its range first, and evenly over it by multiples of an irrational number; none of what
-    /// lines go along.
+    /// The place of the input in lines of drops: at this end of its range first, and evenly over it by multiples of an irrational number;
+    /// none of what lines go along.
     pub(crate) line: Option<(f64, f64)>,
 }
 
@@ -240,12 +240,12 @@ impl Input {
     pub fn row(self) -> &'static Row {
         INPUTS.iter().find(|row| row.input == self).unwrap_or_else(|| unreachable!("every input has a row"))
     }
-    /// Whether it is an angle, which people are told in degrees.
+    /// Returns whether it is an angle, which reports show in degrees.
     #[must_use]
     pub fn is_angle(self) -> bool {
         self.row().unit == "rad"
     }
-    /// Its column as people are told it: an angle in degrees, an end by its letter.
+    /// Returns its column as reports show it: an angle in degrees, an end by its letter.
     #[must_use]
     pub fn title(self) -> String {
         match self {
@@ -254,22 +254,22 @@ impl Input {
             _ => self.row().column.to_owned(),
         }
     }
-    /// The input that a drop tells in place of this one: a height is told as the speed that it gives.
+    /// Returns the input that a drop reports in place of this one: a height is reported as the speed that it gives.
     #[must_use]
     pub fn told(self) -> Self {
         if self == Self::Height { Self::Speed } else { self }
     }
-    /// The value in a drop, in SI; none where the drop has none.
+    /// Returns the value in a drop, in SI; none where the drop has none.
     #[must_use]
     pub fn value(self, drop: &Drop) -> Option<f64> {
         (self.row().value)(drop)
     }
-    /// What a file gives of it.
+    /// Returns the range that a file gives of it.
     #[must_use]
     pub fn given(self, product: &Product, drop: &DropRanges) -> Option<Spread> {
         (self.row().given)(product, drop)
     }
-    /// Whether drops of the ranges may have it: not one that is left out.
+    /// Returns whether drops of the ranges may have it: not one that is left out.
     #[must_use]
     pub fn is_there(self, product: &Product, drop: &DropRanges) -> bool {
         let left_out = |given: Spread| {
@@ -277,17 +277,17 @@ impl Input {
         };
         self.given(product, drop).is_some_and(|given| !left_out(given))
     }
-    /// Whether each of several drops has its own.
+    /// Returns whether each of several drops has its own.
     #[must_use]
     pub fn is_of_drop(self) -> bool {
         self.row().numbers.1.is_some()
     }
-    /// The uniform number of a sample from which it is drawn; of several drops, in one of them.
+    /// Returns the uniform number of a sample from which it is drawn; of several drops, in one of them.
     pub(crate) fn number(self, landing: bool) -> u32 {
         let (shared, own) = self.row().numbers;
         own.filter(|_| landing).unwrap_or(shared)
     }
-    /// The least and the largest value in drops of the ranges; none of what has no range of numbers.
+    /// Returns the least and the largest value in drops of the ranges; none of an input that has no range of numbers.
     pub(crate) fn range(self, product: &Product, drop: &DropRanges) -> Option<[f64; 2]> {
         match self {
             Self::Speed => Some(drop.speeds_m_s()),
@@ -298,7 +298,7 @@ impl Input {
 }
 
 impl Search {
-    /// The value at a share of the way from the least to the largest.
+    /// Returns the value at a share of the way from the least to the largest.
     pub(crate) fn at(self, [lo, hi]: [f64; 2], share: f64) -> f64 {
         if self.is_root {
             let root = lo.sqrt() + share * (hi.sqrt() - lo.sqrt());
@@ -307,19 +307,19 @@ impl Search {
             (lo + share * (hi - lo)).clamp(lo, hi)
         }
     }
-    /// The share at which a value is; 0 where there is no range.
+    /// Returns the share at which a value is; 0 where there is no range.
     pub(crate) fn share(self, range: [f64; 2], x: f64) -> f64 {
         let [lo, hi, x] = if self.is_root { [range[0], range[1], x].map(f64::sqrt) } else { [range[0], range[1], x] };
         if hi > lo { ((x - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 }
     }
 }
 
-/// The inputs that a file may leave out.
+/// Returns the inputs that a file may leave out.
 pub fn optional_inputs() -> impl Iterator<Item = (&'static Row, Optional)> {
     INPUTS.iter().filter_map(|row| row.optional.map(|optional| (row, optional)))
 }
 
-/// The rows that are searched along an axis.
+/// Returns the rows that are searched along an axis.
 pub(crate) fn searched() -> impl Iterator<Item = (&'static Row, Search)> {
     INPUTS.iter().filter_map(|row| row.search.map(|search| (row, search)))
 }

@@ -10,11 +10,11 @@ pub(crate) struct Key {
     pub(crate) name: &'static str,
     pub(crate) kind: Kind,
     pub(crate) required: bool,
-    /// What it is, for editors.
+    /// The description of the key, for editors.
     pub(crate) doc: &'static str,
 }
 
-/// What stands behind a key.
+/// The kind of value that a key takes.
 #[derive(Debug)]
 pub(crate) enum Kind {
     Text,
@@ -38,7 +38,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// What stands for one side.
+    /// Returns the kind of value for one side.
     pub(crate) fn of_side(&self) -> &Self {
         if let Self::Sides(side) = self { side } else { self }
     }
@@ -418,19 +418,19 @@ pub(crate) static PLAN: &[Key] = &[
     key("grid", false, Table(&[]), "Quantities of the product file that vary, by table and key, each over its values."),
 ];
 
-/// The key of a table by its name.
+/// Returns the key of a table by its name.
 pub(crate) fn find(table: &'static [Key], name: &str) -> Option<&'static Key> {
     table.iter().find(|key| key.name == name)
 }
 
-/// Whether a value in SI is within bounds as a key has them. One with a unit was converted: it is a bound but for roundings.
+/// Returns whether a value in SI is within bounds as a key has them. One with a unit was converted: it is a bound but for roundings.
 pub(crate) fn within(dimension: &Dimension, bounds: [&str; 2], si: f64) -> bool {
     let roundings = if dimension.plain { 0.0 } else { 4.0 * f64::EPSILON };
     let [lo, hi] = bounds.map(|bound| dimension.value(bound));
     (lo - roundings * lo.abs()..=hi + roundings * hi.abs()).contains(&si)
 }
 
-/// What messages say of bounds.
+/// Returns the words of messages for bounds.
 pub(crate) fn allowed(bounds: [&str; 2]) -> String {
     format!("from {} to {}", bounds[0], bounds[1])
 }

@@ -1,12 +1,12 @@
-//! Which model a drop needs, measured: every model on the worst drop of each limit, its error and its cost.
+//! This module measures which model a drop needs: every model on the worst drop of each limit, its error and its cost.
 //!
 //! Six models from the least physics to the most ([`Model`]) answer the same drop of a bar. Each is held against the one with the most
 //! physics that the data allow, worked out more exactly; the cheapest within the tolerance is named, with the dimensionless
 //! group that makes the next cheaper one too coarse. A drop of a plate is answered with contacts that take time by three bodies: the bar
-//! along its length, the plate of small tilt, and the box with full rotation, which is what they are held against. A drop of a box on a face is answered by the same three where the part
-//! moves across that face, and by itself alone on an edge or a corner; beside it stands how late the last corner may come ([`LandingLadder`]).
-//! Errors are the same from run to run; times are of the machine that
-//! [`Machine`] names.
+//! along its length, the plate of small tilt, and the box with full rotation, which is what they are held against. A drop of a box on a
+//! face is answered by the same three where the part moves across that face, and by itself alone on an edge or a corner; next to it stands
+//! how late the last corner may come ([`LandingLadder`]). Errors are the same from run to run; times are of the machine that [`Machine`]
+//! names.
 
 mod block;
 mod plate;
@@ -24,15 +24,15 @@ use crate::verdict::{number, number_or_null};
 use crate::{Assessment, Error, Limit, LimitKind, ProductFile, Unit, WorstCase};
 use clatter_flight::{Drop, Until};
 
-/// The reference is worked out so much more exactly than the tolerance asks.
+/// The reference is worked out so much more exactly than the tolerance demands.
 const FINER: f64 = 0.1;
 
-/// What answers a drop.
+/// The model or body that answers a drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
     /// A bar, by a model.
     Model(Model),
-    /// Of a plate the bar along its length, with contacts that take time: as if it were of no width.
+    /// The bar along the length of a plate, with contacts that take time: as if it were of no width.
     Bar,
     /// The plate of small tilt, with contacts that take time.
     Plate,
@@ -41,7 +41,7 @@ pub enum Rung {
 }
 
 impl Rung {
-    /// The name of the model; `bar`, `plate` or `box`.
+    /// Returns the name of the model; `bar`, `plate` or `box`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -64,15 +64,15 @@ impl Serialize for Rung {
 pub struct ProductLadder {
     /// Name of the product.
     pub product: String,
-    /// What a model may get wrong.
+    /// The error that a model may have.
     pub tolerance: f64,
-    /// Where the times were taken.
+    /// The machine on which the times were taken.
     pub machine: Machine,
     /// Part by part, limit by limit, in the order of the assessment.
     pub limits: Vec<LimitLadder>,
     /// Limits of which no drop was answered.
     pub left_out: Vec<LeftOut>,
-    /// Of a box, its drops one by one; else empty.
+    /// The drops of a box, one by one; else empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub landings: Vec<LandingLadder>,
 }
@@ -82,7 +82,7 @@ pub struct ProductLadder {
 pub struct LimitLadder {
     /// Name of the part.
     pub component: String,
-    /// What is limited.
+    /// The limited quantity.
     pub limit: LimitKind,
     /// The drop.
     pub worst_case: WorstCase,
@@ -96,9 +96,9 @@ pub struct LimitLadder {
 pub struct LeftOut {
     /// Name of the part.
     pub component: String,
-    /// What is limited.
+    /// The limited quantity.
     pub limit: LimitKind,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
@@ -107,19 +107,19 @@ pub struct LeftOut {
 pub struct Ladder {
     /// Unit of the values.
     pub unit: Unit,
-    /// What the models are held against.
+    /// The reference for the models.
     pub reference: Reference,
-    /// From the least physics to the most; those that say something of the limit.
+    /// The models from the least physics to the most; those that say something of the limit.
     pub models: Vec<Measured>,
     /// The cheapest one within the tolerance.
     pub cheapest: Rung,
-    /// Which dimensionless group makes the next cheaper one too coarse, in a sentence.
+    /// The dimensionless group that makes the next cheaper one too coarse, in a sentence.
     pub reason: String,
     /// The dimensionless groups of the drop and the part.
     pub groups: Groups,
 }
 
-/// What the models are held against.
+/// The reference against which the models are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reference {
     /// The model with the most physics that the data allow; of a plate the box, where it is followed.
@@ -133,7 +133,7 @@ pub struct Reference {
 /// One model on the drop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Measured {
-    /// Which one.
+    /// The model or body.
     pub model: Rung,
     /// Its answer.
     pub value: f64,
@@ -195,7 +195,7 @@ impl Ladder {
         let says = |model: &Model| *model <= fullest && (*model != Model::NetChange || part.suspension.is_some());
         let mut models = Vec::new();
         for model in Model::ALL.into_iter().filter(says) {
-            // What a model refuses is left out: an endless train has no net change.
+            // A model that refuses the drop is left out: an endless train has no net change.
             let Ok((found, seconds)) = time::measured(|| answer(drop, part, limit, model, tolerance)) else { continue };
             let strikes =
                 if model < Model::Map { 0 } else { follow(drop, model, tolerance, Until::Over)?.struck_s().len() };
@@ -214,7 +214,7 @@ impl Ladder {
 impl Groups {
     fn of(drop: &Drop, part: &Part) -> Result<Self, Error> {
         let h0 = drop.gap_m();
-        // Of a plate and of contacts that differ those that take time alone are followed.
+        // For a plate and for contacts that differ, only contacts that take time are followed.
         let alone = drop.body.is_wide() || !drop.own_contacts.is_none();
         let model = if alone { Model::Compliant } else { Model::Map };
         let times = follow(drop, model, 0.01, Until::Over)?.struck_s();
@@ -236,13 +236,13 @@ impl Groups {
     }
 }
 
-/// The one within the tolerance that takes the least time.
+/// Returns the one within the tolerance that takes the least time.
 fn cheapest(models: &[Measured], tolerance: f64) -> Option<Rung> {
     let within = models.iter().filter(|m| m.error <= tolerance);
     within.min_by(|a, b| a.seconds.total_cmp(&b.seconds)).map(|m| m.model)
 }
 
-/// Words, and the value of a group where it is known.
+/// Returns words, and the value of a group where it is known.
 fn with(words: &str, group: &str, value: Option<f64>) -> String {
     value.map_or_else(|| words.to_owned(), |value| format!("{words}: {group} = {value:.2e}"))
 }
@@ -251,7 +251,7 @@ fn percent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }
 
-/// What makes the next cheaper model too coarse: the physics that it lacks, as a number.
+/// Returns the reason why the next cheaper model is too coarse: the physics that it lacks, as a number.
 fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) -> String {
     let coarser = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance);
     let Some(coarser) = coarser else {
@@ -276,7 +276,7 @@ fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) 
 }
 
 impl ProductFile {
-    /// Every model on the worst drop of each limit, as an assessment of this file found it.
+    /// Runs every model on the worst drop of each limit, as an assessment of this file found it.
     ///
     /// # Errors
     /// As [`Ladder::measure`]; [`Error::OtherProduct`] for an assessment of another product.

@@ -1,4 +1,4 @@
-//! From a product file to verdicts: how a drop is answered, the worst drop, what each part stands.
+//! This crate goes from a product file to verdicts: how a drop is answered, the worst drop, what each part stands.
 //!
 //! [`ProductFile::read`] takes the text of a file (see [`EXAMPLE`]) and tells everything that is wrong with it at once,
 //! each fault where it stands. A product that is built in code obeys the same rules: [`ProductFile::check`] tells the first value that is

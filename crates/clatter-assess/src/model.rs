@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::Error;
 
-/// How a drop is answered: from the least physics to the most.
+/// The model that answers a drop: from the least physics to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Model {
-    /// In closed form, small tilt and no gravity: the whole clatter as one change of velocity. A part that is slow beside it
-    /// feels no more.
+    /// In closed form, small tilt and no gravity: the whole clatter as one change of velocity. A part that is slow compared with it
+    /// responds to no more.
     NetChange,
-    /// In closed form, likewise: the largest velocity shock alone. A damped part that is fast beside the gaps feels no more.
+    /// In closed form, likewise: the largest velocity shock alone. A damped part that is fast compared with the gaps responds to no more.
     LargestShock,
     /// Instant impacts, strike by strike, small tilt, no gravity.
     Map,
@@ -27,12 +27,12 @@ pub enum Model {
 }
 
 impl Model {
-    /// Those that follow a drop strike by strike.
+    /// The models that follow a drop strike by strike.
     pub const FOLLOWED: [Self; 4] = [Self::Map, Self::Ballistic, Self::FiniteTilt, Self::Compliant];
     /// All of them.
     pub const ALL: [Self; 6] =
         [Self::NetChange, Self::LargestShock, Self::Map, Self::Ballistic, Self::FiniteTilt, Self::Compliant];
-    /// `net-change`, `largest-shock`, `map`, `ballistic`, `finite-tilt` or `compliant`.
+    /// Returns the name: `net-change`, `largest-shock`, `map`, `ballistic`, `finite-tilt` or `compliant`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,12 +44,12 @@ impl Model {
             Self::Compliant => "compliant",
         }
     }
-    /// The model with the most physics that the data of a drop allow: contacts where their time is known, else real tilt.
+    /// Returns the model with the most physics that the data of a drop allow: contacts where their time is known, else real tilt.
     #[must_use]
     pub fn fullest(drop: &Drop) -> Self {
         if drop.contact_time_s.is_some() { Self::Compliant } else { Self::FiniteTilt }
     }
-    /// The physics that a flight keeps of a drop; of a closed form that of the map.
+    /// Returns the physics that a flight keeps of a drop; of a closed form that of the map.
     ///
     /// # Errors
     /// [`Error::OwnContacts`] of instant impacts, [`Error::Contact`] for contacts whose time is not known or is none.
@@ -72,8 +72,8 @@ impl Model {
 /// Follows a drop by a model, to a tolerance.
 ///
 /// # Errors
-/// [`Error::Contact`] for contacts whose time is not known, [`Error::OwnContacts`] and [`Error::PlateModel`] for a model that does not follow
-/// the body, [`Error::Flight`] and [`Error::Bar`] for a drop that the model does not take.
+/// [`Error::Contact`] for contacts whose time is not known, [`Error::OwnContacts`] and [`Error::PlateModel`] for a model that does not
+/// follow the body, [`Error::Flight`] and [`Error::Bar`] for a drop that the model does not take.
 pub(crate) fn follow(drop: &Drop, model: Model, tolerance: f64, until: Until) -> Result<Followed, Error> {
     match Followed::new(drop, model.physics(drop)?, tolerance, until) {
         Err(clatter_flight::Error::Instant) => Err(Error::PlateModel(model)),
@@ -81,7 +81,7 @@ pub(crate) fn follow(drop: &Drop, model: Model, tolerance: f64, until: Until) ->
     }
 }
 
-/// Checks what no model would refuse: the contact time, which instant impacts do not ask for, the spin of a flat drop, and the place of a
+/// Checks what no model would refuse: the contact time, which instant impacts do not need, the spin of a flat drop, and the place of a
 /// part.
 ///
 /// # Errors
@@ -145,7 +145,7 @@ mod tests {
     use super::*;
     use crate::shock::{largest, largest_turn, shocks_of_turning};
 
-    /// A box of these sides, with these radii of gyration along length and width, that rises steeply to its end b.
+    /// Returns a box of these sides, with these radii of gyration along length and width, that rises steeply to its end b.
     fn dropped([length, width, thickness_m]: [f64; 3], [kx, ky]: [f64; 2], center: f64) -> Drop {
         let width = Side { ends_m: [0.5 * width + center, 0.5 * width - center], gyration_m: ky };
         let body = Body::new(length, kx).unwrap().with_width(width).with_thickness(Side::even(thickness_m));
@@ -209,7 +209,7 @@ mod tests {
         assert!(off < 1e-12, "{off} is missed");
     }
 
-    /// The largest turn of a box is found wherever it is above what is asked for, and only there.
+    /// The largest turn of a box is found wherever it is above the given threshold, and only there.
     #[test]
     fn the_largest_turn_of_a_box_is_not_passed_over() {
         for tilt_rad in [0.02, 0.1, 0.25] {

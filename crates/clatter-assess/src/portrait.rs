@@ -1,8 +1,8 @@
-//! What a page shows of a part beside its verdict: its response in the worst drop, its demand over the tilt, its safe
+//! This module draws a part for a page, next to its verdict: its response in the worst drop, its demand over the tilt, its safe
 //! places.
 //!
-//! Curves and places are taken from one set of drops over all tilts, each followed once for all parts. What they ask at a
-//! part's own place is held beside what the assessment says there, and all else is scaled alike.
+//! Curves and places are taken from one set of drops over all tilts, each followed once for all parts. Their demand at a
+//! part's own place is compared with the result of the assessment there, and all else is scaled alike.
 
 mod curves;
 mod drops;
@@ -32,14 +32,14 @@ use scale::Scale;
 /// Points (x, y) of a line.
 pub type Curve = Vec<(f64, f64)>;
 
-/// What a drop asks of a part.
+/// The demand of a drop on a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// The tilt that it stands at, in rad; a drop that lands as one is followed without it.
     pub tilt_rad: f64,
     /// The drop, which was followed.
     pub drop: Drop,
-    /// The place of the part, and its suspension where that is asked for.
+    /// The place of the part, and its suspension where that is needed.
     pub part: Part,
     /// The demand as a share of what is allowed.
     pub share: f64,
@@ -50,14 +50,14 @@ pub struct Point {
 pub struct Portrait {
     /// Time (s) and value (SI) of what the tightest limit is on, in its worst drop. A velocity change is a spike.
     pub history: Curve,
-    /// When the ends or corners strike in that drop, in s.
+    /// The times at which the ends or corners strike in that drop, in s.
     pub impacts_s: Vec<f64>,
-    /// By tilt, the drops that ask most of the tightest limit of those followed: a curve for each end that may touch first.
+    /// The drops with the largest demand for the tightest limit of those followed, by tilt: a curve for each end that may touch first.
     pub over_tilt: Vec<(End, Vec<Point>)>,
-    /// Where the middle of the part could be, and every limit hold in the drops that were followed, in m from the middle of the
-    /// product.
+    /// The range in which the middle of the part could be, and every limit hold in the drops that were followed, in m from the middle of
+    /// the product.
     pub zone_m: Option<[f64; 2]>,
-    /// What is drawn of a plate in place of curves over the tilt and of zones; none of a bar, and where no drop is answered.
+    /// The picture of a plate in place of curves over the tilt and of zones; none of a bar, and where no drop is answered.
     pub plate: Option<PlatePortrait>,
 }
 
@@ -72,12 +72,12 @@ impl ProductFile {
     ///
     /// # Method
     /// Drops at some forty tilts with either end first are followed until the product lands again, or past the peak of the worst
-    /// cases: at the highest speed and the ends of the ranges of spin, restitution and contact time. All parts are asked in the same drops.
-    /// The curve over the tilt holds besides the drops with the speed, spin, restitution and contact time of the worst case, and the worst
-    /// case itself. Safe places are those where no drop asks more than at the part's own place, but for what the
-    /// assessment leaves room for there: they are as good as these drops, and an assessment decides.
-    /// Of a plate that has no contact law of its own the drops are those of the hysteretic one. What is not answered is not drawn;
-    /// nothing is of an assessment of another product, or of data that [`check`](Self::check) refuses.
+    /// cases: at the highest speed and the ends of the ranges of spin, restitution and contact time. All parts are answered in the same
+    /// drops. The curve over the tilt holds besides the drops with the speed, spin, restitution and contact time of the worst case, and the
+    /// worst case itself. Safe places are those where no drop demands more than at the part's own place, but for what the assessment leaves
+    /// room for there: they are as good as these drops, and an assessment decides. Of a plate that has no contact law of its own the drops
+    /// are those of the hysteretic one. A drop that is not answered is not drawn; nothing is of an assessment of another product, or of
+    /// data that [`check`](Self::check) refuses.
     #[must_use]
     pub fn portraits(&self, assessment: &Assessment) -> Vec<Portrait> {
         if self.check().and(assessment.accuracy.check()).and(assessment.is_of(self)).is_err() {
@@ -128,7 +128,7 @@ impl ProductFile {
         each.map(portrait).collect()
     }
 
-    /// Past the peaks of the worst cases that come after the product has landed again.
+    /// Returns the end of the motion to follow: past the peaks of the worst cases that come after the product has landed again.
     fn until(assessment: &Assessment) -> Until {
         let worst = assessment.components.iter().flat_map(|c| &c.limits).filter_map(|l| l.worst_case.as_ref());
         let late = worst.filter(|worst| worst.time_s > worst.drop.clear_s());
@@ -166,7 +166,7 @@ impl ProductFile {
     }
 }
 
-/// Of each limit and contact law, what the assessment says beside the drops; none where it does not know how much may be asked.
+/// Compares, for each limit and contact law, the assessment with the drops; none where it does not know the possible demand.
 fn scales(component: &Component, assessed: &ComponentAssessment, ends: &[Places<'_>]) -> Option<Vec<Vec<Scale>>> {
     let of = |(limit, found): (&Limit, &LimitAssessment)| {
         let parts = parts(component, limit, found.worst_case.as_ref());
@@ -179,7 +179,7 @@ fn scales(component: &Component, assessed: &ComponentAssessment, ends: &[Places<
     Limit::of(component).iter().zip(&assessed.limits).map(of).collect()
 }
 
-/// The motion of a part that is driven by small velocity shocks, sampled and right at every shock.
+/// Computes the motion of a part that is driven by small velocity shocks, sampled and right at every shock.
 fn respond(suspension: &Suspension, slices: &[(f64, f64)], end: f64, value: impl Fn(State) -> f64) -> Vec<(f64, f64)> {
     let period = std::f64::consts::TAU / suspension.omega();
     let step = (end / POINTS).min(period / IN_A_PERIOD).max(end / MOST_POINTS);
@@ -206,7 +206,7 @@ fn respond(suspension: &Suspension, slices: &[(f64, f64)], end: f64, value: impl
     points
 }
 
-/// A history up to `end`, at rest from its last point on.
+/// Returns a history up to `end`, at rest from its last point on.
 fn within(mut history: Vec<(f64, f64)>, end: f64) -> Vec<(f64, f64)> {
     history.retain(|p| p.0 <= end);
     history.push((end, 0.0));

@@ -1,4 +1,4 @@
-//! What the product file says: a product, its drop and its fragile parts. All SI.
+//! This module holds the contents of the product file: a product, its drop and its fragile parts. All values are in SI.
 //!
 //! Positions run along the bar from its middle, towards end b positive; across a plate from its middle as well.
 
@@ -11,20 +11,20 @@ use crate::{Attitude, Component, Error, INPUTS, Row, Spread};
 /// A product, its drop and its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProductFile {
-    /// What falls.
+    /// The product that falls.
     pub product: Product,
-    /// How it falls.
+    /// The drop, as ranges.
     pub drop: DropRanges,
     /// The drops that it goes through one after the other, all of a box or none: none of a product that falls once, as its drop says.
     pub landings: Vec<Landing>,
-    /// What must survive; at least one.
+    /// The components that must survive; at least one.
     pub components: Vec<Component>,
-    /// What was measured; none unless the file names some.
+    /// The measured records; none unless the file names some.
     pub records: Vec<RecordFile>,
 }
 
 impl ProductFile {
-    /// A product built in code, checked as a file is; without records. Its fields are public: what assesses it checks it again.
+    /// Returns a product built in code, checked as a file is; without records. Its fields are public: each assessment checks it again.
     ///
     /// # Errors
     /// Those of [`check`](Self::check).
@@ -52,12 +52,12 @@ impl ProductFile {
         file.check()?;
         Ok(file)
     }
-    /// Whether it lands on faces, edges and corners.
+    /// Returns whether it lands on faces, edges and corners.
     #[must_use]
     pub fn is_box(&self) -> bool {
         self.landings.first().is_some_and(|landing| landing.attitude.is_some())
     }
-    /// What its drops are called, in order; none of a product that falls once.
+    /// Returns the names of its drops, in order; none of a product that falls once.
     #[must_use]
     pub fn drop_names(&self) -> Vec<DropName> {
         let name =
@@ -91,16 +91,16 @@ impl ProductFile {
         }
         drop
     }
-    /// All of its drops: those that are listed, or the one.
+    /// Returns all of its drops: those that are listed, or the one.
     pub(crate) fn drops(&self) -> Vec<DropRanges> {
         if self.landings.is_empty() { vec![self.drop] } else { self.landings.iter().map(|one| one.drop).collect() }
     }
 }
 
-/// What falls.
+/// The product that falls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Product {
-    /// As the file names it.
+    /// The name in the file.
     pub name: String,
     /// Its sides, center of mass and inertia, and feet that it lands on; where the radius of gyration has a range, of the middle of it.
     pub body: Body,
@@ -112,14 +112,14 @@ pub struct Product {
     pub mass_kg: Option<f64>,
     /// Coefficient of restitution of its ends, within [0, 1].
     pub restitution: Spread,
-    /// How long a lone contact of an end takes.
+    /// The time of a lone contact of an end.
     pub contact_time_s: Option<Spread>,
-    /// What the ground does to an end while it touches; where none is named, no limit is decided by one law alone.
+    /// The law of the force of the ground on an end while it touches; where none is named, no limit is decided by one law alone.
     pub contact_law: Option<ContactLaw>,
 }
 
 impl Product {
-    /// A product with one radius of gyration, that of the body; mass, contact time and contact law are not known.
+    /// Returns a product with one radius of gyration, that of the body; mass, contact time and contact law are not known.
     #[must_use]
     pub fn new(name: impl Into<String>, body: Body, restitution: Spread) -> Self {
         Self {
@@ -133,24 +133,24 @@ impl Product {
             contact_law: None,
         }
     }
-    /// The same with this range of the radius of gyration, and the body of the middle of it.
+    /// Returns the same with this range of the radius of gyration, and the body of the middle of it.
     ///
     /// # Errors
     /// [`Error::Bar`] unless that is a radius of gyration.
     pub fn with_gyration(self, gyration_m: Spread) -> Result<Self, Error> {
         Ok(Self { body: self.body_with(gyration_m.at(0.5))?, gyration_m, ..self })
     }
-    /// The contact law by which drops are followed: the one that is named, else the hysteretic one.
+    /// Returns the contact law by which drops are followed: the one that is named, else the hysteretic one.
     #[must_use]
     pub fn law(&self) -> ContactLaw {
         self.contact_law.unwrap_or_default()
     }
-    /// The shortest and the longest contact of all ranges, where that of the product is known.
+    /// Returns the shortest and the longest contact of all ranges, where that of the product is known.
     pub(crate) fn contact_times_s(&self) -> Option<[f64; 2]> {
         let of = |time_s: f64| self.own_contacts.contact_times_s(self.body.points(), time_s);
         self.contact_time_s.as_ref().map(|time| [of(time.lo())[0], of(time.hi())[1]])
     }
-    /// The longest contact of each kind: of the product first, unless all have their own, and of others whose time is their own.
+    /// Returns the longest contact of each kind: of the product first, unless all have their own, and of others whose time is their own.
     pub(crate) fn longest_contacts_s(&self) -> Vec<f64> {
         let Some(time) = &self.contact_time_s else { return Vec::new() };
         let all = self.own_contacts.0[..self.body.points()].iter().map(|own| own.contact_time_s.unwrap_or(time.hi()));
@@ -159,25 +159,25 @@ impl Product {
         all.dedup();
         all
     }
-    /// The contacts of its ends or corners by a law, each as stiff and as lively as its ranges have it.
+    /// Returns the contacts of its ends or corners by a law, each as stiff and as lively as its ranges have it.
     pub(crate) fn stiffest(&self, law: ContactLaw) -> Option<Vec<Contact>> {
         let (e, time_s) = (self.restitution.hi(), self.contact_time_s.as_ref()?.lo());
         let all: [Contact; 4] = self.own_contacts.contacts(law, e, time_s).ok()?;
         Some(all[..self.body.points()].to_vec())
     }
-    /// From edge to edge, along the length and along the width; 0 across a bar.
+    /// Returns the sides from edge to edge, along the length and along the width; 0 across a bar.
     #[must_use]
     pub fn sides_m(&self) -> [f64; 2] {
         self.body.sides_m()
     }
-    /// The body with this radius of gyration, in m.
+    /// Returns the body with this radius of gyration, in m.
     ///
     /// # Errors
     /// [`Error::Bar`] unless it is finite and positive.
     pub fn body_with(&self, gyration_m: f64) -> Result<Body, Error> {
         Ok(self.body.with_gyration_m(gyration_m)?)
     }
-    /// The body at `share` in [0, 1] of the range of its radius of gyration.
+    /// Returns the body at `share` in [0, 1] of the range of its radius of gyration.
     pub(crate) fn body_at(&self, share: f64) -> Body {
         // Both ends of the range were checked as it was read.
         self.body_with(self.gyration_m.at(share)).unwrap_or(self.body)
@@ -187,35 +187,35 @@ impl Product {
 /// One of the drops that a file lists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Landing {
-    /// How it falls; a box is tilted by up to so much off what it lands on.
+    /// The drop, as ranges; a box is tilted by up to so much off its attitude.
     pub drop: DropRanges,
-    /// What a box lands on; none of a bar and of a plate.
+    /// The face, edge or corner on which a box lands; none of a bar and of a plate.
     pub attitude: Option<Attitude>,
-    /// The standard that asks for it, with clause and title; none of one that was given by hand.
+    /// The standard that demands it, with clause and title; none of one that was given by hand.
     pub source: Option<&'static str>,
 }
 
-/// What one of several drops is called.
+/// The name of one of several drops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DropName {
-    /// Of a box, what it lands on.
+    /// The face, edge or corner on which a box lands.
     On(Attitude),
-    /// Of a bar and of a plate, its number in the file, from 1.
+    /// The number of a drop of a bar or of a plate in the file, from 1.
     Number(usize),
 }
 
 impl DropName {
-    /// Of a box, what it lands on.
+    /// Returns, of a box, the face, edge or corner on which it lands.
     #[must_use]
     pub fn attitude(self) -> Option<Attitude> {
         if let Self::On(attitude) = self { Some(attitude) } else { None }
     }
-    /// Of a bar and of a plate, its number in the file, from 1.
+    /// Returns, of a bar and of a plate, its number in the file, from 1.
     #[must_use]
     pub fn number(self) -> Option<usize> {
         if let Self::Number(number) = self { Some(number) } else { None }
     }
-    /// Where something happens: `on face bottom`, `in drop 2`.
+    /// Returns the words for the drop of an event: `on face bottom`, `in drop 2`.
     #[must_use]
     pub fn there(self) -> String {
         let on = if matches!(self, Self::On(_)) { "on" } else { "in" };
@@ -239,17 +239,17 @@ impl Serialize for DropName {
 }
 
 impl Landing {
-    /// A drop of a bar or of a plate, one of several.
+    /// Returns a drop of a bar or of a plate, one of several.
     #[must_use]
     pub fn tilted(drop: DropRanges) -> Self {
         Self { drop, attitude: None, source: None }
     }
-    /// By how much a box may be turned off what it lands on.
+    /// Returns the angle by which a box may be turned off its attitude.
     #[must_use]
     pub fn tolerance_rad(&self) -> f64 {
         self.drop.tilt_rad.hi()
     }
-    /// Whether another drop is the same; how far off what a box lands on either may be does not count.
+    /// Returns whether another drop is the same; the tolerance of the attitude of a box does not count.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let [one, two] = [self, other].map(|landing| match landing.attitude {
             Some(_) => DropRanges { tilt_rad: Spread::finite(0.0), ..landing.drop },
@@ -259,19 +259,20 @@ impl Landing {
     }
 }
 
-/// How it falls.
+/// The drop of a product, as ranges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DropRanges {
-    /// From where, or how fast.
+    /// The drop height or the speed.
     pub fall: Fall,
     /// Angle to the ground at the first touch, within [0, π/6] rad.
     pub tilt_rad: Spread,
     /// Angular velocity at the first touch about the axis about which it is tilted, in rad/s: positive where the tilt grows, negative where
     /// it closes; what touches first must still come down.
     pub spin_rad_s: Spread,
-    /// Which end touches first; of a plate its direction tells it.
+    /// The end that touches first; of a plate its direction decides it.
     pub first: First,
-    /// Where a plate rises to from its lowest corner, in rad from the length towards the width; any direction if none is given.
+    /// The direction to which a plate rises from its lowest corner, in rad from the length towards the width; any direction if none is
+    /// given.
     pub direction_rad: Option<Spread>,
     /// Gravity after the first touch; 0 switches it off.
     pub gravity_m_s2: f64,
@@ -286,7 +287,7 @@ pub enum Fall {
     SpeedMS(Spread),
 }
 
-/// Which end touches the ground first.
+/// The end that touches the ground first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum First {
     /// Always this one.
@@ -302,7 +303,7 @@ pub struct RecordFile {
     pub file: String,
     /// The drop that was measured; records of one drop share it. A record without is of a drop of its own.
     pub drop: Option<String>,
-    /// Where an acceleration was measured, in m from the middle towards end b.
+    /// The place where an acceleration was measured, in m from the middle towards end b.
     pub position_m: Option<f64>,
     /// Name or number of the column of acceleration.
     pub acceleration: Option<String>,
@@ -320,33 +321,33 @@ impl Product {
     pub fn relative(&self, position_m: f64) -> f64 {
         2.0 * position_m / self.body.length_m()
     }
-    /// Inertia ratio (L² − ρ²)/(L² + ρ²) of the product; off center ±√(q_a q_b), that of the symmetric bar with the
+    /// Returns the inertia ratio (L² − ρ²)/(L² + ρ²) of the product; off center ±√(q_a q_b), that of the symmetric bar with the
     /// same clatter; of the middle of the range of the radius of gyration.
     #[must_use]
     pub fn inertia_ratio(&self) -> f64 {
         ratio(&self.body)
     }
-    /// The same at `share` in [0, 1] of the range of the radius of gyration.
+    /// Returns the same at `share` in [0, 1] of the range of the radius of gyration.
     #[must_use]
     pub fn inertia_ratio_at(&self, share: f64) -> f64 {
         ratio(&self.body_at(share))
     }
 }
 
-/// Inertia ratio of the symmetric bar with the same clatter.
+/// Returns the inertia ratio of the symmetric bar with the same clatter.
 fn ratio(body: &Body) -> f64 {
     let [a, b] = body.inertia_ratios();
     (a * b).sqrt().copysign(a)
 }
 
 impl DropRanges {
-    /// A drop on either end, without spin, with standard gravity.
+    /// Returns a drop on either end, without spin, with standard gravity.
     #[must_use]
     pub fn new(fall: Fall, tilt_rad: Spread) -> Self {
         let (first, gravity_m_s2) = (First::Either, clatter_shock::STANDARD_GRAVITY_M_S2);
         Self { fall, tilt_rad, spin_rad_s: Spread::finite(0.0), first, direction_rad: None, gravity_m_s2 }
     }
-    /// The range of speeds at the first touch, in m/s.
+    /// Returns the range of speeds at the first touch, in m/s.
     #[must_use]
     pub fn speeds_m_s(&self) -> [f64; 2] {
         match self.fall {
@@ -354,21 +355,21 @@ impl DropRanges {
             Fall::SpeedMS(v) => [v.lo(), v.hi()],
         }
     }
-    /// Whether it may turn as it touches.
+    /// Returns whether it may turn as it touches.
     #[must_use]
     pub fn may_spin(&self) -> bool {
         self.spin_rad_s.lo() != 0.0 || self.spin_rad_s.hi() != 0.0
     }
-    /// The fastest that it may turn, either way, in rad/s.
+    /// Returns the fastest that it may turn, either way, in rad/s.
     pub(crate) fn fastest_rad_s(&self) -> f64 {
         self.spin_rad_s.hi().max(-self.spin_rad_s.lo())
     }
-    /// √(2 g h).
+    /// Returns √(2 g h).
     #[must_use]
     pub fn speed_from(&self, height_m: f64) -> f64 {
         (2.0 * self.gravity_m_s2 * height_m).sqrt()
     }
-    /// The ends that may touch first.
+    /// Returns the ends that may touch first.
     #[must_use]
     pub fn first_ends(&self) -> &'static [End] {
         match self.first {

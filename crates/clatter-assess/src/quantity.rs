@@ -1,4 +1,4 @@
-//! What is limited: quantities, their units, and the limits of a component as numbers.
+//! This module defines the limited quantities, their units, and the limits of a component as numbers.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::{Component, DataFault, Error, Mount, Product, units};
 
-/// What is limited. A new kind stands last: which random numbers are drawn for a limit follows from its place.
+/// The kind of a limit. A new kind stands last: which random numbers are drawn for a limit follows from its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LimitKind {
@@ -42,7 +42,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// The unit that engineers use for it: gn, mm, m/s and rad/s.
+    /// Returns the unit that engineers use for it: gn, mm, m/s and rad/s.
     #[must_use]
     pub fn customary(self) -> &'static units::Unit {
         let (dimension, name) = match self {
@@ -55,7 +55,7 @@ impl Unit {
     }
 }
 
-/// What a limited quantity is taken from.
+/// The source from which a limited quantity is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Source {
     /// The response of a suspended part; of one that is mounted rigidly the acceleration of its place.
@@ -71,24 +71,24 @@ pub(crate) enum Source {
 /// A peak of the response of a part, times a power of its natural frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ResponsePeak {
-    /// As a velocity.
+    /// The peak as a velocity.
     pub(crate) peaked: Peaked,
     power: i32,
 }
 
 impl ResponsePeak {
-    /// The quantity that a peak is, told as a velocity, of a part with this natural frequency.
+    /// Returns the quantity of a peak that is given as a velocity, of a part with this natural frequency.
     pub(crate) fn of_velocity(self, velocity: f64, omega: f64) -> f64 {
         if self.power < 0 { velocity / omega.powi(-self.power) } else { velocity * omega.powi(self.power) }
     }
-    /// Of a response, as velocities.
+    /// Returns the extremes of a response, as velocities.
     pub(crate) fn of(self, response: &Response) -> Extremes {
         match self.peaked {
             Peaked::AccelerationOverOmega => response.acceleration_over_omega(),
             Peaked::PseudoVelocity => response.pseudo_velocity(),
         }
     }
-    /// Of a state of the part.
+    /// Returns the value for a state of the part.
     pub(crate) fn of_state(self, part: &Suspension, state: State) -> f64 {
         let omega = part.omega();
         let velocity = match self.peaked {
@@ -97,15 +97,15 @@ impl ResponsePeak {
         };
         self.of_velocity(velocity, omega)
     }
-    /// Whether it is the absolute acceleration of the part, which one that is mounted rigidly has too.
+    /// Returns whether it is the absolute acceleration of the part, which one that is mounted rigidly has too.
     pub(crate) fn is_acceleration(self) -> bool {
         self.peaked == Peaked::AccelerationOverOmega && self.power == 1
     }
-    /// Whether stiffer parts are asked for more as a rule.
+    /// Returns whether stiffer parts have a larger demand as a rule.
     pub(crate) fn grows_with_frequency(self) -> bool {
         self.power > 0
     }
-    /// The peak after a velocity shock of 1, from rest.
+    /// Returns the peak after a velocity shock of 1, from rest.
     pub(crate) fn after_impulse(self, damping: DampingRatio) -> f64 {
         let factors = damping.impulse_factors();
         match self.peaked {
@@ -113,7 +113,7 @@ impl ResponsePeak {
             Peaked::PseudoVelocity => factors.displacement,
         }
     }
-    /// What a velocity gives beside a displacement of the same size: the force of the damper.
+    /// Returns the share of a velocity that counts next to a displacement of the same size: the force of the damper.
     pub(crate) fn of_damper(self, damping: DampingRatio) -> f64 {
         match self.peaked {
             Peaked::AccelerationOverOmega => 2.0 * damping.get(),
@@ -132,9 +132,9 @@ struct Row {
     /// Its name among what can be changed.
     lever: &'static str,
     words: &'static str,
-    /// What is measured against it.
+    /// The name of the quantity that is measured against it.
     measured: &'static str,
-    /// What is allowed.
+    /// The name of the allowed value.
     allowed: &'static str,
     unit: Unit,
     source: Source,
@@ -199,7 +199,7 @@ const ROWS: [Row; 5] = [
 ];
 
 impl LimitKind {
-    /// Every kind, in the order in which limits of a part are told.
+    /// Every kind, in the order in which limits of a part are reported.
     pub const ALL: [Self; ROWS.len()] = {
         let mut all = [Self::Acceleration; ROWS.len()];
         let mut k = 0;
@@ -213,7 +213,7 @@ impl LimitKind {
     fn row(self) -> &'static Row {
         &ROWS[self as usize]
     }
-    /// `acceleration`, `rattle-space`, …
+    /// Returns the name: `acceleration`, `rattle-space`, …
     #[must_use]
     pub fn name(self) -> &'static str {
         self.row().name
@@ -226,22 +226,24 @@ impl LimitKind {
     pub(crate) fn lever(self) -> &'static str {
         self.row().lever
     }
-    /// In running text: `acceleration`, `rattle space`, …
+    /// Returns the name in running text: `acceleration`, `rattle space`, …
     #[must_use]
     pub fn words(self) -> &'static str {
         self.row().words
     }
-    /// What is measured against it, in running text: `acceleration`, `displacement`, …; of a damage boundary by the unit.
+    /// Returns the name of the quantity measured against it, in running text: `acceleration`, `displacement`, …; of a damage boundary by
+    /// the unit.
     #[must_use]
     pub fn measured(self, unit: Unit) -> &'static str {
         if unit == self.unit() { self.row().measured } else { LimitKind::Acceleration.row().measured }
     }
-    /// What is allowed, in running text: `acceleration limit`, `rattle space`, …; of a damage boundary its critical velocity change.
+    /// Returns the name of the allowed value, in running text: `acceleration limit`, `rattle space`, …; of a damage boundary its critical
+    /// velocity change.
     #[must_use]
     pub fn allowed(self) -> &'static str {
         self.row().allowed
     }
-    /// The unit of the limit; of a damage boundary that of its velocity change.
+    /// Returns the unit of the limit; of a damage boundary that of its velocity change.
     #[must_use]
     pub fn unit(self) -> Unit {
         self.row().unit
@@ -249,26 +251,26 @@ impl LimitKind {
     pub(crate) fn source(self) -> Source {
         self.row().source
     }
-    /// Whether a part that is mounted rigidly has no such limit: it does not move by itself.
+    /// Returns whether a part that is mounted rigidly has no such limit: it does not move by itself.
     pub(crate) fn needs_suspension(self) -> bool {
         matches!(self.source(), Source::Response(peak) if !peak.is_acceleration())
     }
-    /// Whether it is on the response of a suspended part.
+    /// Returns whether it is on the response of a suspended part.
     pub(crate) fn is_response(self) -> bool {
         matches!(self.source(), Source::Response(_))
     }
-    /// Whether a stop changes it that the part hits at the end of its rattle space.
+    /// Returns whether the limit changes where the part hits a stop at the end of its rattle space.
     pub(crate) fn is_changed_by_stop(self) -> bool {
         self.is_response() && self != Self::RattleSpace
     }
-    /// Whether the worst place of an extended part may lie between its ends.
+    /// Returns whether the worst place of an extended part may lie between its ends.
     pub(crate) fn is_largest_between(self) -> bool {
         matches!(self.source(), Source::Shock | Source::Boundary)
     }
 }
 
 impl Unit {
-    /// `m/s2`, `m`, …
+    /// Returns the name: `m/s2`, `m`, …
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -283,26 +285,26 @@ impl Unit {
 /// One limit of a component, as numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// What is limited.
+    /// The limited quantity.
     pub kind: LimitKind,
-    /// What is allowed; of a damage boundary the critical velocity change.
+    /// The allowed value; of a damage boundary the critical velocity change.
     pub allowed: f64,
-    /// Of a damage boundary, the critical acceleration.
+    /// The critical acceleration of a damage boundary.
     pub critical_acceleration_m_s2: f64,
 }
 
 impl Limit {
-    /// A limit of one number; a damage boundary needs its critical acceleration too.
+    /// Returns a limit of one number; a damage boundary needs its critical acceleration too.
     #[must_use]
     pub fn new(kind: LimitKind, allowed: f64) -> Self {
         Self { kind, allowed, critical_acceleration_m_s2: f64::INFINITY }
     }
-    /// The limits of a component at their least values, in a fixed order.
+    /// Returns the limits of a component at their least values, in a fixed order.
     #[must_use]
     pub fn of(component: &Component) -> Vec<Self> {
         Self::at(component, crate::Spread::lo)
     }
-    /// The same at other values of their ranges.
+    /// Returns the same at other values of their ranges.
     pub(crate) fn at(component: &Component, mut value: impl FnMut(&crate::Spread) -> f64) -> Vec<Self> {
         let mut of = |kind| {
             let allowed = value(component.limits.get(kind)?);
@@ -323,13 +325,13 @@ impl Limit {
         }
         Ok(())
     }
-    /// Whether it is on the response of a suspended part.
+    /// Returns whether it is on the response of a suspended part.
     #[must_use]
     pub fn is_response(&self) -> bool {
         self.kind.is_response()
     }
-    /// What one impact without clatter, (1 + e) v0 at every place at once, would ask, and of what is allowed; with a contact time
-    /// as a half-sine of that length.
+    /// Returns the demand of one impact without clatter, (1 + e) v0 at every place at once, in the quantity that the limit allows; with a
+    /// contact time as a half-sine of that length.
     ///
     /// # Errors
     /// [`Error::Shock`] for a suspension out of range.
@@ -362,7 +364,7 @@ const SUPPOSED_CONTACT_S: f64 = 0.5e-3;
 /// undamped part than an impulse of the same area, 1 − cos(ωτ/2)/(1 − (ωτ/π)²).
 const SHORT_PULSE: f64 = 1.0;
 
-/// Why a component cannot be assessed without the product's contact time; `None` where it can.
+/// Returns why a component cannot be assessed without the product's contact time; `None` where it can.
 pub(crate) fn lacks_contact_time(product: &Product, component: &Component) -> Option<String> {
     let responds = component.limits.kinds().into_iter().any(LimitKind::is_response);
     if product.contact_time_s.is_some() || !responds {

@@ -1,4 +1,4 @@
-//! From the text of a product file to the product, or to everything that is wrong with it.
+//! This module goes from the text of a product file to the product, or to everything that is wrong with it.
 
 mod body;
 mod drops;
@@ -48,7 +48,7 @@ impl ProductFile {
         Self::read_warned(text, origin).map(|(file, _)| file)
     }
 
-    /// The same, with warnings of what is allowed and is likely a slip: a phone of 150 m, a mass outside of the body.
+    /// Reads the same, with warnings of values that are allowed and likely a slip: a phone of 150 m, a mass outside of the body.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -77,7 +77,7 @@ impl ProductFile {
             reader.fault(0..0, error.to_string(), "", "");
         }
         if syntax {
-            // What the parser made up to go on is not to be told of.
+            // The values that the parser made up to go on must not be reported.
             reader.faults.retain(|fault| fault.message.starts_with("invalid TOML"));
             reader.warnings.clear();
         }
@@ -95,15 +95,15 @@ struct Section<'a> {
     keys: &'static [Key],
     table: &'a DeTable<'a>,
     span: Range<usize>,
-    /// How messages call it.
+    /// The words of messages for it.
     title: String,
 }
 
 #[derive(Debug, Default)]
 struct Reader {
-    /// Whether the product has a width.
+    /// True where the product has a width.
     is_plate: bool,
-    /// Whether it lands as a box, on faces, edges or corners.
+    /// True where it lands as a box, on faces, edges or corners.
     is_box: bool,
     faults: Vec<Fault>,
     warnings: Vec<Fault>,
@@ -120,7 +120,7 @@ impl Reader {
         self.faults.push(Fault { span, message: message.into(), label: label.into(), help: help.into(), also: None });
     }
 
-    /// What one of the rules of the product says, where it stands.
+    /// Reports a fault by one of the rules of the product, where it stands.
     fn data(&mut self, span: Range<usize>, fault: &DataFault, label: &str) {
         let [message, help] = fault.told();
         self.fault(span, message, label, help);
@@ -165,7 +165,7 @@ impl Reader {
         }
     }
 
-    /// The value behind a key, if it is there.
+    /// Returns the value behind a key, if it is there.
     fn get<'a>(section: &Section<'a>, name: &str) -> Option<(&'static Key, &'a Spanned<DeValue<'a>>)> {
         let key = keys::find(section.keys, name)?;
         section.table.get(name).map(|value| (key, value))
@@ -180,7 +180,7 @@ impl Reader {
         Some(At { value: text.to_owned(), span: value.span() })
     }
 
-    /// A text, or each of a list.
+    /// Reads a text, or each text of a list.
     fn texts(&mut self, section: &Section<'_>, name: &str) -> Vec<At<String>> {
         let Some((_, value)) = Self::get(section, name) else { return Vec::new() };
         let list = value.get_ref().as_array().filter(|list| !list.is_empty());
@@ -194,7 +194,7 @@ impl Reader {
         texts
     }
 
-    /// A word among those of the key.
+    /// Reads a word among those of the key.
     fn choice(&mut self, section: &Section<'_>, name: &str) -> Option<At<&'static str>> {
         let (Key { kind: Kind::Choice(words), .. }, value) = Self::get(section, name)? else { return None };
         let found = value.get_ref().as_str().and_then(|text| words.iter().find(|word| **word == text));
@@ -232,7 +232,7 @@ impl Reader {
             return Vec::new();
         };
         let most = if matches!(kind, Kind::Tables(_)) { MOST_COMPONENTS } else { drops::MOST_DROPS };
-        // Of the product it stands within its table.
+        // A list of the product stands within the table of the product.
         let of = section.title.strip_prefix('[').and_then(|title| title.strip_suffix(']'));
         let path = of.map_or(name.to_owned(), |of| format!("{of}.{name}"));
         let DeValue::Array(items) = value.get_ref() else {
@@ -258,7 +258,7 @@ impl Reader {
         sections
     }
 
-    /// One of two keys that exclude each other; a fault where both or, if `needed`, none are given.
+    /// Checks that one of two keys that exclude each other is given: both or, if `needed`, none are a fault.
     fn exactly_one(&mut self, section: &Section<'_>, names: &[&str], needed: bool) {
         let given: Vec<_> = names.iter().filter_map(|name| section.table.get_key_value(*name)).collect();
         let choice = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
@@ -299,7 +299,7 @@ impl Reader {
         Some(ProductFile { product: product?, drop: drop?, landings, components, records })
     }
 
-    /// Refuses components of one name: answers could not be told apart.
+    /// Refuses components of one name: answers could not be distinguished.
     fn distinct(&mut self, sections: &[Section<'_>]) {
         let mut known: HashMap<&str, Range<usize>> = HashMap::new();
         for section in sections {
@@ -331,7 +331,7 @@ impl Reader {
     }
 }
 
-/// The beginning of a text that may be of any length.
+/// Returns the beginning of a text that may be of any length.
 fn shown(text: &str) -> String {
     let short = shortened(text);
     if short.len() < text.len() { format!("{short}…") } else { short }

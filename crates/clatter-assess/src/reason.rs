@@ -1,4 +1,4 @@
-//! Why an assessment says what it says: data, and the sentences that show it.
+//! This module gives the reasons for the results of an assessment: data, and the sentences that show it.
 
 use std::fmt::{Display, Formatter};
 
@@ -7,7 +7,7 @@ use serde::Serializer;
 use crate::bound::FRICTION;
 use crate::{ContactLaw, DropName, Error, Model};
 
-/// Why a limit is undecided, or would be if nothing exceeded it. Shares are of what is allowed.
+/// The reason why a limit is undecided, or would be if nothing exceeded it. Shares are of the allowed value.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Doubt {
@@ -15,11 +15,11 @@ pub enum Doubt {
     Unanswered(Error),
     /// Some of the drops that were tried are not answered.
     Refused {
-        /// So many of them.
+        /// The number of them.
         count: usize,
         /// All that were tried.
         drops: usize,
-        /// Why one of them is not.
+        /// The reason why one of them is not.
         error: Error,
     },
     /// The search was stopped.
@@ -27,7 +27,7 @@ pub enum Doubt {
         /// Drops that were answered by then.
         answered: usize,
     },
-    /// What real tilt adds to a plate is not known: the box beside it is not followed, for this.
+    /// The effect of real tilt on a plate is not known: the box of the same product is not followed, for this reason.
     NoTilt(Error),
     /// The model with the most physics does not answer the worst drop found, for this.
     Fullest(Model, Error),
@@ -35,16 +35,16 @@ pub enum Doubt {
     NoBound,
     /// Other drops of the ranges may exceed the limit.
     Others {
-        /// The share that the worst drop found asks for.
+        /// The demand of the worst drop found, as a share.
         found: f64,
-        /// The share that others may ask for.
+        /// The demand that other drops may have, as a share.
         most: f64,
     },
     /// Without friction no drop exceeds the limit; with it some may.
     Friction {
-        /// The share that the worst drop found asks for without friction.
+        /// The demand of the worst drop found without friction, as a share.
         found: f64,
-        /// The share that others may ask for with friction up to 0.6.
+        /// The demand that other drops may have with friction up to 0.6, as a share.
         most: f64,
     },
     /// The assessment contradicts itself.
@@ -55,14 +55,14 @@ pub enum Doubt {
     OtherLaw {
         /// The law.
         law: ContactLaw,
-        /// Why it is.
+        /// The reasons why it is.
         doubts: Vec<Doubt>,
     },
     /// The file names no contact law, and the limit is exceeded by this one.
     ExceededByOtherLaw(ContactLaw),
     /// The part may hit its stop, after which the suspension is not linear.
     Stop {
-        /// Whether it does for sure.
+        /// True where it does for sure.
         hits: bool,
         /// The margin of the rattle space, where it is known.
         margin: Option<f64>,
@@ -127,21 +127,21 @@ impl Display for Doubt {
     }
 }
 
-/// What an assessment says that can't be: an error of the program.
+/// A contradiction in an assessment, which is an error of the program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Contradiction {
-    /// A drop asks for more than the bound by energy allows.
+    /// A drop has a larger demand than the bound by energy allows.
     AboveBound {
-        /// What the drop asks for, in the unit of the limit.
+        /// The demand of the drop, in the unit of the limit.
         demand: f64,
-        /// What the bound allows.
+        /// The bound by energy, in the unit of the limit.
         bound: f64,
     },
-    /// A drop asks for more than the one that is told as the worst; shares of what is allowed.
+    /// A drop has a larger demand than the one that is reported as the worst; shares of the allowed value.
     AboveWorst {
-        /// What the drop asks for.
+        /// The demand of the drop.
         found: f64,
-        /// What is told.
+        /// The reported demand.
         told: f64,
     },
 }
@@ -156,7 +156,7 @@ impl Display for Contradiction {
     }
 }
 
-/// What else is to be known of a limit. Shares are of what is allowed.
+/// A further fact to be known of a limit. Shares are of the allowed value.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
@@ -164,7 +164,7 @@ pub enum Note {
     NoError,
     /// The answer may be off by this share of itself.
     Error(f64),
-    /// Rebounds may ask for up to this share, by their energy.
+    /// The demand of rebounds may be up to this share, by their energy.
     Rebounds(f64),
     /// Friction up to 0.6, which drops are followed without, may bring them to this share.
     Friction(f64),
@@ -178,20 +178,20 @@ pub enum Note {
     Edges,
     /// A bar does not roll about its length, where most products turn fastest.
     Rolls,
-    /// What real tilt adds, by a box with full rotation in drops next to the worst one.
+    /// The demand that real tilt adds, by a box with full rotation in drops next to the worst one.
     Tilt {
-        /// What the box asks for at most, less what the plate of small tilt does, as a share of it; negative where it asks for less.
+        /// The largest demand of the box less that of the plate of small tilt, as a share of the latter; negative where the box has less.
         off: f64,
         /// Its thickness.
         thickness_m: f64,
     },
-    /// The model that was asked for is not the one with the most physics.
+    /// The requested model is not the one with the most physics.
     Model {
-        /// The one that was asked for.
+        /// The requested one.
         asked: Model,
         /// The one with the most physics.
         fullest: Model,
-        /// What that one says of the worst drop, less what this one says, as a share of it.
+        /// The demand of the worst drop by that model, less that by this one, as a share of the latter.
         off: f64,
     },
 }
@@ -249,13 +249,13 @@ impl Display for Note {
     }
 }
 
-/// Why a drop is followed by its model.
+/// The reason why a drop is followed by its model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reason {
     /// Contacts take a time that is known.
     ContactTime,
-    /// The model was asked for.
+    /// The model was requested.
     ByRequest(Model),
     /// The contact time is not known.
     NoContactTime,
@@ -273,13 +273,13 @@ impl Display for Reason {
     }
 }
 
-/// One after the other in a sentence; none of none.
+/// Joins doubts, one after the other, in a sentence; none of none.
 pub(crate) fn joined(doubts: &[Doubt]) -> Option<String> {
     let all: Vec<_> = doubts.iter().map(Doubt::to_string).collect();
     (!all.is_empty()).then(|| all.join("; "))
 }
 
-/// A share of a hundred to one decimal.
+/// Returns a share of a hundred to one decimal.
 fn percent(share: f64) -> f64 {
     (10.0 * (100.0 * share)).round() / 10.0
 }

@@ -2,9 +2,9 @@
 
 use crate::{Accuracy, Case, LimitKind, WorstCase, visible};
 
-/// `clatter respond --product=… --component=… --worst=…`, which searches the worst drop of a limit again and answers it; with the model
-/// and the tolerance, where they are not those that an assessment has by itself. None where the command line cannot say it: for a file
-/// that is standard input, for names that are no plain text, for another time of strikes that land as one.
+/// Returns `clatter respond --product=… --component=… --worst=…`, which searches the worst drop of a limit again and answers it; with the
+/// model and the tolerance, where they are not those that an assessment has by itself. None where the command line cannot say it: for a
+/// file that is standard input, for names that are no plain text, for another time of strikes that land as one.
 ///
 /// # Examples
 /// ```
@@ -45,7 +45,7 @@ impl WorstCase {
 /// Longer names make no short command.
 const LONGEST: usize = 80;
 
-/// As a shell takes it for one word.
+/// Quotes a text as a shell takes it for one word.
 fn quoted(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "._-/+,:@%".contains(c);
     if !text.is_empty() && text.chars().all(plain) {

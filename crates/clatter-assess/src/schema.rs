@@ -5,9 +5,9 @@ use serde_json::{Map, Value, json};
 use crate::keys::{FILE, Key, Kind};
 use crate::units::{self, Dimension};
 
-/// What a product file may hold, as a JSON Schema (draft 2020-12) that editors complete and check with.
+/// Returns the JSON Schema (draft 2020-12) of a product file, with which editors complete and check it.
 ///
-/// It knows keys, types, units and which numbers are required; bounds and what excludes each other are told by
+/// It knows keys, types, units and which numbers are required; bounds and keys that exclude each other are reported by
 /// [`ProductFile::read`](crate::ProductFile::read).
 ///
 /// ```
@@ -69,7 +69,7 @@ fn kind(of: &Kind) -> Value {
     }
 }
 
-/// One number with its unit; bounds as far as plain numbers have them.
+/// Returns one number with its unit; bounds as far as plain numbers have them.
 fn quantity(dimension: &Dimension, bounds: [&str; 2]) -> Value {
     let units: Vec<_> = dimension.units.iter().map(units::pattern).collect();
     let number = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?";

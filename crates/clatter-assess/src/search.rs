@@ -1,10 +1,10 @@
 //! The worst drop over the stated ranges.
 //!
 //! Drops all over the ranges are followed, each by the one engine: tilts are so close that the stiffest part turns by less than
-//! a radian between the first two strikes, with the ends of the ranges of speed, restitution and contact time and some between, and in each the
-//! parts at both ends of where they may be, at the end of the range of natural frequencies that asks most as a rule and at
-//! others, from drop to drop at others still. Where the order in which ends touch and part changes between two tilts, what stiff parts
-//! feel jumps: drops on both sides of it are followed too. From the highest of all the search climbs in all ranges at once.
+//! a radian between the first two strikes, with the ends of the ranges of speed, restitution and contact time and some between, and in each
+//! the parts at both ends of where they may be, at the end of the range of natural frequencies with the largest demand as a rule and at
+//! others, from drop to drop at others still. Where the order in which ends touch and part changes between two tilts, the demand on stiff
+//! parts jumps: drops on both sides of it are followed too. From the highest of all the search climbs in all ranges at once.
 //!
 //! Drops are first followed until the body comes down after its clatter. Where the energy left then may bring a part above the
 //! worst found, they are followed for longer, and so are drops of a sequence that spreads evenly over all ranges.
@@ -36,7 +36,7 @@ pub(crate) use ranges::{AXES, DIRECTION};
 pub(crate) use ranges::{Coordinates, Ranges};
 pub(crate) use ranges::{DAMPING, FREQUENCY};
 
-/// Is told how much of how much is done, from any thread, and says whether to go on.
+/// A callback that receives how much of how much is done, from any thread, and returns whether to go on.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);
 
 /// The work of a search, counted in drops.
@@ -68,7 +68,7 @@ pub(crate) struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// A place of the part.
+    /// Returns a place of the part.
     fn place(&self, at_m: [f64; 2]) -> Place {
         self.component.inside.place(at_m)
     }
@@ -78,7 +78,7 @@ impl Task<'_> {
 const FREQUENCIES: [f64; 2] = [2.0, 16.0];
 /// The same in drops that are followed for longer, at least.
 const FREQUENCIES_LATE: u32 = 4;
-/// Frequencies in one turn of a part between the first two strikes: what it asks goes up and down with its phase at the second.
+/// Frequencies in one turn of a part between the first two strikes: its demand goes up and down with its phase at the second.
 const IN_A_TURN: f64 = 4.0;
 /// The golden ratio: multiples of it spread evenly from 0 to 1.
 const GOLDEN: f64 = 0.618_033_988_749_895;
@@ -95,9 +95,9 @@ const CLIMB: usize = 72;
 const WAVE: usize = 64;
 
 impl Ranges<'_> {
-    /// The worst of each task; tasks of one component follow one another. They are searched in the drops in which `all_tasks` are,
-    /// so that some of them alone have the same worst drops. Where only drops that ask for no more than `most` of any limit are of
-    /// use, the search is left as soon as one is answered that asks for more: that one.
+    /// Finds the worst of each task; tasks of one component follow one another. They are searched in the drops in which `all_tasks` are,
+    /// so that some of them alone have the same worst drops. Where only drops that demand no more than `most` of any limit are of
+    /// use, the search is left as soon as one is answered that demands more: that one.
     pub(crate) fn worst(
         &self,
         tasks: &[Task<'_>],
@@ -116,7 +116,7 @@ impl Ranges<'_> {
         let sample = self.sample();
         let count = grid.len() + overlaps.len() + sample + climbing;
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
-        // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
+        // A drop that comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
         // any number of threads.
         let ask = |all: &mut Candidates, drops: &[(u32, Coordinates)], only: Option<&[bool]>, to_rest: bool| {
             let mut orders = Vec::with_capacity(drops.len());
@@ -141,13 +141,13 @@ impl Ranges<'_> {
         if edged.contains(&true) {
             ask(&mut all, &self.edges(&grid, &orders, &work), Some(&edged), of_all)?;
         }
-        // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
+        // The demand of rebounds is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
         let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
         if only.contains(&true) {
             let sample: Vec<(u32, Coordinates)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
             ask(&mut all, &sample, Some(&only), true)?;
-            // What stands and hardly ever falls over asks most where it does.
+            // A product that stands and hardly ever falls over has the largest demand where it does.
             let stands = all.leaning.filter(|(lean, _)| self.faces() == 1 && *lean < 1.0);
             if let Some(fallen) = stands.and_then(|(lean, place)| self.fallen_over(&tasks[0], place, lean, &work)) {
                 ask(&mut all, &[(1, fallen)], Some(&only), true)?;
@@ -163,7 +163,7 @@ impl Ranges<'_> {
             .enumerate()
             .flat_map(|(n, found)| {
                 let all = starts(found);
-                // A box that tumbles is followed for long: only where that asks most.
+                // A box that tumbles is followed for long: only where that has the largest demand.
                 let tumbles = all.first().copied().filter(|start| !of_all && start.late);
                 let such = all.into_iter().filter(move |start| of_all || !start.late).take(most_starts);
                 tumbles.into_iter().chain(such).map(move |start| (n, start))
@@ -199,7 +199,7 @@ impl Ranges<'_> {
         Ok(all)
     }
 
-    /// How many drops are followed besides those of the grid where rebounds count.
+    /// Returns how many drops are followed besides those of the grid where rebounds count.
     fn sample(&self) -> usize {
         let [of_all_drops, of_each] = SAMPLE_OF_BOX;
         match self.base {
@@ -208,12 +208,12 @@ impl Ranges<'_> {
         }
     }
 
-    /// 1 of instant impacts, 0 of contacts that take time.
+    /// Returns 1 for instant impacts, 0 for contacts that take time.
     fn by_impacts(&self) -> usize {
         usize::from(self.model != Model::Compliant)
     }
 
-    /// A drop of the last wave that asks for more than `most` of a limit, answered to the tolerance; `best` are those before it.
+    /// Finds a drop of the last wave that demands more than `most` of a limit, answered to the tolerance; `best` are those before it.
     fn passes(&self, tasks: &[Task<'_>], all: &Candidates, best: &[f64], most: f64) -> Option<Coordinates> {
         let of_one = |(n, task): (usize, &Task<'_>)| {
             let highest =
@@ -225,7 +225,8 @@ impl Ranges<'_> {
         tasks.iter().enumerate().find_map(of_one)
     }
 
-    /// What drop k, which was followed until it lands, asks of each task, or of those marked in `only`, where that comes near the worst.
+    /// Returns the demand of drop k, which was followed until it lands, for each task, or for those marked in `only`, where that comes near
+    /// the worst.
     fn ask(
         &self,
         tasks: &[Task<'_>],
@@ -272,7 +273,7 @@ impl Ranges<'_> {
                     };
                     let worst = best[number];
                     let place = Coordinates { at_m, ..*drop };
-                    // That nothing is asked is an answer as well.
+                    // A demand of nothing is an answer as well.
                     let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
                     let frequencies = Self::frequencies(task, &early.drop);
                     let late = frequencies.max(FREQUENCIES_LATE);
@@ -326,7 +327,7 @@ impl Ranges<'_> {
         follow(&drop, self.model, self.tolerance.max(0.02), until)
     }
 
-    /// The same, once.
+    /// Does the same once.
     fn followed<'f>(
         &self,
         place: &Coordinates,
@@ -339,7 +340,7 @@ impl Ranges<'_> {
         }
     }
 
-    /// How many natural frequencies are tried in one drop: some in each turn that the ends of their range differ by.
+    /// Returns how many natural frequencies are tried in one drop: some in each turn that the ends of their range differ by.
     fn frequencies(task: &Task<'_>, drop: &Drop) -> u32 {
         let Mount::Suspended { frequency_hz, .. } = task.component.mount else { return 0 };
         let gap_s = 0.25 * drop.clatter_s();
@@ -350,7 +351,7 @@ impl Ranges<'_> {
         count
     }
 
-    /// The part at a place, where the limit is on its response.
+    /// Returns the part at a place, where the limit is on its response.
     fn part(task: &Task<'_>, place: &Coordinates) -> Result<Option<Suspension>, Error> {
         let Mount::Suspended { frequency_hz, damping } = task.component.mount else { return Ok(None) };
         if !task.limit.is_response() {
@@ -361,13 +362,13 @@ impl Ranges<'_> {
         Ok(Some(Suspension::from_hz(frequency_hz.at(place.shares[FREQUENCY]), ratio)?))
     }
 
-    /// The part with least damping at both ends of the range of its frequencies.
+    /// Returns the part with least damping at both ends of the range of its frequencies.
     fn softest_and_stiffest(task: &Task<'_>, place: &Coordinates) -> Result<Vec<Suspension>, Error> {
         let at = |frequency: f64| Self::part(task, &place.with(FREQUENCY, frequency).with(DAMPING, 0.0)).transpose();
         [0.0, 1.0].into_iter().filter_map(at).collect()
     }
 
-    /// What a part asks that feels this drop, where it passes `above`.
+    /// Returns the demand of a part on which this drop acts, where it passes `above`.
     fn in_drop(
         task: &Task<'_>,
         place: &Coordinates,
@@ -379,7 +380,7 @@ impl Ranges<'_> {
         Ok(answer.map(|answer| Candidate { place: *place, part, answer, late: false }))
     }
 
-    /// The most of drop k at the end of the range of frequencies that asks most as a rule, and at `others` in it.
+    /// Returns the largest demand of drop k at the end of the range of frequencies where it is largest as a rule, and at `others` in it.
     fn most(
         &self,
         task: &Task<'_>,
@@ -408,7 +409,7 @@ impl Ranges<'_> {
         Ok(worst)
     }
 
-    /// Whether a part at a place of the ranges is asked for more than `most` of a limit there, answered to the tolerance.
+    /// Returns whether the demand on a part at a place of the ranges is more than `most` of a limit there, answered to the tolerance.
     pub(crate) fn asks_more(&self, task: &Task<'_>, place: &Coordinates, most: f64) -> bool {
         let of = |at_m: [f64; 2]| {
             let place = Coordinates { at_m, ..*place };
@@ -418,7 +419,7 @@ impl Ranges<'_> {
         task.component.places_m().into_iter().any(|x| of(x).is_ok_and(|answer| answer.utilization() > most))
     }
 
-    /// What one drop of the ranges asks of a task, as a utilization; 0 where it is not answered.
+    /// Returns the demand of one drop of the ranges for a task, as a utilization; 0 where it is not answered.
     pub(crate) fn in_one(&self, task: &Task<'_>, place: &Coordinates) -> f64 {
         let Ok(followed) = self.follow(place, Until::Lands) else { return 0.0 };
         let of = |at_m: [f64; 2]| {
@@ -430,11 +431,11 @@ impl Ranges<'_> {
     }
 }
 
-/// Above this damping ratio a part is asked for pulse by pulse: its damper passes on what velocity it has in between, 2ζ of it, which
+/// Above this damping ratio a part is followed pulse by pulse: its damper passes on the velocity that it has in between, 2ζ of it, which
 /// pulses taken together do not show.
 const DAMPED: f64 = 0.1;
 
-/// Up to which natural frequency a rough history has to hold for a part.
+/// Returns the natural frequency up to which a rough history has to hold for a part.
 pub(crate) fn rough_to_rad_s(component: &Component) -> f64 {
     match component.mount {
         Mount::Suspended { damping, .. } if damping.ratios()[1] > DAMPED => f64::INFINITY,
@@ -442,7 +443,7 @@ pub(crate) fn rough_to_rad_s(component: &Component) -> f64 {
     }
 }
 
-/// The fastest that a part moves by itself; of one that is mounted rigidly no response is asked for.
+/// Returns the fastest that a part moves by itself; of one that is mounted rigidly no response is needed.
 pub(crate) fn fastest_rad_s(component: &Component) -> f64 {
     let Mount::Suspended { frequency_hz, damping } = component.mount else { return 0.0 };
     let [_, most] = damping.ratios();

@@ -1,12 +1,13 @@
-//! What one shock is, at a place and of the turning of the product: one definition for every command and page.
+//! This module defines one shock, at a place and of the turning of the product: one definition for every command and page.
 //!
-//! Of contacts that take time, shocks are taken from the largest peak of the felt acceleration down. Each reaches on both sides as
-//! long as the sign is kept and a tenth of its peak, at least 2 g, is exceeded, and from there as long as it goes on falling; never into
-//! an earlier one, and never beyond the presses that overlap there: what a turning body feels in flight is no shock. A push below 2 g is
-//! the weight that it pivots under and no shock, unless nothing of the history is more. The change of velocity is that of the place over
-//! it: the integral of what is felt, less the share of g along its axis. So a lone contact gives (1 + e) v, two presses are one shock
-//! where the push between them never falls below a tenth, and a long gentle tail is none. Of turning the same holds for the angular
-//! acceleration, with 2 g over the least radius of gyration. Instant impacts are each a shock; those at one instant add up.
+//! Of contacts that take time, shocks are taken from the largest peak of the acceleration above free fall down. Each reaches on both sides
+//! as long as the sign is kept and a tenth of its peak, at least 2 g, is exceeded, and from there as long as it goes on falling; never into
+//! an earlier one, and never beyond the presses that overlap there: the acceleration of a place by the turning of the body in flight is no
+//! shock. A push below 2 g is the weight that it pivots under and no shock, unless nothing of the history is more. The change of velocity
+//! is that of the place over it: the integral of the acceleration above free fall, less the share of g along its axis. So a lone contact
+//! gives (1 + e) v, two presses are one shock where the push between them never falls below a tenth, and a long gentle tail is none. Of
+//! turning the same holds for the angular acceleration, with 2 g over the least radius of gyration. Instant impacts are each a shock; those
+//! at one instant add up.
 
 use std::slice::from_ref;
 
@@ -16,23 +17,23 @@ use clatter_flight::{Followed, Place};
 /// One shock.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shock {
-    /// From when to when.
+    /// The beginning and the end.
     pub(crate) span_s: [f64; 2],
     /// Change of velocity, without its sign.
     pub(crate) change: f64,
     /// Largest acceleration in it, without its sign; infinite for an instant impact.
     pub(crate) peak: f64,
-    /// When that is.
+    /// The time of the peak.
     pub(crate) time_s: f64,
 }
 
 /// Share of its peak down to which a shock reaches, whatever the acceleration does in between.
 const TENTH: f64 = 0.1;
-/// Over g, what it reaches down to at least, by definition: a push of that size changes the velocity of a place by no more than its weight
-/// does in flight.
+/// The acceleration over g down to which a shock reaches at least, by definition: a push of that size changes the velocity of a place by no
+/// more than its weight does in flight.
 const WEIGHTS: f64 = 2.0;
 
-/// Returns the shocks of a place that feels this, in order of time.
+/// Returns the shocks of a place with this history, in order of time.
 pub(crate) fn shocks_at(followed: &Followed, place: &Place, felt: &Excitation) -> Vec<Shock> {
     let (gravity, least) = (followed.drop.gravity_m_s2, WEIGHTS * followed.drop.gravity_m_s2);
     if let Some(jumps) = followed.jumps(place) {
@@ -64,11 +65,11 @@ pub(crate) fn shocks_of_turning(followed: &Followed, turned: &Excitation) -> Vec
 }
 
 impl Shock {
-    /// That nothing happens.
+    /// The shock of a place where nothing happens.
     pub(crate) const NONE: Self = Self { span_s: [0.0; 2], change: 0.0, peak: 0.0, time_s: 0.0 };
 }
 
-/// The largest of some shocks; one of 0 where there is none.
+/// Returns the largest of some shocks; one of 0 where there is none.
 pub(crate) fn largest(shocks: &[Shock]) -> Shock {
     shocks.iter().fold(Shock::NONE, |most, shock| if shock.change > most.change { *shock } else { most })
 }
@@ -87,7 +88,7 @@ fn at_instants(changes: impl Iterator<Item = (f64, f64)>) -> Vec<Shock> {
     all.into_iter().map(shock).collect()
 }
 
-/// A sample of what is felt: its section, when in it, its time and acceleration.
+/// A sample of the acceleration: its section, the time in it, its time and acceleration.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
     section: usize,
@@ -96,18 +97,18 @@ struct Sample {
     felt: f64,
 }
 
-/// What pushes a place, or turns a body.
+/// The excitation that pushes a place, or turns a body.
 pub(crate) struct Pushed<'a> {
-    /// What is felt.
+    /// The acceleration of the place above free fall, or the angular acceleration.
     pub(crate) felt: &'a Excitation,
-    /// What that changes the velocity by, along one axis or along three, in the same sections, besides `gravity`.
+    /// The excitation that changes the velocity, along one axis or along three, in the same sections, besides `gravity`.
     pub(crate) moved: &'a [Excitation],
     pub(crate) gravity: f64,
     /// Below this nothing is a shock.
     pub(crate) least: f64,
 }
 
-/// A felt acceleration in sections, with the changes of velocity of the place until each begins.
+/// An acceleration above free fall in sections, with the changes of velocity of the place until each begins.
 struct History<'a> {
     felt: &'a Excitation,
     moved: &'a [Excitation],
@@ -115,7 +116,7 @@ struct History<'a> {
     gravity: f64,
 }
 
-/// The shocks of a felt acceleration.
+/// Returns the shocks of an acceleration above free fall, or of an angular one.
 pub(crate) fn shocks(pushed: &Pushed<'_>) -> Vec<Shock> {
     let history = History::new(pushed);
     let samples = history.sampled();
@@ -153,7 +154,7 @@ pub(crate) fn shocks(pushed: &Pushed<'_>) -> Vec<Shock> {
     found
 }
 
-/// The last sample to which the shock of a peak reaches on one side.
+/// Returns the last sample to which the shock of a peak reaches on one side.
 fn reach(samples: &[Sample], taken: &[bool], least: f64, peak: usize, next: impl Fn(usize) -> Option<usize>) -> usize {
     let mut at = peak;
     while let Some(k) = next(at).filter(|&k| !taken[k]) {
@@ -184,13 +185,13 @@ impl<'a> History<'a> {
         };
         Self { velocity: moved.iter().map(begins).collect(), felt, moved, gravity }
     }
-    /// A section at a time of it.
+    /// Returns the sample of a section at a time in it.
     fn at(&self, section: usize, t: f64) -> Sample {
         let of = self.felt.section(section);
         let felt = if of.free { 0.0 } else { of.acceleration_at(t) };
         Sample { section, t, time_s: of.from + t, felt }
     }
-    /// The change of velocity from one sample to another, without its sign.
+    /// Returns the change of velocity from one sample to another, without its sign.
     fn change(&self, begin: &Sample, end: &Sample) -> f64 {
         let along = |(moved, velocity): (&Excitation, &Vec<f64>)| {
             let until = |&Sample { section, t, .. }: &Sample| {
@@ -215,14 +216,14 @@ impl<'a> History<'a> {
         }
         all
     }
-    /// The section in which two neighboring samples lie, and when in it.
+    /// Returns the section in which two neighboring samples lie, and when in it.
     fn between(&self, one: &Sample, other: &Sample) -> (usize, [f64; 2]) {
         let n = one.section.max(other.section);
         let section = self.felt.section(n);
         (n, [one, other].map(|sample| (sample.time_s - section.from).clamp(0.0, section.length)))
     }
-    /// Where a shock ends whose last sample this is: where its acceleration falls to zero on the way to the sample beyond, or is least
-    /// on one side of the last.
+    /// Finds where a shock ends whose last sample this is: where its acceleration falls to zero on the way to the sample beyond, or is
+    /// least on one side of the last.
     fn end_of(&self, samples: &[Sample], taken: &[bool], last: usize, [beyond, before]: [Option<usize>; 2]) -> Sample {
         let here = samples[last];
         let Some(next) = beyond.filter(|k| !taken[*k]).map(|k| &samples[k]) else { return here };
@@ -232,7 +233,7 @@ impl<'a> History<'a> {
         let sides = [Some(next), before.map(|k| &samples[k])].into_iter().flatten();
         sides.map(|side| self.least(&here, side)).fold(here, |a, b| if b.felt.abs() < a.felt.abs() { b } else { a })
     }
-    /// Where the acceleration falls to zero between two samples, by the Illinois method.
+    /// Finds where the acceleration falls to zero between two samples, by the Illinois method.
     fn zero(&self, here: &Sample, beyond: &Sample) -> Sample {
         let (n, [mut a, mut b]) = self.between(here, beyond);
         let section = self.felt.section(n);
@@ -259,7 +260,7 @@ impl<'a> History<'a> {
         }
         self.at(n, b)
     }
-    /// The least acceleration without its sign from one sample to the next, by halves and thirds.
+    /// Returns the least acceleration without its sign from one sample to the next, by halves and thirds.
     fn least(&self, here: &Sample, side: &Sample) -> Sample {
         let (n, [mut a, mut b]) = self.between(here, side);
         let section = self.felt.section(n);
@@ -270,7 +271,7 @@ impl<'a> History<'a> {
         }
         self.at(n, 0.5 * (a + b))
     }
-    /// The largest value at a peak and its time: by the parabola through the section on both sides of the sample.
+    /// Returns the largest value at a peak and its time: by the parabola through the section on both sides of the sample.
     fn crest(&self, samples: &[Sample], peak: usize) -> (f64, f64) {
         let here = samples[peak];
         let most = (here.felt.abs(), here.time_s);
@@ -325,7 +326,7 @@ mod tests {
         }
     }
 
-    /// Half-sines of these peaks over 1 ms and a millisecond of flight, in which it turns, after each.
+    /// Returns half-sines of these peaks over 1 ms and a millisecond of flight, in which it turns, after each.
     fn pushes(peaks: &[f64]) -> Excitation {
         let mut felt = Excitation::default();
         for (k, peak) in (0..).zip(peaks) {
@@ -337,8 +338,8 @@ mod tests {
         felt
     }
 
-    /// 1.5 g beside 3 g is the weight under which a body pivots; alone it is all that there is. What is felt in flight is none. Each changes
-    /// the velocity by 2/π of its peak and less g over its time.
+    /// A push of 1.5 g next to one of 3 g is the weight under which a body pivots; alone it is all that there is. The acceleration in
+    /// flight is none. Each changes the velocity by 2/π of its peak and less g over its time.
     #[test]
     fn a_push_below_two_weights_is_a_shock_where_it_is_all() {
         let g = 9.81;

@@ -3,7 +3,7 @@
 use crate::STANDARD_GRAVITY_M_S2;
 use crate::units::{ACCELERATION, Dimension, FREQUENCY, LENGTH, MASS, Quantity, SHARE, SPEED, TIME, Unit};
 
-/// What products have, by the key of the product file, in SI: far apart, so that no sound product is doubted.
+/// The usual values of products, by the key of the product file, in SI: far apart, so that no sound product is doubted.
 static USUAL: [(&str, &Dimension, [f64; 2]); 11] = [
     ("length", &LENGTH, [2e-3, 10.0]),
     ("radius_of_gyration", &LENGTH, [2e-4, 5.0]),
@@ -19,15 +19,15 @@ static USUAL: [(&str, &Dimension, [f64; 2]); 11] = [
     ("rattle_space", &LENGTH, [1e-5, 0.5]),
 ];
 
-/// How far a mass may reach beyond the half-length before it is doubted, over it.
+/// The reach of a mass over the half-length, beyond which it is doubted.
 const BEYOND: f64 = 1.2;
 
 /// A value that is likely a slip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slip {
-    /// What is odd, with the value and what is usual.
+    /// The odd value and the usual range, as a message.
     pub message: String,
-    /// What may be meant, such as "150 mm?"; may be empty.
+    /// The value that may be meant, such as "150 mm?"; may be empty.
     pub hint: String,
 }
 
@@ -78,14 +78,14 @@ impl std::fmt::Display for Slip {
     }
 }
 
-/// The number that was written, and the same with its unit.
+/// Returns the number that was written, and the same with its unit.
 fn shown(quantity: &Quantity, dimension: &Dimension) -> (f64, String) {
     let unit = quantity.unit.or(dimension.si_unit());
     let number = unit.map_or(quantity.si, |unit| unit.of_si(quantity.si));
     (number, with(number, unit))
 }
 
-/// A value in the largest unit in which it is 1 or more.
+/// Returns a value in the largest unit in which it is 1 or more.
 fn in_words(si: f64, dimension: &Dimension) -> String {
     let metric =
         |unit: &&Unit| ["m", "mm", "kg", "g", "mg", "s", "ms", "us", "Hz", "kHz", "m/s", "gn"].contains(&unit.name);
@@ -99,13 +99,13 @@ fn with(number: f64, unit: Option<&Unit>) -> String {
     format!("{}{blank}{}", short(number), unit.map_or("", |unit| unit.name))
 }
 
-/// A number without the digits that a conversion adds.
+/// Returns a number without the digits that a conversion adds.
 fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.9e}").parse().unwrap_or(x);
     if (1e-4..1e7).contains(&rounded.abs()) || rounded == 0.0 { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
-/// "a length", from the name of a key.
+/// Returns "a length", from the name of a key.
 fn named(key: &str) -> String {
     let article = if key.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
     format!("{article} {}", key.replace('_', " "))

@@ -23,7 +23,7 @@ pub struct Spread {
     unit: Option<&'static Unit>,
 }
 
-/// How a quantity is spread over its range.
+/// The distribution of a quantity over its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
     /// One value.
@@ -47,7 +47,7 @@ pub enum Law {
 }
 
 impl Spread {
-    /// One value.
+    /// Returns one value.
     ///
     /// # Errors
     /// [`Error::Number`] unless finite.
@@ -55,12 +55,12 @@ impl Spread {
         Self::new(value, value, Law::Value)
     }
 
-    /// One value that is known to be finite.
+    /// Returns one value that is known to be finite.
     pub(crate) fn finite(value: f64) -> Self {
         Self { lo: value, hi: value, law: Law::Value, unit: None }
     }
 
-    /// A range with its law; one of no length is a value.
+    /// Returns a range with its law; one of no length is a value.
     ///
     /// # Errors
     /// [`Error::Number`] unless all numbers are finite, [`Error::Range`] where the range runs backwards, [`Error::Law`]
@@ -84,37 +84,37 @@ impl Spread {
         Ok(Self { lo, hi, law: if lo < hi { law } else { Law::Value }, unit: None })
     }
 
-    /// The same, known to be written in this unit.
+    /// Returns the same, known to be written in this unit.
     #[must_use]
     pub fn written_in(self, unit: Option<&'static Unit>) -> Self {
         Self { unit, ..self }
     }
-    /// The unit that it was written in, where it is known: answers about it may be given in the same.
+    /// Returns the unit that it was written in, where it is known: answers about it may be given in the same.
     #[must_use]
     pub fn unit(&self) -> Option<&'static Unit> {
         self.unit
     }
-    /// Least value.
+    /// Returns the least value.
     #[must_use]
     pub fn lo(&self) -> f64 {
         self.lo
     }
-    /// Largest value.
+    /// Returns the largest value.
     #[must_use]
     pub fn hi(&self) -> f64 {
         self.hi
     }
-    /// How it is spread.
+    /// Returns how it is spread.
     #[must_use]
     pub fn law(&self) -> Law {
         self.law
     }
-    /// Whether it is one value.
+    /// Returns whether it is one value.
     #[must_use]
     pub fn is_value(&self) -> bool {
         self.law == Law::Value
     }
-    /// The value at `share` in [0, 1] of the way from the low to the high end.
+    /// Returns the value at `share` in [0, 1] of the way from the low to the high end.
     #[must_use]
     pub fn at(&self, share: f64) -> f64 {
         (self.lo + share * (self.hi - self.lo)).clamp(self.lo, self.hi)

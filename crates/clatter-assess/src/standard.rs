@@ -1,23 +1,23 @@
-//! Drop standards: which drops they ask for, from how high and within which tolerance.
+//! This module holds drop standards: the drops that they demand, from how high and within which tolerance.
 //!
 //! Only what was read in the text itself, or agrees in several sources, is here.
 
 use crate::{Attitude, DataFault};
 
-/// What is landed on, and from how high in m.
+/// The faces, edges and corners that are landed on, each with its drop height in m.
 pub(crate) type Drops = Vec<(Attitude, f64)>;
 
 /// A standard that lists drops.
 #[derive(Debug)]
 pub(crate) struct Standard {
-    /// As product files name it.
+    /// The name in product files.
     pub(crate) keyword: &'static str,
     /// Clause and title.
     pub(crate) source: &'static str,
     drops: fn(Item) -> Result<Drops, DataFault>,
 }
 
-/// What a standard goes by.
+/// The data on which the drops of a standard depend.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Item {
     pub(crate) mass_kg: Option<f64>,
@@ -25,7 +25,7 @@ pub(crate) struct Item {
     pub(crate) largest_m: f64,
 }
 
-/// Of ASTM D5276: flat within 2°, on edges and corners within 5°; what is tilted by hand too.
+/// Returns the tolerance of ASTM D5276: flat within 2°, on edges and corners within 5°; a box tilted by hand too.
 pub(crate) fn tolerance_rad(attitude: Attitude) -> f64 {
     if attitude.faces() == 1 { 2_f64.to_radians() } else { 5_f64.to_radians() }
 }
@@ -36,8 +36,8 @@ pub(crate) static STANDARDS: &[Standard] = &[Standard {
     drops: transit_drop,
 }];
 
-/// Up to 45.4 kg: 26 drops, from 122 cm, of an item of 91 cm and longer from 76 cm. Up to 90.8 kg: 8 corner drops from 76 cm, of a
-/// longer item from 61 cm.
+/// Lists the drops by mass. Up to 45.4 kg: 26 drops, from 122 cm, of an item of 91 cm and longer from 76 cm. Up to 90.8 kg: 8 corner drops
+/// from 76 cm, of a longer item from 61 cm.
 fn transit_drop(item: Item) -> Result<Drops, DataFault> {
     let mass_kg = item.mass_kg.ok_or(DataFault::StandardNeedsMass)?;
     let is_long = item.largest_m >= 0.91;
@@ -54,7 +54,7 @@ fn transit_drop(item: Item) -> Result<Drops, DataFault> {
     Ok(faces.flat_map(Attitude::all).map(|attitude| (attitude, height_m)).collect())
 }
 
-/// The drops of a standard, each with its height in m, and its clause.
+/// Returns the drops of a standard, each with its height in m, and its clause.
 pub(crate) fn drops(keyword: &str, item: Item) -> Result<(Drops, &'static str), DataFault> {
     let standard = STANDARDS.iter().find(|standard| standard.keyword == keyword);
     let Standard { source, drops, .. } = standard.ok_or_else(|| DataFault::Standard(keyword.to_owned()))?;

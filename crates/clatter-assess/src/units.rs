@@ -15,11 +15,11 @@ use uom::si::{acceleration, angle, angular_velocity, frequency, length, mass, mo
 /// ```
 #[derive(Debug)]
 pub struct Dimension {
-    /// What it is called in messages.
+    /// Its name in messages.
     pub name: &'static str,
-    /// How one is written.
+    /// The example of a written quantity.
     pub example: &'static str,
-    /// Whether a number without a unit is one.
+    /// True where a number without a unit is one.
     pub plain: bool,
     /// Its units.
     pub units: &'static [Unit],
@@ -50,17 +50,17 @@ impl PartialEq for Unit {
 }
 
 impl Unit {
-    /// A unit, and its values in SI: a multiple of them.
+    /// Returns a unit, and its values in SI: a multiple of them.
     #[must_use]
     pub const fn new(name: &'static str, to_si: fn(f64) -> f64) -> Self {
         Self { name, to_si }
     }
-    /// So many of this unit, in SI.
+    /// Converts a value of this unit to SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {
         (self.to_si)(value) + 0.0
     }
-    /// What is given in SI, in this unit.
+    /// Returns a value given in SI, in this unit.
     #[must_use]
     pub fn of_si(&self, si: f64) -> f64 {
         si / (self.to_si)(1.0)
@@ -68,7 +68,7 @@ impl Unit {
 }
 
 impl Quantity {
-    /// One that was given in SI, without a unit.
+    /// Returns a quantity that was given in SI, without a unit.
     #[must_use]
     pub fn of_si(si: f64) -> Self {
         Self { si, unit: None }
@@ -161,36 +161,36 @@ pub static SHARE: Dimension =
 pub static NUMBER: Dimension = Dimension { name: "number", example: "0.3", plain: true, units: &[] };
 
 impl Dimension {
-    /// The names of its units.
+    /// Returns the names of its units.
     #[must_use]
     pub fn names(&self) -> String {
         let names: Vec<_> = self.units.iter().map(|unit| unit.name).collect();
         names.join(", ")
     }
-    /// The unit of this name; of several spellings of one unit the first, in which answers are told.
+    /// Returns the unit of this name; of several spellings of one unit the first, in which answers are reported.
     #[must_use]
     pub fn unit(&self, name: &str) -> Option<&'static Unit> {
         let named = self.units.iter().find(|unit| unit.name == name)?;
         self.units.iter().find(|unit| unit.to_si(1.0).to_bits() == named.to_si(1.0).to_bits())
     }
-    /// The SI unit; none of a kind that has plain numbers.
+    /// Returns the SI unit; none of a kind that has plain numbers.
     #[must_use]
     pub fn si_unit(&self) -> Option<&'static Unit> {
         if self.plain { None } else { self.units.first() }
     }
-    /// "an angle", "a length".
+    /// Returns "an angle", "a length".
     #[must_use]
     pub fn one(&self) -> String {
         let article = if self.name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
         format!("{article} {}", self.name)
     }
 
-    /// A quantity, or what is wrong with the text.
+    /// Reads a quantity, or reports the fault of the text.
     ///
     /// Products may be written with a blank, `*` or `·`, squares as `2`, `^2` or `²`.
     ///
     /// # Errors
-    /// What is wrong, with the text and what is allowed.
+    /// Returns the fault, with the text and the allowed values.
     pub fn read(&self, text: &str) -> Result<Quantity, String> {
         let example = self.example;
         let text = text.trim();
@@ -214,13 +214,13 @@ impl Dimension {
             }
         }
     }
-    /// The value in SI of a text of our own; not a number where it is none.
+    /// Returns the value in SI of a text of our own; not a number where it is none.
     pub(crate) fn value(&self, text: &str) -> f64 {
         self.read(text).map_or(f64::NAN, |quantity| quantity.si)
     }
 }
 
-/// A unit as the tables have it, of the spellings that there are.
+/// Returns a unit as the tables have it, of the spellings that there are.
 fn spelled(unit: &str) -> String {
     // The micro sign and the Greek letter look alike.
     let unit = unit.replace("^2", "2").replace('²', "2").replace(['*', '·'], " ").replace(['µ', 'μ'], "u");
@@ -228,7 +228,7 @@ fn spelled(unit: &str) -> String {
     words.join(" ").replace(" /", "/").replace("/ ", "/")
 }
 
-/// A regular expression of the spellings of a unit that [`Dimension::read`] takes.
+/// Returns a regular expression of the spellings of a unit that [`Dimension::read`] takes.
 pub(crate) fn pattern(unit: &Unit) -> String {
     let mut pattern = String::new();
     for c in unit.name.chars() {
@@ -246,7 +246,7 @@ pub(crate) fn pattern(unit: &Unit) -> String {
 /// No quantity needs more characters.
 const LONGEST: usize = 64;
 
-/// The longest beginning that is a number, and the rest without the blanks before it.
+/// Returns the longest beginning that is a number, and the rest without the blanks before it.
 pub(crate) fn split(text: &str) -> Option<(f64, &str)> {
     let numeric = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     let mut end = text.find(|c| !numeric(c)).unwrap_or(text.len());

@@ -1,4 +1,4 @@
-//! What an assessment says.
+//! This module holds the result of an assessment.
 
 use std::f64::consts::TAU;
 
@@ -11,20 +11,20 @@ use crate::inputs::{INPUTS, Input, Optional, Row, optional_inputs};
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
 use crate::{Axis, Component, Drop, DropName, DropRanges, Landing, LimitKind, Model, Part, Product, ProductFile, Unit};
 
-/// Whether every limit holds in the worst drop.
+/// The answer to the question whether every limit holds in the worst drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// It does, with room for what the answer may be off by.
     Safe,
-    /// What was found does not tell.
+    /// The drops that were found do not decide it.
     Undecided,
     /// A drop of the ranges exceeds a limit.
     Unsafe,
 }
 
 impl Verdict {
-    /// `safe`, `undecided` or `unsafe`.
+    /// Returns the name: `safe`, `undecided` or `unsafe`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -33,7 +33,7 @@ impl Verdict {
             Self::Unsafe => "unsafe",
         }
     }
-    /// The one of several parts: unsafe if one is, undecided if one is and none is unsafe.
+    /// Returns the verdict of several parts: unsafe if one is, undecided if one is and none is unsafe.
     pub(crate) fn of(all: impl IntoIterator<Item = Self>) -> Self {
         all.into_iter().max().unwrap_or(Self::Safe)
     }
@@ -48,21 +48,22 @@ pub struct Assessment {
     pub verdict: Verdict,
     /// Inputs that the file does not state.
     pub assumed: Vec<Assumed>,
-    /// In the order of the file.
+    /// The components, in the order of the file.
     pub components: Vec<ComponentAssessment>,
-    /// Of a box, what each drop of it says; empty of a product that lands as its file says.
+    /// The results of each drop of a box; empty of a product that lands as its file says.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub landings: Vec<LandingAssessment>,
-    /// What it was worked out to.
+    /// The accuracy to which it was worked out.
     #[serde(skip)]
     pub accuracy: Accuracy,
 }
 
 impl Assessment {
-    /// Whether it has the components, limits and drops of this product.
+    /// Checks that it has the components, limits and drops of this product.
     ///
     /// # Errors
-    /// [`Error::OtherProduct`](crate::Error::OtherProduct) with the first component that differs, [`Error::OtherDrops`](crate::Error::OtherDrops).
+    /// [`Error::OtherProduct`](crate::Error::OtherProduct) with the first component that differs,
+    /// [`Error::OtherDrops`](crate::Error::OtherDrops).
     pub(crate) fn is_of(&self, file: &ProductFile) -> Result<(), crate::Error> {
         let differs = |(component, assessed): (&Component, &ComponentAssessment)| {
             let limits = assessed.limits.iter().map(|limit| limit.limit);
@@ -76,7 +77,7 @@ impl Assessment {
         let name = assessed.or(file.components.get(k).map(|component| &component.name));
         Err(crate::Error::OtherProduct(name.cloned().unwrap_or_default()))
     }
-    /// Whether its worst drops are among those of this product.
+    /// Checks that its worst drops are among those of this product.
     fn drops_are_of(&self, file: &ProductFile) -> Result<(), crate::Error> {
         let (names, limits) = (file.drop_names(), self.components.iter().flat_map(|component| &component.limits));
         let mut worst = limits.filter_map(|limit| limit.worst_case.as_ref());
@@ -109,11 +110,11 @@ impl Assumed {
         ];
         rows.into_iter().filter_map(|(is, row)| is.then_some(row)).collect()
     }
-    /// The input, what is taken for it, and what that leaves open.
+    /// Returns the input, the value assumed for it, and the question that this leaves open.
     #[must_use]
     pub fn told(self) -> [&'static str; 3] {
         match self {
-            // Plates of products that are told as bars asked for 18 to 30 % more.
+            // Plates of products that are given as bars had a demand 18 to 30 % larger.
             Self::Bar => ["body", "bar", "if it is wider than a quarter of its length, give `width`: up to 30 % more"],
             Self::EitherLaw => ["law", "hysteretic or dashpot", "a limit is safe where it holds by both"],
             Self::NoFriction => {
@@ -136,18 +137,18 @@ impl Serialize for Assumed {
     }
 }
 
-/// What one of several drops says of every limit.
+/// The result of one of several drops for every limit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LandingAssessment {
-    /// What it is called.
+    /// The name of the drop.
     pub landing: DropName,
-    /// The standard that asks for it.
+    /// The standard that demands it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub source: Option<&'static str>,
-    /// Of a box, by how much it may be turned off what it lands on.
+    /// The angle by which a box may be turned off its attitude.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance_deg: Option<f64>,
-    /// Of a bar and of a plate, the range of the tilt.
+    /// The range of the tilt of a bar or of a plate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tilt_deg: Option<[f64; 2]>,
     /// The range of speeds at the first touch.
@@ -161,19 +162,19 @@ pub struct LandingAssessment {
     pub limits: Vec<LandingLimit>,
 }
 
-/// What one of several drops says of a limit.
+/// The result of one of several drops for one limit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LandingLimit {
     /// Name of the component.
     pub component: String,
-    /// Which limit.
+    /// The kind of the limit.
     pub limit: LimitKind,
-    /// As of [`LimitAssessment`].
+    /// The demand, as of [`LimitAssessment`].
     pub demand: Option<f64>,
-    /// As of [`LimitAssessment`].
+    /// The margin, as of [`LimitAssessment`].
     #[serde(serialize_with = "number_or_null")]
     pub margin: Option<f64>,
-    /// Whether it holds in this drop.
+    /// The verdict on the limit in this drop.
     pub verdict: Verdict,
 }
 
@@ -200,7 +201,7 @@ impl LandingAssessment {
         self.verdict = self.verdict.max(verdict);
         self.limits.push(LandingLimit { component: component.name.clone(), limit, demand, margin, verdict });
     }
-    /// The limit with the smallest margin; none of an assessment of no component.
+    /// Returns the limit with the smallest margin; none of an assessment of no component.
     #[must_use]
     pub fn tightest(&self) -> Option<&LandingLimit> {
         let room = |limit: &LandingLimit| limit.margin.unwrap_or(f64::INFINITY);
@@ -208,15 +209,15 @@ impl LandingAssessment {
     }
 }
 
-/// How well an assessment is worked out, and by which model.
+/// The accuracy to which an assessment is worked out, and its model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy {
-    /// How exact the answer to each drop is for its model, as a share of it; in [1e-4, 0.5].
+    /// The tolerance of the answer to each drop for its model, as a share of it; in [1e-4, 0.5].
     pub tolerance: f64,
-    /// How drops are followed; with the most physics that the data allow if none is named.
+    /// The model by which drops are followed; that with the most physics that the data allow if none is named.
     pub model: Option<Model>,
     /// Instant impacts that are closer than this are one: where the ranges hold a tilt whose gap is shorter, the flat drop is one of
-    /// the drops. Of a product whose contact time is known that is told by the contacts.
+    /// the drops. Of a product whose contact time is known the contacts decide that.
     pub merge_s: f64,
 }
 
@@ -224,7 +225,7 @@ pub struct Accuracy {
 pub(crate) const MERGE_S: f64 = 1e-3;
 
 impl Default for Accuracy {
-    /// 1 %, by the model with the most physics, 1 ms.
+    /// Returns 1 %, by the model with the most physics, 1 ms.
     fn default() -> Self {
         Self { tolerance: 0.01, model: None, merge_s: MERGE_S }
     }
@@ -250,7 +251,7 @@ impl Accuracy {
     }
 }
 
-/// Whether impacts may be one within so many seconds.
+/// Checks that this is a valid time within which impacts count as one, in seconds.
 pub(crate) fn merge(time_s: f64) -> Result<(), crate::Error> {
     if time_s >= 0.0 && time_s.is_finite() { Ok(()) } else { Err(crate::Error::Merge(time_s)) }
 }
@@ -260,20 +261,20 @@ pub(crate) fn merge(time_s: f64) -> Result<(), crate::Error> {
 pub struct ComponentAssessment {
     /// Its name.
     pub name: String,
-    /// Where its middle is, from the middle of the product towards end b; of a range, its middle.
+    /// The place of its middle, from the middle of the product towards end b; of a range, its middle.
     pub position_m: Sides,
-    /// That of its limits together.
+    /// The verdict of its limits together.
     pub verdict: Verdict,
     /// One for each limit of the file.
     pub limits: Vec<LimitAssessment>,
     /// The drop behind the smallest margin; null where no drop was answered.
     pub worst_case: Option<WorstCase>,
-    /// How that drop was followed, and why so.
+    /// The model by which that drop was followed, and the reason.
     pub model: ModelChoice,
 }
 
 impl ComponentAssessment {
-    /// The limit with the smallest margin.
+    /// Returns the limit with the smallest margin.
     ///
     /// # Panics
     /// Without limits, which no assessment leaves out.
@@ -285,55 +286,55 @@ impl ComponentAssessment {
 }
 
 impl LimitAssessment {
-    /// Why the limit is undecided, in a sentence.
+    /// Returns why the limit is undecided, in a sentence.
     #[must_use]
     pub fn why_undecided(&self) -> Option<String> {
         joined(&self.undecided)
     }
-    /// The margin to order limits by: infinite where no drop was answered.
+    /// Returns the margin to order limits by: infinite where no drop was answered.
     #[must_use]
     pub fn room(&self) -> f64 {
         self.margin.unwrap_or(f64::INFINITY)
     }
 }
 
-/// One limit and what is asked of it.
+/// One limit and its demand.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LimitAssessment {
-    /// Which one.
+    /// The kind of the limit.
     pub limit: LimitKind,
     /// Unit of `allowed`, `demand`, `bound`, `clatter_free` and `other_law`; of a damage boundary that of the one that leaves more room.
     pub unit: Unit,
-    /// What the file allows.
+    /// The allowed value, from the file.
     pub allowed: f64,
-    /// What the worst drop that was found asks for: it is `worst_case`, and can be repeated. Null where no drop was answered.
+    /// The demand of the worst drop that was found: it is `worst_case`, and can be repeated. Null where no drop was answered.
     pub demand: Option<f64>,
     /// allowed/demand − 1.
     #[serde(serialize_with = "number_or_null")]
     pub margin: Option<f64>,
-    /// Whether the limit holds.
+    /// The verdict on the limit.
     pub verdict: Verdict,
-    /// What no drop of the ranges exceeds, by the energy that the body has; null for the response of a suspended part.
+    /// The bound that no drop of the ranges exceeds, by the energy that the body has; null for the response of a suspended part.
     pub bound: Option<f64>,
-    /// By how much at most drops of the ranges may exceed the demand, as a share of it: what the answer may be off by and what
+    /// The largest excess of drops of the ranges over the demand, as a share of it: what the answer may be off by and what
     /// the search may miss.
     #[serde(serialize_with = "number")]
     pub uncertainty: f64,
-    /// What the worst drop would ask if it landed flat: with both ends at once, and contacts where their time is known.
+    /// The demand of the worst drop if it landed flat: with both ends at once, and contacts where their time is known.
     pub clatter_free: Option<f64>,
-    /// What the worst drop over the ranges by the other contact law asks, where contacts take time; else null.
+    /// The demand of the worst drop over the ranges by the other contact law, where contacts take time; else null.
     pub other_law: Option<f64>,
     /// The drop that does it; null where no drop was answered.
     pub worst_case: Option<WorstCase>,
-    /// The drop that decides the verdict, where several are listed and it is another than the one that asks for the demand.
+    /// The drop that decides the verdict, where several are listed and it is another than the one with the largest demand.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub governs: Option<DropName>,
-    /// How it was followed, and why so.
+    /// The model by which it was followed, and the reason.
     pub model: ModelChoice,
-    /// Why the limit is undecided; else empty.
+    /// The reasons why the limit is undecided; else empty.
     #[serde(serialize_with = "as_sentence")]
     pub undecided: Vec<Doubt>,
-    /// What else is to be known, each with by how much; may be empty.
+    /// Further facts to be known, each with its size; may be empty.
     #[serde(serialize_with = "as_texts")]
     pub notes: Vec<Note>,
 }
@@ -345,29 +346,30 @@ pub struct WorstCase {
     pub drop: Drop,
     /// The place in the component, and the suspension that it has in this drop; none where it does not matter.
     pub part: Part,
-    /// What the drop of the file is called, where it lists several.
+    /// The name of the drop in the file, where the file lists several.
     pub landing: Option<DropName>,
     /// Its place in that list, from 0.
     pub listed: usize,
-    /// Whether the file gives a range of radii of gyration, of which this drop has one.
+    /// True where the file gives a range of radii of gyration, of which this drop has one.
     pub gyration_varies: bool,
     /// The impact that does it, or that the peak follows; from 1.
     pub impact: u64,
-    /// When, since the first touch.
+    /// The time since the first touch.
     pub time_s: f64,
     /// The model that answers the drop.
     pub model: Model,
-    /// To which tolerance it does.
+    /// The tolerance of that answer.
     pub tolerance: f64,
 }
 
 impl WorstCase {
-    /// Angle to the ground at the first touch.
+    /// Returns the angle to the ground at the first touch.
     #[must_use]
     pub fn tilt_deg(&self) -> f64 {
         self.drop.tilt_rad.to_degrees()
     }
-    /// Where a plate rises to from its lowest corner, in [0, 360): 0 along the length, towards end b, 90 along the width; none of a bar.
+    /// Returns the direction to which a plate rises from its lowest corner, in [0, 360): 0 along the length, towards end b, 90 along the
+    /// width; none of a bar.
     #[must_use]
     pub fn direction_deg(&self) -> Option<f64> {
         self.drop.body.is_wide().then(|| self.drop.direction_rad.to_degrees().rem_euclid(360.0))
@@ -377,7 +379,7 @@ impl WorstCase {
         let value = |(row, optional): (&'static Row, Optional)| Some((row, optional, row.input.value(&self.drop)?));
         optional_inputs().filter_map(value).filter(|(_, optional, value)| !optional.is_left_out(*value))
     }
-    /// Along which axis of a box the part is shaken; none of a bar and of a plate.
+    /// Returns along which axis of a box the part is shaken; none of a bar and of a plate.
     #[must_use]
     pub fn axis(&self) -> Option<Axis> {
         self.drop.is_solid().then_some(self.part.place.axis)
@@ -387,7 +389,7 @@ impl WorstCase {
     pub fn gyration_m(&self) -> Option<f64> {
         self.gyration_varies.then(|| self.drop.body.gyration_m())
     }
-    /// Natural frequency of the part; none for a hard-mounted one and where it does not matter.
+    /// Returns the natural frequency of the part; none for a hard-mounted one and where it does not matter.
     #[must_use]
     pub fn frequency_hz(&self) -> Option<f64> {
         self.part.suspension.map(|part| part.omega() / TAU)
@@ -475,7 +477,7 @@ impl Sides {
     fn of(part: &Part, drop: &Drop) -> Self {
         if drop.is_solid() { Self::All(part.place.at_m) } else { Self::new(part.at_m(), drop.body.is_wide()) }
     }
-    /// Along and across; 0 across a bar.
+    /// Returns the place along and across; 0 across a bar.
     #[must_use]
     pub fn m(&self) -> [f64; 2] {
         match *self {
@@ -489,12 +491,12 @@ impl Sides {
 /// The model behind a demand.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModelChoice {
-    /// How the product moves.
+    /// The model of the motion of the product.
     pub bar: Model,
-    /// What the component answers to: `largest-shock` (the product's own shocks), `impulse-train`, `pulse-train`, or `base` (the pulses of
+    /// The loading of the component: `largest-shock` (the product's own shocks), `impulse-train`, `pulse-train`, or `base` (the pulses of
     /// the product at a hard-mounted part).
     pub component: &'static str,
-    /// Why these.
+    /// The reason for these models.
     #[serde(serialize_with = "as_text")]
     pub reason: Reason,
 }
@@ -518,7 +520,7 @@ mod tests {
     use super::*;
     use crate::EXAMPLE;
 
-    /// What a landing says of all limits together is the worst of them, whichever comes last.
+    /// A landing takes the worst verdict of its limits, whichever limit comes last.
     #[test]
     fn a_landing_is_as_its_worst_limit() {
         let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();

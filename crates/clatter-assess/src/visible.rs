@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// The text on one line, with each character that a terminal obeys, or that cannot be seen, as an escape such as
+/// Returns the text on one line, with each character that a terminal obeys, or that cannot be seen, as an escape such as
 /// `\u{1b}`.
 ///
 /// These are control characters (C0 with the ends of lines and tabs, DEL, C1), with which all escape sequences begin;
@@ -26,7 +26,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// The same of several lines, which stay lines; a tab is four blanks.
+/// Returns the same of several lines, which stay lines; a tab is four blanks.
 #[must_use]
 pub fn visible_lines(text: &str) -> Cow<'_, str> {
     if !text.contains(|c| c != '\n' && obeyed(c)) {
@@ -36,7 +36,7 @@ pub fn visible_lines(text: &str) -> Cow<'_, str> {
     Cow::Owned(lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// Whether a character is obeyed rather than shown, or cannot be seen.
+/// Returns whether a character is obeyed rather than shown, or cannot be seen.
 fn obeyed(c: char) -> bool {
     let set = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let end = matches!(c, '\u{2028}' | '\u{2029}');

@@ -1,4 +1,4 @@
-//! `clatter assess`: which part of a product fails, in which drop, and by how much.
+//! This module is `clatter assess`: it finds which part of a product fails, in which drop, and by how much.
 
 mod measured;
 mod table;
@@ -109,7 +109,7 @@ impl Args {
             watched(file, &accuracy).map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
         };
         let mut answers = files.iter().zip(&self.products).map(assessed).collect::<Result<Vec<_>, _>>()?;
-        // After the assessments: whatever the records are, these come in their time.
+        // The fits come after the assessments: whatever the records are, the verdicts come in their time.
         for (answer, drops) in answers.iter_mut().zip(drops) {
             answer.measured = drops.into_iter().map(|drop| drop.fitted(answer.file)).collect::<Result<_, _>>()?;
         }
@@ -148,7 +148,7 @@ impl Args {
         Ok(exit)
     }
 
-    /// The printed report.
+    /// Writes the printed report.
     fn print(&self, answer: &Answer<'_>, pdf: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let Answer { file, assessment, measured, .. } = answer;
         let drawing = Counted::begin("drawing", 0);
@@ -186,7 +186,7 @@ impl Args {
     }
 }
 
-/// A day of the calendar, as ISO 8601 has it.
+/// Reads a day of the calendar, as ISO 8601 has it.
 fn date(text: &str) -> Result<String, &'static str> {
     let parts: Vec<Option<u32>> = text.split('-').map(|part| part.parse().ok()).collect();
     let shape = text.len() == 10 && text.bytes().all(|b| b == b'-' || b.is_ascii_digit());
@@ -204,7 +204,7 @@ fn date(text: &str) -> Result<String, &'static str> {
     }
 }
 
-/// The assessment, counted; what it has by the end of its time.
+/// Makes the assessment and counts its progress; at the end of the time it returns the verdicts by then.
 pub(crate) fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<Answer<'a>, clatter_assess::Error> {
     let search = Counted::begin("searching", 0);
     assess::watched(file, accuracy, &|done, all| {
@@ -213,7 +213,7 @@ pub(crate) fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<
     })
 }
 
-/// The same of one part alone.
+/// Does the same for one part alone.
 pub(crate) fn watched_one(
     file: &ProductFile,
     component: &Component,
@@ -226,7 +226,7 @@ pub(crate) fn watched_one(
     })
 }
 
-/// Among several, products of one name are told apart by their files.
+/// One of several answers, with its file, as products of one name are distinguished by their files.
 #[derive(Serialize)]
 struct Named<'a> {
     file: &'a PathBuf,
@@ -244,7 +244,8 @@ pub(crate) fn text(path: &Path) -> Result<String, Failure> {
         .map_err(|_| unreadable(io::Error::new(io::ErrorKind::InvalidData, "it is not text in UTF-8")))
 }
 
-/// A product file, of a size that product files have; what is odd in it is told. No file of the command is to be a record that it names.
+/// Reads a product file, of a size that product files have, and reports its oddities. Refuses a record that it names as a file of the
+/// command.
 pub(crate) fn read(path: &Path, files: &Files<'_>, streams: &mut Streams<'_>) -> Result<ProductFile, Failure> {
     let text = text(path)?;
     let (file, odd) =

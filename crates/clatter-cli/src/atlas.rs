@@ -1,4 +1,4 @@
-//! `clatter atlas`: what every direction of tilt of a plate leads to.
+//! This module is `clatter atlas`: it follows every direction of tilt of a plate.
 
 use std::io::{self, Write};
 use std::path::PathBuf;

@@ -1,10 +1,10 @@
-//! What a command may take of the machine: memory and time, watched beside the work.
+//! This module limits the memory and the time of a command, and watches both while the command works.
 //!
 //! A thread checks the process some fifty times a second, and shows how far the work is where somebody watches. When the time is
-//! over, searches and samples are asked to end: their answer is of what was done by then, undecided where that is not enough.
-//! Where they don't, and where other work goes on, or the memory is used up, temporary files are removed, the command says why
-//! it stopped, how far it had come and what would take less, and the process ends with exit code 2; with that of its answer, where
-//! that is whole and only what comes beside it was cut.
+//! over, searches and samples stop: their answer covers the work done by then, and is undecided where that is not enough.
+//! Where they don't stop, where other work goes on, or where the memory is used up, temporary files are removed, the command says
+//! why it stopped, how far it had come and how to use less, and the process ends with exit code 2; where the answer is complete
+//! and only extra work was cut, the process ends with the exit code of the answer.
 
 use std::io::{self, Write as _};
 use std::panic::resume_unwind;
@@ -31,44 +31,44 @@ pub(crate) struct Budget {
     time_limit: Option<Duration>,
 }
 
-/// Whether the process is the command's own, to be ended by it.
+/// True where the process is the command's own, which may then end it.
 static OWN_PROCESS: AtomicBool = AtomicBool::new(false);
-/// Whether the time of the command that runs is over.
+/// True where the time of the command that runs is over.
 static OVER: AtomicBool = AtomicBool::new(false);
-/// Whether work was cut short by that.
+/// True where the end of the time has cut work short.
 static CUT: AtomicBool = AtomicBool::new(false);
 /// The memory of the command that runs.
 static MEMORY: OnceLock<u64> = OnceLock::new();
-/// What is beside an answer that was told whole, and how that ends.
+/// The exit code of an answer that is complete, and the words for the extra work after it that may still be cut.
 static BESIDE: Mutex<Option<(Exit, String)>> = Mutex::new(None);
-/// Unless another is given: 1 GiB.
+/// The memory unless another limit is given: 1 GiB.
 const DEFAULT: u64 = 1 << 30;
 /// Time between two checks, and checks between two pictures of the progress.
 const INTERVAL: Duration = Duration::from_millis(20);
 const PICTURE: u32 = 10;
-/// The search for an answer ends so much before the time does, a quarter of it at most, and the answer that there is by then is told so
-/// much after it at the latest.
+/// The search for an answer ends this long before the time does, a quarter of the time at most; the answer by then is reported within
+/// `GRACE` after the end of the time.
 const BEFORE: Duration = Duration::from_secs(1);
 const GRACE: Duration = Duration::from_millis(200);
 
-/// The process is the command's own from here on.
+/// Notes that the process is the command's own from here on.
 pub(crate) fn own_process() {
     OWN_PROCESS.store(true, Ordering::Relaxed);
 }
 
-/// The memory that a command may take, in bytes.
+/// Returns the memory that a command may take, in bytes.
 pub(crate) fn memory() -> u64 {
     MEMORY.get().copied().unwrap_or(DEFAULT)
 }
 
-/// Whether work may go on: its time is not over.
+/// Returns whether work may go on, as its time is not over.
 pub(crate) fn go_on() -> bool {
     let over = OVER.load(Ordering::Relaxed);
     CUT.fetch_or(over, Ordering::Relaxed);
     !over
 }
 
-/// Whether work was told not to.
+/// Returns whether work was stopped because its time was over.
 pub(crate) fn was_cut() -> bool {
     CUT.load(Ordering::Relaxed)
 }
@@ -77,13 +77,13 @@ fn told() -> Option<(Exit, String)> {
     BESIDE.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-/// The answer is told, and ends so; what comes beside it may be cut, with these words.
+/// Notes that the answer is complete, with its exit code; extra work may still be cut, with these words.
 pub(crate) fn is_told(exit: Exit, beside: String) {
     *BESIDE.lock().unwrap_or_else(PoisonError::into_inner) = Some((exit, beside));
 }
 
-/// What work gives that cannot be asked whether to go on; none where the time is over before, and then it is left. Where no thread can be
-/// made nothing is watched, and it goes to its end.
+/// Returns the result of work that cannot be interrupted; none where the time is over first, and then the work is abandoned. Where no
+/// thread can be made, the time is not watched and the work runs to its end.
 pub(crate) fn in_time<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Option<T> {
     let work = Arc::new(Mutex::new(Some(work)));
     let (sender, receiver) = mpsc::channel();
@@ -133,7 +133,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 impl Budget {
-    /// Watches until the process ends; `less` says what would take less. Work that asks whether to go on has a little more to come to
+    /// Watches until the process ends; `less` says how to use less. Work that checks whether to go on has a little more time to come to
     /// an answer. Nothing is watched in a process that is not the command's own, or where no
     /// thread can be made.
     pub(crate) fn watch(self, less: &'static str, asks: bool, interactive: bool) {
@@ -168,7 +168,7 @@ impl Budget {
     }
 }
 
-/// Ends the process where its answer is told and only what comes beside it is cut.
+/// Ends the process where its answer is complete and only extra work is cut.
 fn leave_beside() {
     let Some((answer, beside)) = told() else { return };
     clatter_report::remove_leftovers();

@@ -1,4 +1,4 @@
-//! Tables and sentences no wider than the terminal.
+//! This module writes tables and sentences that are no wider than the terminal.
 
 use std::io::{self, IsTerminal, Write};
 use std::ops::Range;
@@ -6,16 +6,16 @@ use std::sync::OnceLock;
 
 use unicode_width::UnicodeWidthStr;
 
-/// Columns where there is no terminal, and the least that tables are made for.
+/// The number of columns where there is no terminal, and the least number that tables are made for.
 const WIDTH: usize = 100;
 const LEAST_WIDTH: usize = 60;
-/// Columns of numbers are no narrower.
+/// The least width of a column of numbers.
 const LEAST: usize = 13;
 
 /// The width of the terminal that the process of the command writes to.
 static TERMINAL: OnceLock<usize> = OnceLock::new();
 
-/// The process is the command's own: its terminal is that of the tables.
+/// Notes that the process is the command's own: its terminal is that of the tables.
 pub(crate) fn own_process() {
     let stdout = io::stdout();
     let size = Some(&stdout).filter(|out| out.is_terminal()).and_then(terminal_size::terminal_size_of);
@@ -24,22 +24,22 @@ pub(crate) fn own_process() {
     }
 }
 
-/// Columns that there are.
+/// Returns the number of columns of the terminal.
 pub(crate) fn width() -> usize {
     TERMINAL.get().copied().unwrap_or(WIDTH)
 }
 
-/// Rows of cells, the first ones its headings. Columns that are too many for the terminal follow below, beside the first ones once more.
+/// Rows of cells, of which the first are headings. Columns that are too many for the terminal follow below, next to the first ones again.
 pub(crate) struct Table {
-    /// How many columns stand in each part of it.
+    /// The number of columns that stand in each part of the table.
     pub(crate) keys: usize,
-    /// How many rows are headings.
+    /// The number of rows that are headings.
     pub(crate) headings: usize,
-    /// How many columns are text, set to the left; all others are set to the right.
+    /// The number of columns that are text, set to the left; all others are set to the right.
     pub(crate) texts: usize,
-    /// Whether the last column is text as well.
+    /// True where the last column is text as well.
     pub(crate) last_is_text: bool,
-    /// Columns are no narrower.
+    /// The least width of a column.
     pub(crate) least: usize,
     pub(crate) rows: Vec<Vec<String>>,
 }
@@ -60,7 +60,7 @@ impl Table {
                 writeln!(out)?;
             }
             for (k, row) in self.rows.iter().enumerate() {
-                // A part of the table in which a row says nothing goes without it.
+                // A part of the table in which a row has no cells goes without the row.
                 let cell = |i: usize| row.get(i).map_or("", String::as_str);
                 if k >= self.headings && n > 0 && block.clone().all(|i| cell(i).is_empty()) {
                     continue;
@@ -80,7 +80,7 @@ impl Table {
     }
 }
 
-/// The columns after the first `keys`, in as many blocks as there have to be, each beside those once more; one column at least.
+/// Returns the columns after the first `keys`, in as many blocks as are needed, each next to the first ones once more; one column at least.
 fn blocks(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     let first: usize = widths.iter().take(keys).map(|w| w + 2).sum();
     let (mut blocks, mut used) = (Vec::from([Range { start: keys, end: keys }]), first);
@@ -99,7 +99,7 @@ fn blocks(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     blocks
 }
 
-/// The columns of numbers under these heads, which are names and units, in blocks that the terminal holds beside a first cell.
+/// Returns the columns of numbers under these heads, which are names and units, in blocks that fit the terminal next to a first cell.
 pub(crate) fn parts(first: usize, heads: &[(String, &str)]) -> Vec<Range<usize>> {
     let widths: Vec<usize> = heads.iter().map(of_head).collect();
     // A blank stands before each.
@@ -111,7 +111,7 @@ fn of_head((name, unit): &(String, &str)) -> usize {
     name.chars().count().max(unit.chars().count()).max(LEAST)
 }
 
-/// A line of a table: its first cell as it stands, the others below `heads`, which are names and units, to the right.
+/// Writes a line of a table: its first cell as it stands, the others below `heads`, which are names and units, to the right.
 pub(crate) fn line<S: AsRef<str>>(
     out: &mut dyn Write,
     first: &str,
@@ -126,7 +126,7 @@ pub(crate) fn line<S: AsRef<str>>(
     writeln!(out)
 }
 
-/// A sentence after its first words, which further lines stand below.
+/// Writes a sentence after its first words, below which its further lines stand.
 pub(crate) fn sentence(out: &mut dyn Write, first: &str, text: &str) -> io::Result<()> {
     let indent = " ".repeat(first.width().min(13));
     let mut line = first.to_owned();
@@ -163,7 +163,7 @@ mod tests {
     fn columns_that_do_not_fit_follow_below_beside_the_keys() {
         let whole = "part     limit    allowed    demand     bound\ndisplay  rattle      6 mm     14 mm\n";
         assert_eq!(table(45), whole);
-        // One column less: the last one stands below, without the row that says nothing there.
+        // The table has one column less: the last one stands below, without the rows that are empty there.
         let folded =
             "part     limit    allowed    demand\ndisplay  rattle      6 mm     14 mm\n\npart     limit      bound\n";
         assert_eq!(table(44), folded);

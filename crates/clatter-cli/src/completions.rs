@@ -1,4 +1,4 @@
-//! `clatter completions`: what a shell needs to complete the command.
+//! This module is `clatter completions`: it writes the script that a shell needs to complete the command.
 
 use clap_complete::Shell;
 
@@ -15,7 +15,7 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(&self, command: &mut clap::Command, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        // Into memory first: the generator panics where it cannot write.
+        // The script goes into memory first: the generator panics where it cannot write.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, command, "clatter", &mut script);
         streams.out.write_all(&script).map_err(Failure::Answer)

@@ -1,4 +1,4 @@
-//! What is done with a record before it is used.
+//! This module prepares a record before it is used.
 
 use std::path::Path;
 
@@ -40,7 +40,7 @@ enum BaselineName {
     PreShock,
 }
 
-/// Poles of one pass; forward and backward they are four.
+/// The number of poles of one pass; forward and backward they are four.
 const POLES: u32 = 2;
 
 fn window(text: &str) -> Result<[f64; 2], String> {
@@ -57,7 +57,7 @@ fn frequency(text: &str) -> Result<f64, String> {
 }
 
 impl ConditionArgs {
-    /// The flag of what was told, where there is nothing to tell it of.
+    /// Returns the flag of an option that was given, for where there is no record that it could apply to.
     pub(crate) fn given(&self) -> Option<&'static str> {
         let given = [
             (self.window.is_some(), "--window"),

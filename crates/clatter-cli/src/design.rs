@@ -1,4 +1,5 @@
-//! `clatter design`: which inertia ratios and restitutions meet the limits, and what would make each failing part safe.
+//! This module is `clatter design`: it finds the inertia ratios and restitutions that meet the limits, and the changes that would make
+//! each failing part safe.
 
 mod goals;
 mod plane;
@@ -143,7 +144,7 @@ fn target(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// Whether a picture is wanted.
+/// Returns whether the path is that of a picture.
 fn picture(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "svg")
 }

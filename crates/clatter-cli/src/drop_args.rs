@@ -1,4 +1,4 @@
-//! A drop as arguments of a command say it, alone or over what a product file says.
+//! This module reads a drop from the arguments of a command, alone or in place of values of a product file.
 
 use std::path::PathBuf;
 
@@ -121,40 +121,40 @@ struct Fall {
     height_m: Option<f64>,
 }
 
-/// What a command has of a drop beside [`DropArgs`].
+/// The arguments of a command about a drop, in addition to [`DropArgs`].
 pub(crate) struct ExtraArgs<'a> {
     pub(crate) model: Option<Model>,
     pub(crate) e: Option<f64>,
     pub(crate) gyration: Option<PerAxis<Quantity>>,
     pub(crate) masses: &'a [Piece],
-    /// Whether both ends land as one, without a tilt.
+    /// True where both ends land at the same instant, without a tilt.
     pub(crate) is_flat: bool,
-    /// Whether a contact time counts for instant impacts, too.
+    /// True where a contact time counts for instant impacts, too.
     pub(crate) instant_contacts: bool,
-    /// Angular velocity at the first touch, over that of the product file.
+    /// Angular velocity at the first touch, in place of that of the product file.
     pub(crate) spin_rad_s: Option<PerAxis<f64>>,
-    /// The end that touches first, over that of the product file.
+    /// The end that touches first, in place of that of the product file.
     pub(crate) first: Option<End>,
-    /// Whether places that are typed are those of the product, whichever end touches first; else they are seen from the end that does.
+    /// True where typed places are those of the product, whichever end touches first; else they are seen from the end that does.
     pub(crate) is_of_product: bool,
     /// The product file, if there is one.
     pub(crate) file: Option<OneDrop>,
 }
 
-/// A drop with all that is told of it.
+/// A drop with all that is reported about it.
 pub(crate) struct Setup {
     pub(crate) drop: Drop,
     pub(crate) model: Model,
-    /// From where it falls, where that was given.
+    /// The height from which it falls, where that was given.
     pub(crate) height_m: Option<f64>,
     pub(crate) shown: Shown,
     /// The part of a product file.
     pub(crate) part: Option<PartSetup>,
-    /// What is told beside the answer, after what it is.
+    /// Notes to report with the answer: the kind and the words of each.
     pub(crate) notes: Vec<(&'static str, String)>,
 }
 
-/// A number that was given one way or the other.
+/// Returns a number that was given one way or the other.
 fn either(typed: Option<Quantity>, plain: Option<f64>) -> Option<Quantity> {
     typed.or(plain.map(Quantity::of_si))
 }
@@ -163,7 +163,7 @@ fn either(typed: Option<Quantity>, plain: Option<f64>) -> Option<Quantity> {
 const STEEP_RAD: f64 = 0.174_532_925_199_432_95;
 
 impl DropArgs {
-    /// As it was typed.
+    /// Returns the contact time as it was typed.
     pub(crate) fn contact_time(&self) -> Option<Quantity> {
         either(self.contact_time, self.contact_time_s)
     }
@@ -172,7 +172,7 @@ impl DropArgs {
         [either(self.length, self.length_m), width, thickness]
     }
 
-    /// The product file, where there is one, with its drop: that of its ranges that asks most, or one value of each.
+    /// Returns the product file, where there is one, with its drop: that of its ranges with the highest demand, or one value of each.
     pub(crate) fn file(
         &self,
         first: Option<End>,
@@ -188,7 +188,7 @@ impl DropArgs {
         }))
     }
 
-    /// The drop, over that of the product file where there is one.
+    /// Makes the drop; the arguments replace the values of the product file where there is one.
     pub(crate) fn setup(&self, mut beside: ExtraArgs<'_>) -> Result<Setup, Failure> {
         let mut file = beside.file.take();
         let mut notes = self.slips(&beside);
@@ -256,7 +256,7 @@ impl DropArgs {
         Ok(Setup { drop: *drop, model, height_m, shown, part, notes })
     }
 
-    /// The drop of a product file, with what is given here left out of what is told.
+    /// Returns the drop of a product file; inputs that are given here are left out of the reported ones.
     fn of_file(&self, file: &mut OneDrop, beside: &ExtraArgs<'_>) -> (Drop, Option<f64>) {
         let fall = &self.fall;
         let falls =
@@ -274,7 +274,7 @@ impl DropArgs {
         })
     }
 
-    /// What is given here, in SI units and degrees.
+    /// Returns the inputs that are given here, in SI units and degrees.
     fn inputs(
         &self,
         beside: &ExtraArgs<'_>,
@@ -343,7 +343,7 @@ impl DropArgs {
         Ok(inputs)
     }
 
-    /// Values that no product has.
+    /// Returns warnings about values that no product has.
     fn slips(&self, beside: &ExtraArgs<'_>) -> Vec<(&'static str, String)> {
         let radius = beside.gyration.map(PerAxis::values).filter(|radii| radii.len() == 1).map(|radii| radii[0]);
         let given = [
@@ -357,7 +357,7 @@ impl DropArgs {
         slips.map(|slip| ("warning", slip.to_string())).collect()
     }
 
-    /// Units as they were typed, here or in the file.
+    /// Returns the units as they were typed, here or in the file.
     fn shown(&self, beside: &ExtraArgs<'_>, file: Option<&OneDrop>) -> Shown {
         let of = |quantity: Option<Quantity>| quantity.and_then(|quantity| quantity.unit);
         let radius = beside.gyration.map(|radii| radii.values()[0]);
@@ -373,7 +373,7 @@ impl DropArgs {
         }
     }
 
-    /// The option that gives an input, as it was given: `--height`, or `--height-m` for a plain number.
+    /// Returns the option that gives an input, as it was given: `--height`, or `--height-m` for a plain number.
     fn flag(&self, name: &str, gyration: Option<PerAxis<Quantity>>) -> String {
         let (fall, kebab) = (&self.fall, name.replace('_', "-"));
         let radius = gyration.map(|radii| radii.values()[0]);
@@ -400,7 +400,7 @@ impl DropArgs {
         Failure::Wrong(format!("invalid value for '{}': {reason}", self.flag(name, gyration)))
     }
 
-    /// A drop that was refused, with the options that give it.
+    /// Makes the failure of a drop that was refused, with the options that give it.
     pub(crate) fn failure(&self, error: Error, gyration: Option<PerAxis<Quantity>>) -> Failure {
         match error {
             Error::Missing(names) => {
@@ -442,7 +442,7 @@ impl DropArgs {
 }
 
 impl Setup {
-    /// A place that was typed, in half-sides along each side of the body, which goes on so far beyond its feet.
+    /// Converts a typed place to half-sides along each side of the body, which goes on so far beyond its feet.
     pub(crate) fn relative(&self, at: PerAxis<Place>, beyond_m: [f64; 2]) -> Result<Vec<f64>, Failure> {
         let (flag, body) = ("--at", &self.drop.body);
         let places = match (self.drop.is_solid(), body.is_wide()) {
@@ -456,7 +456,7 @@ impl Setup {
         };
         places.into_iter().enumerate().map(on).collect()
     }
-    /// The same in m from the middle.
+    /// Converts a typed place to m from the middle.
     pub(crate) fn place_m(&self, at: PerAxis<Place>, beyond_m: [f64; 2]) -> Result<[f64; 3], Failure> {
         let mut at_m = [0.0; 3];
         for (axis, s) in self.relative(at, beyond_m)?.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What shakes a component, and what it stands, as arguments of a command say it.
+//! This module reads the arguments of a command for the shocks on a component, and for its limits.
 
 use clatter_assess::units::{ACCELERATION, Dimension, FREQUENCY, LENGTH, Quantity, SPEED, TIME, Unit};
 use clatter_shock::{
@@ -10,23 +10,23 @@ use crate::numbers::given;
 use crate::quantities::{neat, plain_or_typed};
 use crate::text::visible;
 
-/// Ramps of a trapezoid whose ramps nobody gave, over its length.
+/// The length of a ramp of a trapezoid without given ramps, over the length of the trapezoid.
 const RAMP: f64 = 0.1;
 
 /// One `--pulse`: a shape, and when it comes.
 #[derive(Debug, Clone)]
 pub(crate) struct PulseArg {
     pub(crate) pulses: Vec<Pulse>,
-    /// That of the amplitude, where one was typed.
+    /// The unit of the amplitude, where one was typed.
     pub(crate) unit: Option<&'static Unit>,
 }
 
-/// What a pulse and a frequency may be, in their units: far beyond any that there are, and far within the floats.
+/// The range of pulses and frequencies, in their units: far beyond any real value, and well within floating-point numbers.
 const RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
 
-/// `value` if it is in [`RANGE`].
+/// Returns `value` if it is in [`RANGE`].
 fn within(name: &str, value: f64) -> Result<f64, String> {
-    // What is none at all is told by the type that it becomes.
+    // A value that no quantity can have (no number, infinite, or not above 0) is refused by the type that it becomes.
     if RANGE.contains(&value) || value.is_nan() || value <= 0.0 || value.is_infinite() {
         return Ok(value);
     }
@@ -64,7 +64,7 @@ pub(crate) fn shape(text: &str) -> Result<Shape, String> {
     }
 }
 
-/// By the keyword of a standard, or by shape, amplitude, duration and starts.
+/// Reads a pulse by the keyword of a standard, or by shape, amplitude, duration and starts.
 pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
     if let Some(standard) = clatter_shock::standard_pulse(text) {
         return Ok(PulseArg { pulses: vec![standard.pulse()], unit: plain_or_typed(&ACCELERATION, "1gn")?.unit });
@@ -90,7 +90,7 @@ pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
     Ok(PulseArg { pulses, unit: amplitude.unit })
 }
 
-/// Validates a pulse.
+/// Refuses a pulse that is not valid.
 pub(crate) fn checked(pulse: Pulse) -> Result<Pulse, String> {
     within("duration", pulse.duration)?;
     within("amplitude", pulse.amplitude.abs())?;
@@ -141,17 +141,17 @@ pub(crate) fn frequencies(text: &str) -> Result<FrequencyArg, String> {
 pub(crate) struct LimitArg {
     pub(crate) curve: LimitCurve,
     pub(crate) level: Option<f64>,
-    /// What it limits and its unit, where one was typed.
+    /// The limited quantity and its unit, where a unit was typed.
     pub(crate) typed: Option<Typed>,
 }
 
 /// A kind of quantity and one of its units.
 pub(crate) type Typed = (&'static Dimension, &'static Unit);
 
-/// What the response of a part has a limit for.
+/// The quantities of a response that a limit may be given for.
 const LIMITED: [&Dimension; 3] = [&ACCELERATION, &LENGTH, &SPEED];
 
-/// A value of any kind that is limited.
+/// Reads a value of any kind that can be limited.
 fn allowed(text: &str) -> Result<(f64, Option<Typed>), String> {
     let read = |dimension: &'static Dimension| {
         let Quantity { si, unit } = plain_or_typed(dimension, text).ok()?;
@@ -195,14 +195,14 @@ pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
     Ok(LimitArg { curve, level: None, typed })
 }
 
-/// By how much a spectrum may be below the required one, and above it if that is held at all.
+/// The distance by which a spectrum may be below the required one, and above it if that is limited at all.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tolerance {
     pub(crate) below_db: f64,
     pub(crate) above_db: Option<f64>,
 }
 
-/// `3` is 3 dB on either side, `-1.5` is 1.5 dB below and anything above, `-1.5,6` has both.
+/// Reads a tolerance: `3` is 3 dB on either side, `-1.5` is 1.5 dB below and anything above, `-1.5,6` has both.
 pub(crate) fn tolerance(text: &str) -> Result<Tolerance, String> {
     let form =
         "a tolerance in dB is one number for both sides, such as 3, or -BELOW,ABOVE, such as -1.5,6, or -BELOW alone";
@@ -223,7 +223,7 @@ pub(crate) fn tolerance(text: &str) -> Result<Tolerance, String> {
     }
 }
 
-/// What a shock table can do; in ms, gn and m/s where no unit is given.
+/// Reads the range of a shock table; in ms, gn and m/s where no unit is given.
 pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
     let form = "a shock table is SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE in ms, gn and m/s, such as 0.2:20,5000,20 or \
                 0.2ms:20ms,5000gn,20m/s";

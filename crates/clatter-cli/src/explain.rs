@@ -1,4 +1,4 @@
-//! `clatter explain`: which model the worst drops of a product need, and why.
+//! This module is `clatter explain`: it shows which model the worst drops of a product need, and why.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -62,7 +62,7 @@ impl Args {
     }
 }
 
-/// All models on the worst drops of a product.
+/// Measures all models on the worst drops of a product.
 pub(crate) fn measure(
     path: &Path,
     tolerance: f64,
@@ -78,13 +78,13 @@ pub(crate) fn measure(
     Ok((file, ladders))
 }
 
-/// The unit in which the file gives a limit.
+/// Returns the unit in which the file gives a limit.
 pub(crate) fn unit(file: &ProductFile, limit: &LimitLadder) -> Option<&'static units::Unit> {
     let component = file.components.iter().find(|component| component.name == limit.component)?;
     component.limits.unit(limit.limit, limit.ladder.unit)
 }
 
-/// What was left out, and why.
+/// Writes the limits that were left out, and why.
 pub(crate) fn left_out(ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
     for LeftOut { component, limit, reason } in &ladders.left_out {
         writeln!(out, "\n{}, {}: left out, {reason}", shown(component, 24), limit.name())?;
@@ -101,7 +101,7 @@ fn table(file: &ProductFile, ladders: &ProductLadder, out: &mut dyn Write) -> io
     if ladders.landings.is_empty() { Ok(()) } else { landings(&ladders.landings, out) }
 }
 
-/// Of a box, a row for each drop: what its tolerance leaves open, and the limit that it leaves least room.
+/// Writes a row for each drop of a box: the range that its tolerance leaves open, and the limit with the least margin.
 fn landings(landings: &[LandingLadder], out: &mut dyn Write) -> io::Result<()> {
     let row = |cells: [&str; 8]| cells.map(str::to_owned).to_vec();
     let mut rows = vec![
@@ -153,7 +153,7 @@ fn of_limit(file: &ProductFile, limit: &LimitLadder, out: &mut dyn Write) -> io:
     sentence(out, "  groups     ", &groups(&ladder.groups))
 }
 
-/// The dimensionless groups that are known.
+/// Writes the dimensionless groups that are known.
 fn groups(groups: &Groups) -> String {
     let Groups { gravity, geometry, overlap, pulse, train, damping, across } = *groups;
     let named = [

@@ -1,4 +1,4 @@
-//! Why a command could not answer.
+//! This module has the reasons why a command could not answer.
 
 use std::io;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use crate::{Exit, text};
 pub(crate) enum Failure {
     #[error(transparent)]
     Input(#[from] clatter::Error),
-    /// A value that is wrong beside the others.
+    /// A value that is wrong together with the others.
     #[error("invalid value for '{flag}': {reason}")]
     Flag { flag: &'static str, reason: clatter::Error },
     #[error(transparent)]
@@ -61,7 +61,7 @@ pub(crate) enum Failure {
     Unreadable { path: PathBuf, reason: io::Error },
     #[error("{} is there already: choose another name, or remove it first", text::path(.0))]
     Exists(PathBuf),
-    /// What is wrong with product files, each fault shown where it stands.
+    /// Faults in product files, each shown where it stands.
     #[error("{0}")]
     Product(String),
     #[error(transparent)]

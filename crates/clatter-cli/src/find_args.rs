@@ -1,4 +1,4 @@
-//! How the shocks of a record are found.
+//! This module reads how the shocks of a record are found.
 
 use clatter_assess::units::{ACCELERATION, Dimension, TIME};
 use clatter_shock::Search;
@@ -20,7 +20,7 @@ pub(crate) struct FindArgs {
 }
 
 impl FindArgs {
-    /// How to find them, where they are asked for.
+    /// Returns how to find the shocks, where they are requested.
     pub(crate) fn search(self) -> Option<Search> {
         self.find.then_some(Search { threshold_m_s2: self.threshold, quiet_s: self.quiet })
     }

@@ -1,4 +1,4 @@
-//! `clatter fit`: from a measured drop to the data of the product.
+//! This module is `clatter fit`: it finds the data of a product from a measured drop.
 
 mod table;
 
@@ -171,7 +171,7 @@ impl Args {
         }
     }
 
-    /// The copy of the product file with what was found.
+    /// Writes the copy of the product file with the results of the fit.
     fn copy(&self, answer: &Answer<'_>, path: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let source = &self.product;
         let unreadable = |reason| Failure::Unreadable { path: source.clone(), reason };

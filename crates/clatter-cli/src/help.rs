@@ -1,4 +1,4 @@
-//! The help of the command itself: its subcommands by task.
+//! This module writes the help of the command itself: its subcommands by task.
 
 use clap::Subcommand as _;
 
@@ -12,10 +12,10 @@ const TASKS: [(&str, &[&str]); 4] = [
     ("Print, and help", &["report", "completions", "help"]),
 ];
 
-/// Columns before what a subcommand does.
+/// The number of columns before the description of a subcommand.
 const INDENT: usize = 15;
 
-/// The help of the command, its subcommands by task.
+/// Returns the help of the command, its subcommands by task.
 pub(crate) fn template() -> String {
     let mut text = "{before-help}{about-with-newline}\n{usage-heading} {usage}\n\n".to_owned();
     for (task, names) in TASKS {
@@ -28,7 +28,7 @@ pub(crate) fn template() -> String {
     text + "Options:\n{options}{after-help}"
 }
 
-/// A subcommand and what it does, on lines that the terminal holds.
+/// Describes a subcommand on lines that the terminal holds.
 fn said(name: &str) -> String {
     let all = Command::augment_subcommands(clap::Command::new("clatter"));
     let own = all.find_subcommand(name).and_then(|command| command.get_about()).map(ToString::to_string);

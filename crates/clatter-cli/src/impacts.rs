@@ -1,4 +1,4 @@
-//! `clatter impacts`: the train of impacts of one bar or plate, its peak and what it amounts to.
+//! This module is `clatter impacts`: it shows the train of impacts of one bar or plate, its peak and its totals.
 
 mod plate;
 
@@ -212,7 +212,7 @@ impl Drop<'_> {
     }
 }
 
-/// What is shown of an impact, column by column.
+/// Returns the numbers of an impact that are shown, column by column.
 fn numbers(impact: &Impact) -> impl Iterator<Item = f64> {
     let Impact { time, approach, delta_v: [a, b], delta_v_at, .. } = impact;
     [time, approach, a, b].into_iter().chain(delta_v_at).map(|x| x.0)

@@ -1,4 +1,4 @@
-//! `clatter init`: a product file to begin with.
+//! This module is `clatter init`: it writes a product file to begin with.
 
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;

@@ -1,10 +1,10 @@
-//! Files as inputs: `-` is standard input.
+//! This module opens files as inputs: `-` is standard input.
 
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Whether a path stands for standard input, or as an output for standard output.
+/// Returns whether a path stands for standard input, or for standard output where it is an output.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
@@ -14,7 +14,7 @@ pub(crate) fn open(path: &Path) -> io::Result<Box<dyn Read>> {
     Ok(if is_standard(path) { Box::new(io::stdin()) } else { Box::new(File::open(path)?) })
 }
 
-/// How messages call an input.
+/// Returns the name of an input in messages.
 pub(crate) fn name(path: &Path) -> String {
     if is_standard(path) { "standard input".to_owned() } else { path.display().to_string() }
 }

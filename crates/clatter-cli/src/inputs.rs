@@ -1,4 +1,4 @@
-//! Arguments that several commands share, and how each is read.
+//! This module reads the arguments that several commands share.
 //!
 //! Every value is checked by the type that it becomes, so a range is written down once, in the model.
 
@@ -16,7 +16,7 @@ use crate::numbers::given;
 use crate::quantities::{self, Piece, plain_or_typed};
 use crate::text::visible;
 
-/// What the numbers mean: part of the long help of the command and of each of its models.
+/// The meaning of the numbers: part of the long help of the command and of each of its models.
 pub(crate) const PRIMER: &str = "\
 The bar. Seen from the side, a flat body is a rigid bar with ends a and b that
 strike the ground; end a strikes first. Positions on it run from -1 (end a)
@@ -80,7 +80,7 @@ struct Inertia {
     mass: Vec<Piece>,
 }
 
-/// So many numbers for a bar, so many for a plate.
+/// A fixed number of values for a bar, and another for a plate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Values<const BAR: usize, const PLATE: usize> {
     Bar([f64; BAR]),
@@ -139,7 +139,7 @@ pub(crate) struct OffCenterArgs {
     center_of_mass: Option<Values<1, 2>>,
 }
 
-/// What falls.
+/// The body that falls.
 pub(crate) enum FallingBody {
     Bar(Bar),
     Plate(Plate),
@@ -169,13 +169,13 @@ impl OffCenterArgs {
 }
 
 impl OffCenterArgs {
-    /// Masses far outside of the body.
+    /// Returns warnings about masses far outside of the body.
     pub(crate) fn slips(&self) -> impl Iterator<Item = Slip> {
         self.bar.inertia.mass.iter().flat_map(|piece| piece.slips(1.0))
     }
 }
 
-/// The bar of masses whose positions are in half-lengths.
+/// Makes the bar of masses whose positions are in half-lengths.
 pub(crate) fn bar_of(masses: &[Mass], e: f64) -> Result<Bar, Failure> {
     Bar::from_masses(2.0, masses, e).map_err(Failure::flag("--mass"))
 }
@@ -199,11 +199,11 @@ impl DampingArgs {
     pub(crate) fn is_given(&self) -> bool {
         self.given().is_some()
     }
-    /// A damping ratio that no part has.
+    /// Returns a warning about a damping ratio that no part has.
     pub(crate) fn slip(&self) -> Option<Slip> {
         self.damping.and_then(|ratio| clatter_assess::slip("damping_ratio", &Quantity::of_si(ratio.get())))
     }
-    /// Q = 10, what the field takes where nobody says otherwise.
+    /// Returns the damping ratio; Q = 10 where none is given, as is usual in the field.
     pub(crate) fn ratio(&self) -> Result<DampingRatio, clatter_shock::Error> {
         self.damping.or(self.q_factor).map_or_else(|| DampingRatio::from_quality_factor(10.0), Ok)
     }
@@ -222,11 +222,11 @@ pub(crate) struct DampingListArgs {
 }
 
 impl DampingListArgs {
-    /// A damping ratio that no part has.
+    /// Returns a warning about a damping ratio that no part has.
     pub(crate) fn slip(&self) -> Option<Slip> {
         self.damping.and_then(|ratio| clatter_assess::slip("damping_ratio", &Quantity::of_si(ratio.get())))
     }
-    /// Those given, at least one: Q = 10 where nobody says otherwise.
+    /// Returns the given damping ratios, at least one: Q = 10 where none is given.
     pub(crate) fn ratios(&self) -> Result<Vec<DampingRatio>, clatter_shock::Error> {
         match (self.damping, &self.q_factor[..]) {
             (Some(damping), _) => Ok(vec![damping]),
@@ -286,7 +286,7 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| format!("'{}' is not a number such as 0.5", visible(text)))
 }
 
-/// So many numbers.
+/// Reads a list of `N` numbers.
 fn list<const N: usize>(text: &str, what: &str) -> Result<[f64; N], String> {
     let found: Vec<f64> = parts(text, ',').into_iter().map(number).collect::<Result<_, _>>()?;
     let count = found.len();
@@ -297,19 +297,19 @@ pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
     list(text, "X,Y,Z")
 }
 
-/// Products of inertia of a plate, or of a box.
+/// Reads the products of inertia of a plate, or of a box.
 pub(crate) fn products(text: &str) -> Result<[f64; 3], String> {
     if text.contains(',') { list(text, "XY,XZ,YZ") } else { Ok([number(text)?, 0.0, 0.0]) }
 }
 
-/// Feet: how far beyond them a product goes on along and across it, and how far they stand out.
+/// Reads feet: how far a product goes on beyond them along and across it, and how far they stand out.
 pub(crate) fn feet(text: &str) -> Result<[f64; 3], String> {
     let feet @ [x, y, height] = list(text, "X,Y,HEIGHT in m")?;
     let within = [x, y].iter().all(|beyond| (0.0..=50.0).contains(beyond)) && (1e-5..=1.0).contains(&height);
     if within { Ok(feet) } else { Err("allowed: X and Y from 0 to 50 m, HEIGHT from 1e-5 to 1 m".to_owned()) }
 }
 
-/// A contact of its own: where, its restitution, and how long a lone one takes.
+/// Reads a contact of its own: where, its restitution, and how long a lone one takes.
 pub(crate) fn own_contact(text: &str) -> Result<(usize, OwnContact), String> {
     let (at, numbers) = text.split_once(',').ok_or("expected AT,E,TIME in s, such as b,0.1,1.5e-3")?;
     let at = ["a", "b", "c", "d"].into_iter().position(|place| place == at.trim());
@@ -326,14 +326,14 @@ pub(crate) fn quaternion(text: &str) -> Result<[f64; 4], String> {
     list(text, "W,X,Y,Z, the unit quaternion of a rotation")
 }
 
-/// A share, or a percentage with its sign.
+/// Reads a share, or a percentage with its sign.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     let share =
         plain_or_typed(&SHARE, text).map_err(|_| format!("'{}' is not a share such as 0.01 or 1%", visible(text)))?;
     Ok(share.si)
 }
 
-/// The parts of a list, without the blanks around them.
+/// Returns the parts of a list, without the blanks around them.
 pub(crate) fn parts(text: &str, between: char) -> Vec<&str> {
     text.split(between).map(str::trim).collect()
 }
@@ -344,14 +344,14 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     Ok(share)
 }
 
-/// An axis of a box.
+/// Reads an axis of a box.
 pub(crate) fn axis_of_box() -> impl TypedValueParser<Value = clatter_assess::Axis> {
     let names = ["x", "y", "z"].map(PossibleValue::new).into_iter();
     let any = PossibleValue::new("any").help("The magnitude, of a place on which a part is mounted rigidly");
     PossibleValuesParser::new(names.chain([any])).map(|name| clatter_assess::Axis::of(&name))
 }
 
-/// How a drop is followed, from the least physics.
+/// Reads the model by which a drop is followed; the models begin with the least physics.
 pub(crate) fn model() -> impl TypedValueParser<Value = Model> {
     let help = |model| match model {
         Model::Ballistic => "Small tilt, gravity, instant impacts: what bounced clear comes back",
@@ -364,7 +364,7 @@ pub(crate) fn model() -> impl TypedValueParser<Value = Model> {
         .try_map(|name| Model::FOLLOWED.into_iter().find(|model| model.name() == name).ok_or("no model"))
 }
 
-/// What the ground does to an end while it touches.
+/// The law by which the ground acts on an end during a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Law(pub(crate) ContactLaw);
 
@@ -425,17 +425,17 @@ fn centers_of_mass(text: &str) -> Result<Values<1, 2>, String> {
     values(text, |text| center_of_mass(text).map(|c| [c]), plate)
 }
 
-/// Of the ends of a bar, or of corners a, b and d of a plate.
+/// Reads the velocities of the ends of a bar, or of corners a, b and d of a plate.
 pub(crate) fn velocities(text: &str) -> Result<Values<2, 3>, String> {
     values(text, velocity, |velocity| PlateStart::new(velocity, [1.0; 2]).map(|_| ()))
 }
 
-/// Of end b of a bar, or of corners b and d of a plate.
+/// Reads the height of end b of a bar, or the heights of corners b and d of a plate.
 pub(crate) fn height_gaps(text: &str) -> Result<Values<1, 2>, String> {
     values(text, |text| height_gap(text).map(|gap| [gap]), |gaps| PlateStart::level(gaps).map(|_| ()))
 }
 
-/// On a bar, or on a plate.
+/// Reads a position on a bar, or on a plate.
 pub(crate) fn positions(text: &str) -> Result<Values<1, 2>, String> {
     let on_plate = |[x, y]: [f64; 2]| {
         let out = |name, value: f64| {
@@ -459,7 +459,7 @@ fn height_gap(text: &str) -> Result<f64, String> {
     Start::new([-1.0, -1.0], gap).map(|_| gap).map_err(|error| error.to_string())
 }
 
-/// ω of a component.
+/// Reads ω of a component.
 pub(crate) fn omega(text: &str) -> Result<f64, String> {
     let name = "natural angular frequency";
     one_of_range(name, text, |w| w > 0.0 && w.is_finite(), "finite and > 0")
@@ -473,7 +473,7 @@ pub(crate) fn position(text: &str) -> Result<f64, String> {
     one_of_range("position s", text, |s| (-1.0..=1.0).contains(&s), "in [-1, 1]")
 }
 
-/// The same where it may be worked out from lengths: an end that is missed by roundings is that end.
+/// Reads a position that may be computed from lengths: one that misses an end by rounding is that end.
 pub(crate) fn worked_out_position(text: &str) -> Result<f64, String> {
     let value = number(text)?;
     if value.abs() > 1.0 && value.abs() <= 1.0 + 8.0 * f64::EPSILON {
@@ -487,7 +487,7 @@ pub(crate) fn center_of_mass(text: &str) -> Result<f64, String> {
     one_of_range("center of mass", text, |s| s.abs() < 1.0, "in (-1, 1), between the ends")
 }
 
-/// A number that makes what it is for, with everything else as it may be.
+/// Reads a number that is valid for its use where everything else is.
 pub(crate) fn part_of<T>(value: f64, whole: impl Fn(f64) -> Result<T, Error>) -> Result<f64, String> {
     whole(value).map(|_| value + 0.0).map_err(|error| error.to_string())
 }
@@ -508,7 +508,7 @@ pub(crate) fn height_of(height: f64) -> Result<Scene, Error> {
     Scene::from_height(Profile::new(1.0, 0.0)?, 0.0, height, 0.0, 1.0)
 }
 
-/// In degrees.
+/// Makes the scene of a tilt in degrees.
 pub(crate) fn tilt_of(tilt: f64) -> Result<Scene, Error> {
     drop_of(1.0, tilt, 0.0)
 }
@@ -559,7 +559,7 @@ pub(crate) fn impact_limit(text: &str) -> Result<usize, String> {
     set.map(|_| impacts).map_err(|error| error.to_string())
 }
 
-/// The bounds are those of velocities: no safe zone overflows.
+/// Reads a threshold within the bounds of velocities, so that no safe zone overflows.
 pub(crate) fn threshold(text: &str) -> Result<f64, String> {
     one_of_range("threshold", text, |x| (1e-150..=1e150).contains(&x), "in [1e-150, 1e150], in v0")
 }

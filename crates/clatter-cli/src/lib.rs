@@ -1,4 +1,4 @@
-//! The `clatter` command: arguments in, tables, JSON, maps and reports out.
+//! This crate is the `clatter` command: it takes arguments and writes tables, JSON, maps and reports.
 //!
 //! [`run`] is the whole command. It writes to the streams it is handed and returns how the process should
 //! exit, so that tests call it as they would call the command.
@@ -69,13 +69,13 @@ use serde::Serialize;
 use failure::Failure;
 use output::Files;
 
-/// Where a command writes.
+/// The streams that a command writes to.
 pub struct Streams<'a> {
     /// The answer, and nothing else.
     pub out: &'a mut dyn Write,
     /// Warnings, progress and errors.
     pub err: &'a mut dyn Write,
-    /// Whether somebody watches `err`: progress is shown to them alone.
+    /// True where somebody watches `err`: progress is shown only then.
     pub interactive: bool,
 }
 
@@ -86,12 +86,12 @@ impl fmt::Debug for Streams<'_> {
 }
 
 impl Streams<'_> {
-    /// An answer for programs, on one line: all of it, or nothing.
+    /// Writes an answer for programs on one line: all of it, or nothing.
     fn json(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
         self.line(&Versioned::new(answer))
     }
 
-    /// The same of several.
+    /// Writes several answers in the same way.
     fn json_list(&mut self, answers: &[impl Serialize]) -> Result<(), Failure> {
         self.line(&answers.iter().map(Versioned::new).collect::<Vec<_>>())
     }
@@ -101,26 +101,26 @@ impl Streams<'_> {
         writeln!(self.out, "{text}").map_err(Failure::Answer)
     }
 
-    /// The same for an answer that may not fit into memory: as it comes.
+    /// Writes an answer that may not fit into memory in the same way, part by part.
     fn long_json(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
         serde_json::to_writer(&mut *self.out, &Versioned::new(answer))
             .map_err(|error| Failure::Answer(error.into()))?;
         writeln!(self.out).map_err(Failure::Answer)
     }
 
-    /// A line beside the answer, below what there is of it. That it cannot be shown is no reason to fail.
+    /// Writes a line to standard error, below the part of the answer that is there. A line that cannot be shown is no reason to fail.
     fn note(&mut self, kind: &str, what: impl fmt::Display) {
         self.beside(&format!("{kind}: {what}\n"));
     }
 
-    /// The same of text that is whole: nothing in it is obeyed by a terminal, wherever it comes from.
+    /// Writes text in the same way that is complete: no terminal obeys anything in it, wherever it comes from.
     fn beside(&mut self, text: &str) {
         let _ = self.out.flush(); // whoever writes next sees the same failure, and tells
         let _ = write!(self.err, "{}", text::visible_lines(text));
     }
 }
 
-/// How the process exits.
+/// The exit code of the process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
     /// 0: done.
@@ -200,7 +200,7 @@ impl Cli {
 }
 
 impl Command {
-    /// What would take less memory and time.
+    /// Returns the advice on how to use less memory and time.
     fn less(&self) -> &'static str {
         match self {
             Self::Impacts(_) | Self::Simulate(_) => "fewer impacts or a shorter time take less",
@@ -259,9 +259,9 @@ impl Command {
     }
 }
 
-/// For a process of the command's own, at its start: memory and time are watched, and the threads are made that share long work. They
-/// are as many as there are processors, or as `RAYON_NUM_THREADS` asks for if that is less; none beside the present one where no more
-/// can be made.
+/// Prepares a process of the command's own, at its start: memory and time are watched, and the threads are made that share long work.
+/// There are as many threads as processors, or as many as `RAYON_NUM_THREADS` says if that is less; none but the present one where
+/// no more can be made.
 pub fn own_process() {
     budget::own_process();
     columns::own_process();
@@ -280,7 +280,7 @@ pub fn own_process() {
     let _ = if made == 0 { pool.use_current_thread() } else { pool }.build_global();
 }
 
-/// The same error with each value of the command line in it on one line, escapes for what a terminal would obey.
+/// Makes the same error with each value of the command line on one line, and with escapes for what a terminal would obey.
 fn visible_values(mut usage: clap::Error) -> clap::Error {
     let given: Vec<_> = usage.context().map(|(kind, value)| (kind, value.clone())).collect();
     for (kind, value) in given {

@@ -1,4 +1,4 @@
-//! Lists of shocks, pulses and tests that come as files: a header that names the columns, in any order, and a row for
+//! This module reads lists of shocks, pulses and tests from files: a header that names the columns, in any order, and a row for
 //! each, in any notation of records.
 
 use std::path::Path;
@@ -11,7 +11,7 @@ use crate::excitation::{self, LimitArg};
 use crate::text::visible;
 use crate::{Failure, input};
 
-/// Velocity shocks, in order of time.
+/// Reads velocity shocks, in order of time.
 pub(crate) fn shocks(path: &Path) -> Result<Vec<VelocityShock>, Failure> {
     let mut list: Vec<VelocityShock> = Vec::new();
     rows(path, ["time_s", "delta_v_m_s"], |[time, delta_v]| {
@@ -25,7 +25,7 @@ pub(crate) fn shocks(path: &Path) -> Result<Vec<VelocityShock>, Failure> {
     Ok(list)
 }
 
-/// Pulses, in any order.
+/// Reads pulses, in any order.
 pub(crate) fn pulses(path: &Path) -> Result<Vec<Pulse>, Failure> {
     let mut list = Vec::new();
     rows(path, ["shape", "amplitude_m_s2", "duration_s", "start_s"], |[shape, amplitude, duration, start]| {
@@ -45,7 +45,7 @@ pub(crate) fn pulses(path: &Path) -> Result<Vec<Pulse>, Failure> {
     Ok(list)
 }
 
-/// Shock tests: of rising velocity change in short pulses, in m/s, and of rising acceleration in long rectangles, in
+/// Reads shock tests: of rising velocity change in short pulses, in m/s, and of rising acceleration in long rectangles, in
 /// m/s².
 pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
     let mut lists = [Vec::new(), Vec::new()];
@@ -75,7 +75,7 @@ pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
     Ok(lists)
 }
 
-/// A limit curve, for spectra of this kind of quantity.
+/// Reads a limit curve, for spectra of this kind of quantity.
 pub(crate) fn limit(path: &Path, dimension: &'static Dimension) -> Result<LimitArg, Failure> {
     let bad = |reason| Failure::Record { path: path.to_owned(), reason };
     let file = input::open(path).map_err(|error| bad(clatter_record::Error::Read(error.to_string())))?;
@@ -90,7 +90,7 @@ pub(crate) fn limit(path: &Path, dimension: &'static Dimension) -> Result<LimitA
     Ok(LimitArg { curve, level: None, typed: unit.map(|unit| (dimension, unit)) })
 }
 
-/// Hands on the columns of these names row by row.
+/// Reads the columns of these names row by row.
 fn rows<const N: usize>(
     path: &Path,
     names: [&str; N],
@@ -101,7 +101,7 @@ fn rows<const N: usize>(
         .map_err(|reason| Failure::List { path: path.to_owned(), reason })
 }
 
-/// The number of a cell.
+/// Reads the number of a cell.
 fn finite(name: &str, cell: Cell<'_>) -> Result<f64, String> {
     cell.number.ok_or_else(|| format!("{name}: '{}' is not a number such as 0.5", visible(cell.text)))
 }

@@ -1,4 +1,4 @@
-//! The `clatter` command. Everything it does is in the library.
+//! This program is the `clatter` command. Everything it does is in the library.
 
 #[cfg(unix)]
 use std::fs::File;
@@ -17,9 +17,9 @@ fn main() -> ExitCode {
     run(std::env::args_os(), &mut Streams { out: &mut out, err: &mut err, interactive }).into()
 }
 
-/// Standard output that tells where it is closed or not open for writing: that of the standard library takes what is written then as
-/// if it were. Where the system, or the library at the start of the process, puts the null device in the place of a closed one, there
-/// is nothing to tell.
+/// Returns a standard output that reports where it is closed or not open for writing: that of the standard library accepts such writes as
+/// if they succeeded. Where the system, or the library at the start of the process, puts the null device in the place of a closed one,
+/// there is nothing to report.
 #[cfg(unix)]
 fn stdout() -> Box<dyn Write> {
     use std::os::fd::AsFd as _;
@@ -48,8 +48,8 @@ impl Write for Gone {
     }
 }
 
-/// Ctrl-C and SIGTERM end the process as they always do, after temporary files are removed. Where no thread can be made for that,
-/// they end it at once; where the process was told to ignore them, as in the background of a script, it goes on doing so.
+/// Removes temporary files on Ctrl-C and SIGTERM, which then end the process as they always do. Where no thread can be made for that,
+/// they end it at once; where the process is set to ignore them, as in the background of a script, it goes on doing so.
 #[cfg(unix)]
 fn tidy_on_signals() {
     use signal_hook::consts::{SIGINT, SIGTERM};
@@ -67,7 +67,7 @@ fn tidy_on_signals() {
     let _ = std::thread::Builder::new().name("signals".into()).spawn(wait);
 }
 
-/// Whether the process was started with this signal ignored, as far as the system tells.
+/// Returns whether the process was started with this signal ignored, as far as the system reports it.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

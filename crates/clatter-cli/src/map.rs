@@ -1,4 +1,4 @@
-//! `clatter map`: one quantity over a grid of (q, e), or of gyration ratio and e, as a file.
+//! This module is `clatter map`: it writes one quantity over a grid of (q, e), or of gyration ratio and e, as a file.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -126,7 +126,7 @@ impl Args {
         let quantity = self.quantity.quantity(self.threshold)?;
         let axis = self.inertia.axis()?;
         let points = axis.points() as u128 * self.e.points() as u128;
-        // Beside the values there is the text of a picture or a file in JSON.
+        // The text of a picture or a file in JSON takes memory in addition to the values.
         if 2 * 8 * points > u128::from(budget::memory()) {
             return Err(Failure::Large { points, most: u128::from(budget::memory()) / 16 });
         }
@@ -160,7 +160,7 @@ impl Args {
     }
 }
 
-/// What the slow axis is called in headings.
+/// Returns the name of the slow axis in headings.
 fn inertia(map: &Map) -> &'static str {
     if map.q.variable() == Variable::GyrationRatio { "gyration_ratio" } else { "q" }
 }

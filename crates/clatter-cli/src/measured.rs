@@ -1,4 +1,4 @@
-//! Measured drops: records, each kind told by the first line of its file, and those that a product file names.
+//! This module reads measured drops: records, whose kind is recognized by the first line of the file, and those that a product file names.
 
 use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use crate::progress::Counted;
 use crate::record_args::RecordArgs;
 use crate::{Failure, budget, input, text};
 
-/// Reads a file; `position_m` tells where an acceleration was measured, if it is one.
+/// Reads a file; `position_m` gives the place of the sensor where the record is an acceleration.
 pub(crate) fn read(
     path: &Path,
     position_m: impl FnOnce() -> Result<Option<f64>, Failure>,
@@ -54,7 +54,7 @@ fn data(
     })
 }
 
-/// Why there is no fit, with the name of the record.
+/// Returns the reason why there is no fit, with the name of the record.
 pub(crate) fn why(error: Error, files: &[PathBuf]) -> Failure {
     if !matches!(error, Error::Fit(_)) {
         return error.into();
@@ -72,12 +72,12 @@ pub(crate) struct Drop {
     paths: Vec<PathBuf>,
 }
 
-/// The file of a record that a product file names, from where that file is.
+/// Returns the path of a record that a product file names, as seen from that file.
 pub(crate) fn path_of(record: &str, product: &Path) -> PathBuf {
     product.parent().unwrap_or(Path::new("")).join(record)
 }
 
-/// The drops whose records a product file names.
+/// Reads the drops whose records a product file names.
 pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Failure> {
     let of = DropRecords::of_product(file, |record| {
         let path = path_of(&record.file, product);
@@ -88,7 +88,7 @@ pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Fai
 }
 
 impl Drop {
-    /// The computed drop that is nearest. That none comes near what was measured, or that the time is over, is an answer.
+    /// Finds the computed drop that is nearest. A result without any near drop, or the end of the time, is an answer as well.
     pub(crate) fn fitted(self, file: &ProductFile) -> Result<MeasuredDrop, Failure> {
         let too_late = |of: DropRecords| Ok(of.told(Err("not fitted, the time was over before".to_owned())));
         if !budget::go_on() {

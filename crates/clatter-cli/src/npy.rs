@@ -1,11 +1,11 @@
-//! The `.npy` file: a matrix of f64, or columns with names, as numpy reads them.
+//! This module writes `.npy` files: a matrix of f64, or columns with names, as numpy reads them.
 //!
 //! Format version 1.0 (numpy.lib.format): a magic string, the length of the header, the header as a Python dictionary
 //! padded with blanks until the data start at a multiple of 64 bytes, then the values, little-endian, row by row.
 
 use std::io::{self, Write};
 
-/// Values held at once: 256 KiB of bytes stay in the cache between being made and being written, so that a file costs
+/// The number of values held at once: 256 KiB of bytes stay in the cache between being made and being written, so that a file costs
 /// about as much as copying it.
 const CHUNK: usize = 1 << 15;
 
@@ -27,7 +27,7 @@ pub(crate) fn write(out: &mut impl Write, rows: usize, values: &[f64]) -> io::Re
 /// Writes columns of equal length as a structured array: a row of f64 for each sample, whose fields have these names.
 pub(crate) fn write_columns(out: &mut impl Write, columns: &[(String, &[f64])]) -> io::Result<()> {
     let rows = columns.first().map_or(0, |(_, values)| values.len());
-    // Two fields of one name are none.
+    // Two fields of one name are not allowed.
     let mut names: Vec<String> = Vec::new();
     for (name, _) in columns {
         let plain: String = name.chars().map(|c| if c.is_control() || "\\'\"".contains(c) { '_' } else { c }).collect();
@@ -49,7 +49,7 @@ pub(crate) fn write_columns(out: &mut impl Write, columns: &[(String, &[f64])]) 
     out.write_all(&bytes)
 }
 
-/// A header of version 1.0, or of 3.0 where names are not ASCII, which it has in UTF-8, or long.
+/// Makes a header of version 1.0, or of 3.0 where names are not ASCII, which it has in UTF-8, or long.
 fn structured(rows: usize, fields: &str) -> Vec<u8> {
     let dictionary = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({rows},), }}");
     let long = !dictionary.is_ascii() || dictionary.len() > 60_000;

@@ -1,14 +1,14 @@
-//! Numbers as they are shown: to people with six significant digits, to machines with all of them.
+//! This module writes numbers as they are shown: to people with six significant digits, to machines with all of them.
 
 pub(crate) use clatter_answer::{Json, figures};
 
-/// An input as somebody would have written it: every digit, and no `.0`.
+/// Writes an input as somebody would have written it: every digit, and no `.0`.
 pub(crate) fn given(x: f64) -> String {
     let text = digits(x);
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
-/// The shortest digits that read back as the same f64, for csv: `inf` is what readers of tables expect.
+/// Writes the shortest digits that read back as the same f64, for csv: `inf` is what readers of tables expect.
 pub(crate) fn digits(x: f64) -> String {
     format!("{:?}", x + 0.0)
 }

@@ -1,4 +1,4 @@
-//! One drop and one part of a product file: of each range the value that is worst as far as one can tell beforehand.
+//! This module takes one drop and one part from a product file: of each range the value that is worst as far as can be known beforehand.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ pub(crate) struct PartSetup {
     pub(crate) name: String,
     /// Its middle.
     pub(crate) middle: Place,
-    /// Where its worst place is one of.
+    /// The places of which its worst place is one.
     pub(crate) places: Vec<Place>,
     /// The units in which the file has its place.
     pub(crate) units: [Option<&'static Unit>; 2],
@@ -34,7 +34,7 @@ pub(crate) struct PartSetup {
     pub(crate) suspension: Option<(Quantity, DampingRatio)>,
 }
 
-/// Of which limit of a part the worst drop is taken: of this kind, or of the one with the least margin.
+/// The limit of a part that the worst drop is taken of: the one of this kind, or the one with the least margin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Worst(Option<LimitKind>);
 
@@ -107,7 +107,7 @@ impl OneDrop {
         let mut notes = Vec::new();
         let first = first.unwrap_or_else(|| match file.drop.first {
             First::End(end) => end,
-            // Of a plate its direction tells the corner.
+            // The direction of a plate decides the corner.
             First::Either if file.product.body.is_wide() => End::A,
             First::Either => {
                 notes.push("either end may touch first: taken is end a".to_owned());
@@ -117,7 +117,7 @@ impl OneDrop {
         Ok(Self { file, component: found, first, worst: None, notes })
     }
 
-    /// The drop of the ranges that asks most of a limit of the part, found as an assessment finds it.
+    /// Finds the drop of the ranges with the highest demand on a limit of the part, as an assessment finds it.
     pub(crate) fn at_worst(mut self, of: Worst, accuracy: &Accuracy) -> Result<Self, Failure> {
         let Some(component) = self.component() else {
             return Err(Failure::Usage("--worst is the drop that asks most of one part: give its --component=NAME"));
@@ -141,7 +141,7 @@ impl OneDrop {
         Ok(self)
     }
 
-    /// The worst drop of its ranges, where that is the one.
+    /// Returns the worst drop of its ranges, where the drop is that one.
     pub(crate) fn worst(&self) -> Option<&WorstCase> {
         self.worst.as_ref()
     }
@@ -155,7 +155,7 @@ impl OneDrop {
         self.notes.into_iter().map(move |note| format!("{product}: {note}"))
     }
 
-    /// The drop, and the height that it falls from: of each input the value that asks most, but of those that are given otherwise.
+    /// Returns the drop and its fall height: each input has the value of the highest demand, except those that are given otherwise.
     pub(crate) fn drop(&mut self, is_given: impl Fn(Input) -> bool) -> (Drop, Option<f64>) {
         let (notes, mut height_m) = (&mut self.notes, None);
         let mut drop = self.file.one_drop(self.first, |row, spread| {
@@ -182,7 +182,7 @@ impl OneDrop {
         (drop, height_m)
     }
 
-    /// Between its ends or feet, of a product of the file that is so long from edge to edge.
+    /// Returns the length between ends or feet of a product of the file that is so long from edge to edge.
     pub(crate) fn length_of(&self, edges_m: f64) -> Result<f64, Failure> {
         let beyond_m = self.file.product.body.feet.map_or(0.0, |feet| 2.0 * feet.inset_m[0]);
         if edges_m > beyond_m {
@@ -196,7 +196,7 @@ impl OneDrop {
         self.component.and_then(|i| self.file.components.get(i))
     }
 
-    /// The part; none where it is not named.
+    /// Returns the part; none where it is not named.
     pub(crate) fn part(&mut self) -> Result<Option<PartSetup>, Failure> {
         let Some(component) = self.component().cloned() else { return Ok(None) };
         let (notes, worst) = (&mut self.notes, self.worst.as_ref());
@@ -270,12 +270,12 @@ impl PartSetup {
     }
 }
 
-/// An angle that was read in degrees, without the digits that the conversion adds.
+/// Converts an angle that was read in degrees, without the digits that the conversion adds.
 fn as_typed(angle_rad: f64) -> f64 {
     neat(angle_rad.to_degrees()).to_radians()
 }
 
-/// The value at a share of a range, from 0 to 1; of a range, it is noted which.
+/// Returns the value at a share of a range, from 0 to 1, and notes which value of a range it is.
 fn take(notes: Option<&mut Vec<String>>, name: &str, spread: &Spread, share: f64, si: &'static str) -> f64 {
     let (value, which) = match share {
         0.0 => (spread.lo(), "the least"),

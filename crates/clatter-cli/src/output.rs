@@ -1,4 +1,4 @@
-//! Files as outputs.
+//! This module writes files as outputs.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
@@ -41,7 +41,7 @@ impl Kind {
 }
 
 impl Target {
-    /// By its ending, one of those of `kinds`, of which there are two or more.
+    /// Takes the kind of a file from its ending, which is one of those of `kinds`, of which there are two or more.
     pub(crate) fn of(text: &str, kinds: &[Kind]) -> Result<Self, String> {
         let path = PathBuf::from(text);
         if is_standard(&path) {
@@ -62,7 +62,7 @@ impl Target {
     }
 }
 
-/// Why standard output is not taken where the ending of a file says what is written.
+/// Returns the reason why standard output is refused where the ending of a file decides the kind of output.
 pub(crate) fn no_kind(endings: &[impl AsRef<str>]) -> String {
     let endings: Vec<_> = endings.iter().map(AsRef::as_ref).collect();
     format!(
@@ -71,7 +71,7 @@ pub(crate) fn no_kind(endings: &[impl AsRef<str>]) -> String {
     )
 }
 
-/// A file that ends in this one way, or standard output.
+/// Reads the name of a file that ends in this one way, or standard output.
 pub(crate) fn ending(ending: &'static str) -> impl Fn(&str) -> Result<PathBuf, String> + Clone + Send + Sync {
     move |text| {
         let path = PathBuf::from(text);
@@ -98,17 +98,17 @@ pub(crate) fn buffered(
     out.flush()
 }
 
-/// An answer as a file for programs.
+/// Writes an answer as a file for programs.
 pub(crate) fn json(file: &mut File, answer: &impl Serialize) -> io::Result<()> {
     buffered(file, |out| Ok(serde_json::to_writer(out, &Versioned::new(answer))?))
 }
 
-/// [`clatter_report::replace`], with the file that could not be written in the message.
+/// Replaces a file as [`clatter_report::replace`] does; the message names the file that could not be written.
 pub(crate) fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
     clatter_report::replace(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
 }
 
-/// [`clatter_report::create`], likewise.
+/// Creates a file as [`clatter_report::create`] does, with the same message.
 pub(crate) fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
     clatter_report::create(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
 }
@@ -121,7 +121,7 @@ pub(crate) struct Files<'a> {
 }
 
 impl Files<'_> {
-    /// Standard input can be read once.
+    /// Refuses more than one use of standard input, which can be read once.
     pub(crate) fn check_input(&self) -> Result<(), Failure> {
         let count = self.reads.iter().filter(|input| is_standard(input)).count();
         if count < 2 {
@@ -131,8 +131,8 @@ impl Files<'_> {
         }
     }
 
-    /// What would go wrong after the work is told before it: an output that cannot be written, or that would be written over an input,
-    /// another output or a file that is write-protected, by whatever name. The first and the last of these may be `forced`.
+    /// Checks before the work that its outputs can be written. Refuses an output that cannot be written, or that would be written over an
+    /// input, another output or a write-protected file, by whatever name. An input and a protected file may be `forced`.
     pub(crate) fn check(&self, forced: bool) -> Result<(), Failure> {
         let mut places: Vec<PathBuf> = Vec::new();
         for output in self.writes.iter().filter(|output| !is_standard(output)) {
@@ -167,7 +167,7 @@ impl Files<'_> {
     }
 }
 
-/// Where an output is to stand, if it can.
+/// Returns the place of an output, if the output can stand there.
 fn place_of(output: &Path) -> Result<PathBuf, Failure> {
     let place = clatter_report::place_of(output).and_then(|place| {
         clatter_report::takes_files(clatter_report::directory_of(&place)?)?;
@@ -176,7 +176,8 @@ fn place_of(output: &Path) -> Result<PathBuf, Failure> {
     place.map_err(|reason| Failure::File { path: output.to_owned(), reason })
 }
 
-/// Whether an output is a file that is read. Pipes and devices are none, and are not opened: that would take from them, or wait.
+/// Returns whether an output is a file that is read. Pipes and devices are not, and are not opened: that would take data from them, or
+/// wait.
 fn is_input(place: &Path, input: &Path) -> bool {
     if is_standard(input) {
         // Standard input may be a file that has a name as well.
@@ -185,12 +186,12 @@ fn is_input(place: &Path, input: &Path) -> bool {
     clatter_report::place_of(input).is_ok_and(|input| is_same(place, &input))
 }
 
-/// Whether two places, of files that are there or not, are one.
+/// Returns whether two places, of existing files or not, are the same.
 fn is_same(a: &Path, b: &Path) -> bool {
     a == b || same_file::is_same_file(a, b).unwrap_or(false) || clatter_report::differ_by_case_alone(a, b)
 }
 
-/// The stream of the process that a file takes, if any.
+/// Returns the stream of the process that a file takes, if any.
 fn stream_to(place: &Path) -> Option<&'static str> {
     let streams = [(Handle::stdout(), "standard output"), (Handle::stderr(), "standard error")];
     streams.into_iter().find_map(|(stream, name)| leads_to(place, stream).then_some(name))

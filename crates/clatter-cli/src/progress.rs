@@ -1,4 +1,4 @@
-//! How far the work is: counted where it is done, shown and told by the thread that watches the process.
+//! This module counts how far the work is where it is done; the thread that watches the process shows and reports it.
 
 use std::io::{self, Write};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -12,7 +12,7 @@ struct Work {
     /// The step that it is at, where it has such.
     step: String,
     done: u64,
-    /// 0 where it is not counted.
+    /// The total; 0 where the work is not counted.
     total: u64,
     begin: Instant,
     shown: bool,
@@ -25,9 +25,9 @@ fn work() -> MutexGuard<'static, Option<Work>> {
     WORK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Nothing is shown of work that is done by then.
+/// The time for which work shows no progress.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// Steps of the bar.
+/// The number of steps of the bar.
 const WIDTH: usize = 30;
 
 /// Keeps count of one piece of work; once this is dropped its line is gone from the terminal.
@@ -40,7 +40,7 @@ impl Counted {
         Self(())
     }
 
-    /// So much of it is done.
+    /// Notes how much of the work is done.
     #[expect(clippy::unused_self, reason = "without it nothing is begun")]
     pub(crate) fn at(&self, done: u64) {
         if let Some(work) = &mut *work() {
@@ -48,7 +48,7 @@ impl Counted {
         }
     }
 
-    /// It is at this step.
+    /// Notes the step of the work.
     #[expect(clippy::unused_self, reason = "without it nothing is begun")]
     pub(crate) fn step(&self, step: &str) {
         if let Some(work) = &mut *work() {
@@ -56,7 +56,7 @@ impl Counted {
         }
     }
 
-    /// The same of a search, which counts from several threads.
+    /// Notes how much of a search is done, which counts from several threads.
     pub(crate) fn of(&self, done: usize, total: usize) {
         if let Some(work) = &mut *work() {
             work.total = total as u64;
@@ -85,14 +85,15 @@ pub(crate) fn show() {
     }
 }
 
-/// What was cut and how far it had come, as part of a sentence, for the last words of a process that is stopped.
+/// Returns the name of the work that was cut and how far it had come, as part of a sentence, for the last words of a process that is
+/// stopped.
 pub(crate) fn so_far() -> String {
     let work = work();
     wipe(work.as_ref());
     work.as_ref().map_or_else(String::new, Work::cut)
 }
 
-/// The line of the terminal as it was found.
+/// Clears the progress from the line of the terminal.
 fn wipe(work: Option<&Work>) {
     if work.is_some_and(|work| work.shown) {
         let _ = write!(io::stderr(), "\r{:78}\r", "");
@@ -113,7 +114,7 @@ impl Work {
         u64::try_from(percent).ok()
     }
 
-    /// What is left is told as if it went on as it did.
+    /// Returns the progress as a line; the time left is estimated from the rate so far.
     fn line(&self, passed: Duration) -> String {
         let seconds = passed.as_secs();
         let Some(percent) = self.percent() else { return format!("{}, {seconds} s so far ", self.what) };

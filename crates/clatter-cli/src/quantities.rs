@@ -1,4 +1,4 @@
-//! Quantities of the command line, each read by the table of units of product files, and shown in the unit that was typed.
+//! This module reads quantities of the command line by the table of units of product files, and shows them in the unit that was typed.
 
 use clatter::{Mass, Start, center_and_gyration};
 pub(crate) use clatter_answer::neat;
@@ -9,7 +9,7 @@ use crate::Failure;
 use crate::inputs::{self, number, part_of};
 use crate::numbers::{figures, given};
 
-/// A number in SI, or a quantity with its unit.
+/// Reads a number in SI, or a quantity with its unit.
 pub(crate) fn plain_or_typed(dimension: &'static Dimension, text: &str) -> Result<Quantity, String> {
     let text = text.trim();
     number(text).map(Quantity::of_si).or_else(|none| {
@@ -18,7 +18,7 @@ pub(crate) fn plain_or_typed(dimension: &'static Dimension, text: &str) -> Resul
     })
 }
 
-/// A quantity with its unit whose value in SI is checked.
+/// Reads a quantity with its unit whose value in SI is checked.
 fn checked(
     dimension: &'static Dimension,
     text: &str,
@@ -68,7 +68,7 @@ pub(crate) fn spin(text: &str) -> Result<Quantity, String> {
     clatter_assess::units::ANGULAR_VELOCITY.read(text)
 }
 
-/// Velocities of both ends; in v0, or with their units.
+/// Reads the velocities of both ends; in v0, or with their units.
 pub(crate) fn velocity(text: &str) -> Result<[Quantity; 2], String> {
     let [a, b] = inputs::parts(text, ',')[..] else {
         return Err("two velocities are needed, of ends a and b: VA,VB".to_owned());
@@ -77,13 +77,13 @@ pub(crate) fn velocity(text: &str) -> Result<[Quantity; 2], String> {
     Start::new(velocity.map(|v| v.si), 1.0).map(|_| velocity).map_err(|error| error.to_string())
 }
 
-/// In h0, or with its unit.
+/// Reads a height in h0, or with its unit.
 pub(crate) fn height_gap(text: &str) -> Result<Quantity, String> {
     let gap = plain_or_typed(&LENGTH, text)?;
     Start::new([-1.0, -1.0], gap.si).map(|_| gap).map_err(|error| error.to_string())
 }
 
-/// A natural frequency.
+/// Reads a natural frequency.
 pub(crate) fn frequency(text: &str) -> Result<Quantity, String> {
     checked(&FREQUENCY, text, |si| {
         let good = si > 0.0;
@@ -96,12 +96,12 @@ pub(crate) fn frequency(text: &str) -> Result<Quantity, String> {
 pub(crate) enum Place {
     /// Position s in [-1, 1].
     Relative(f64),
-    /// From the middle towards end b.
+    /// The distance from the middle towards end b.
     Length(Quantity),
 }
 
 impl Place {
-    /// Position s on a body of this half-length; where that is not known, lengths are refused.
+    /// Returns the position s on a body of this half-length; where that is not known, lengths are refused.
     pub(crate) fn relative(self, flag: &'static str, half_m: Option<f64>) -> Result<f64, Failure> {
         match (self, half_m) {
             (Self::Relative(s), _) => Ok(s),
@@ -114,7 +114,7 @@ impl Place {
     pub(crate) fn unit(self) -> Option<&'static Unit> {
         if let Self::Length(length) = self { length.unit } else { None }
     }
-    /// As it is called in tables.
+    /// Writes the place as tables show it.
     pub(crate) fn said(self) -> String {
         match self {
             Self::Relative(s) => given(s),
@@ -132,7 +132,7 @@ pub(crate) enum PerAxis<T> {
 }
 
 impl<T> PerAxis<T> {
-    /// As many as were typed.
+    /// Returns the values, as many as were typed.
     pub(crate) fn values(self) -> Vec<T> {
         match self {
             Self::Bar(value) => vec![value],
@@ -165,7 +165,7 @@ impl<T> PerAxis<T> {
     }
 }
 
-/// Two values of a list, each read alike.
+/// Reads the two values of a list in the same way.
 fn two<T>(text: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<[T; 2], String> {
     let [x, y] = inputs::parts(text, ',')[..] else {
         return Err("two values are needed, X,Y".to_owned());
@@ -183,12 +183,12 @@ fn per_axis<T>(text: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<P
     }
 }
 
-/// Plain numbers.
+/// Reads plain numbers.
 pub(crate) fn numbers(text: &str) -> Result<PerAxis<f64>, String> {
     per_axis(text, number)
 }
 
-/// A radius of gyration, or one an axis.
+/// Reads a radius of gyration, or one for each axis.
 pub(crate) fn gyration(text: &str) -> Result<PerAxis<Quantity>, String> {
     per_axis(text, any_length)
 }
@@ -197,7 +197,7 @@ pub(crate) fn gyration_m(text: &str) -> Result<PerAxis<Quantity>, String> {
     per_axis(text, |text| number(text).map(Quantity::of_si))
 }
 
-/// Heights of two corners.
+/// Reads the heights of two corners.
 pub(crate) fn gaps(text: &str) -> Result<[Quantity; 2], String> {
     two(text, any_length)
 }
@@ -206,13 +206,13 @@ pub(crate) fn gaps_m(text: &str) -> Result<[f64; 2], String> {
     two(text, number)
 }
 
-/// A length, or else a position as it is read where there are no lengths.
+/// Reads a length, or else a position as it is read where there are no lengths.
 fn place_or(text: &str, relative: impl Fn(&str) -> Result<f64, String>) -> Result<Place, String> {
     let length = LENGTH.read(text).ok().filter(|length| length.unit.is_some());
     length.map_or_else(|| relative(text).map(Place::Relative), |length| Ok(Place::Length(length)))
 }
 
-/// A position in [-1, 1], or a length.
+/// Reads a position in [-1, 1], or a length.
 pub(crate) fn place(text: &str) -> Result<PerAxis<Place>, String> {
     per_axis(text, place_of_bar)
 }
@@ -225,8 +225,8 @@ pub(crate) fn center_of_mass(text: &str) -> Result<PerAxis<Place>, String> {
     per_axis(text, |text| place_or(text, inputs::center_of_mass))
 }
 
-/// The position on a body of this half-length that goes on so far beyond the feet which are its ends; an end that is missed by roundings
-/// is taken for it.
+/// Returns the position on a body of this half-length that goes on so far beyond the feet which are its ends; a position that misses an
+/// end by rounding is that end.
 pub(crate) fn position(place: Place, flag: &'static str, half_m: f64, beyond_m: f64) -> Result<f64, Failure> {
     let (s, most) = (place.relative(flag, Some(half_m))?, 1.0 + beyond_m / half_m);
     if s.abs() <= most * (1.0 + 1e-9) {
@@ -256,13 +256,13 @@ pub(crate) fn mass(text: &str) -> Result<Piece, String> {
         Some((from, to)) => (place_of(from)?, Some(place_of(to)?)),
     };
     let piece = Piece { mass: plain_or_typed(&MASS, mass)?, from, to };
-    // What the places are is known later: the unit of them does not count.
+    // The places themselves are known later: their unit does not matter here.
     let trial = piece.on(Some(1.0)).map_err(|failure| failure.to_string())?;
     center_and_gyration(&[trial]).map(|_| piece).map_err(|error| error.to_string())
 }
 
 impl Piece {
-    /// With places in half-lengths.
+    /// Converts the mass to places in half-lengths.
     pub(crate) fn on(&self, half_m: Option<f64>) -> Result<Mass, Failure> {
         let [from, to] = [Some(self.from), self.to].map(|place| place.map(|place| place.relative("--mass", half_m)));
         Ok(match (from, to) {
@@ -270,7 +270,7 @@ impl Piece {
             (from, _) => Mass::Point { mass_kg: self.mass.si, position_m: from.unwrap_or(Ok(0.0))? },
         })
     }
-    /// Places far outside of the body.
+    /// Returns warnings about places far outside of the body.
     pub(crate) fn slips(&self, half_m: f64) -> impl Iterator<Item = Slip> {
         [Some(self.from), self.to].into_iter().flatten().filter_map(move |place| match place {
             Place::Length(length) => outside(&length, 2.0 * half_m),
@@ -279,7 +279,7 @@ impl Piece {
     }
 }
 
-/// A position far outside of the body.
+/// Returns a warning about a position far outside of the body.
 fn outside_relative(s: f64) -> Option<Slip> {
     outside(&Quantity::of_si(s), 2.0).map(|_| Slip {
         message: format!("a mass at {} is outside of the body, which reaches from -1 to 1 half-lengths", given(s)),
@@ -287,7 +287,7 @@ fn outside_relative(s: f64) -> Option<Slip> {
     })
 }
 
-/// All pieces, in half-lengths.
+/// Returns all pieces, in half-lengths.
 pub(crate) fn masses(pieces: &[Piece], half_m: Option<f64>) -> Result<Vec<Mass>, Failure> {
     let typed = pieces.iter().filter(|piece| piece.mass.unit.is_some()).count();
     if (1..pieces.len()).contains(&typed) {
@@ -298,7 +298,7 @@ pub(crate) fn masses(pieces: &[Piece], half_m: Option<f64>) -> Result<Vec<Mass>,
     pieces.iter().map(|piece| piece.on(half_m)).collect()
 }
 
-/// How a kind of quantity is shown: in the unit that was typed, else in SI.
+/// The unit in which a kind of quantity is shown: the one that was typed, else SI.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Show {
     pub(crate) unit: Option<&'static Unit>,
@@ -313,22 +313,22 @@ impl Show {
     pub(crate) fn value(&self, si: f64) -> f64 {
         self.unit.map_or(si, |unit| unit.of_si(si))
     }
-    /// Six digits, without the unit.
+    /// Writes a value with six digits, without the unit.
     pub(crate) fn figures(&self, si: f64) -> String {
         figures(self.value(si))
     }
-    /// An input, with its unit.
+    /// Writes an input with its unit.
     pub(crate) fn given(&self, si: f64) -> String {
         let value = if self.unit.is_some() { neat(self.value(si)) } else { si };
         format!("{} {}", given(value), self.name())
     }
-    /// Six digits, with the unit.
+    /// Writes a value with six digits and the unit.
     pub(crate) fn said(&self, si: f64) -> String {
         format!("{} {}", self.figures(si), self.name())
     }
 }
 
-/// How the answer about a drop is shown.
+/// The units in which the answer about a drop is shown.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shown {
     pub(crate) length: Show,
@@ -336,12 +336,12 @@ pub(crate) struct Shown {
     pub(crate) time: Show,
     pub(crate) acceleration: Show,
     pub(crate) spin: Show,
-    /// Degrees unless another was typed.
+    /// The unit of angles: degrees unless another was typed.
     pub(crate) angle: Option<&'static Unit>,
 }
 
 impl Shown {
-    /// A tilt that is given in degrees.
+    /// Writes a tilt that is given in degrees.
     pub(crate) fn tilt(&self, degrees: f64) -> String {
         match self.angle.filter(|unit| unit.name == "rad") {
             Some(unit) => Show { unit: Some(unit), name: "rad" }.given(degrees.to_radians()),

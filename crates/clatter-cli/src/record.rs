@@ -1,4 +1,4 @@
-//! `clatter record`: what a file of measurements holds, and the same written anew.
+//! This module is `clatter record`: it shows the content of a file of measurements, and writes it anew.
 
 mod pulse;
 mod shocks;
@@ -132,7 +132,7 @@ struct Whole<'a> {
     answer: &'a Answer<'a>,
 }
 
-/// How many samples in what time and from when on.
+/// Describes a time axis: the number of samples, their duration and their start.
 fn said(times: &TimeAxis) -> String {
     let time = Show { unit: time_unit(times.duration_s()), name: "s" };
     let steps = match times.step_s() {
@@ -155,7 +155,7 @@ struct ColumnOut<'a> {
 }
 
 impl ColumnOut<'_> {
-    /// As headings have it.
+    /// Writes the column as headings have it.
     fn heading(&self) -> String {
         format!("{} [{}]", self.name, self.unit)
     }
@@ -226,7 +226,7 @@ impl Whole<'_> {
         Ok(())
     }
 
-    /// The columns of a file: of each time the seconds, then what was sampled together.
+    /// Returns the columns of a file: for each time axis the seconds, then the channels that were sampled together.
     fn columns(&self) -> Vec<ColumnOut<'_>> {
         let mut columns = Vec::new();
         for (n, times) in self.record.times().into_iter().enumerate() {
@@ -249,7 +249,7 @@ impl Whole<'_> {
         columns
     }
 
-    /// The columns filled up with NaN to the length of the longest, for files that have one length.
+    /// Returns the columns filled up with NaN to the length of the longest, for files that have one length.
     fn filled(&self) -> Vec<ColumnOut<'_>> {
         let mut columns = self.columns();
         let rows = columns.iter().map(|column| column.values.len()).max().unwrap_or(0);
@@ -287,7 +287,7 @@ impl Whole<'_> {
         write_parquet(&series.collect::<Vec<_>>()).map_err(io::Error::other)
     }
 
-    /// All channels over time; in gn where the file is. With a fitted pulse the part around it, and the pulse beside.
+    /// Draws all channels over time, in gn where the file is; with a fitted pulse the part around it, and the pulse next to it.
     fn picture(&self) -> Result<String, FigureError> {
         let record = self.record;
         let in_g = record.channels().iter().all(|channel| channel.unit.to_lowercase().contains('g'));
@@ -331,7 +331,7 @@ impl Whole<'_> {
         clatter_figures::record(&traces, &format!("time, {}", time.name()))
     }
 
-    /// What is drawn, in seconds on the axis of the file.
+    /// Returns the time span of the picture, in seconds on the axis of the file.
     fn span(&self) -> [f64; 2] {
         match (self.answer.pulses.as_deref(), self.record.channels()) {
             (Some([fitted, ..]), [channel, ..]) => {
@@ -344,7 +344,7 @@ impl Whole<'_> {
     }
 }
 
-/// A unit in which a time has a few digits before its point.
+/// Returns a unit in which a time has a few digits before its point.
 fn time_unit(time_s: f64) -> Option<&'static Unit> {
     let name = match time_s {
         t if t < 1e-3 => "us",

@@ -1,4 +1,4 @@
-//! Files of measured records as arguments of commands.
+//! This module reads files of measured records as arguments of commands.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -75,14 +75,14 @@ fn positive(value: f64) -> Result<f64, String> {
 }
 
 impl RecordArgs {
-    /// What a product file says of a record.
+    /// Takes the settings for a record from a product file.
     pub(crate) fn of(record: &RecordFile, path: &Path) -> Result<Self, Failure> {
         let options = fit::options(record).map_err(|reason| Failure::Record { path: path.to_owned(), reason })?;
         let Options { accelerations: acceleration, units, sample_rate_hz: sample_rate, .. } = options;
         Ok(Self { acceleration, units, sample_rate, ..Self::default() })
     }
 
-    /// The flag of what was told, where there is nothing to tell it of.
+    /// Returns the flag of an option that was given, for where there is no record that it could apply to.
     pub(crate) fn given(&self) -> Option<&'static str> {
         let given = [
             (self.time.is_some(), "--time"),
@@ -98,7 +98,7 @@ impl RecordArgs {
         given.into_iter().find(|(given, _)| *given).map(|(_, flag)| flag)
     }
 
-    /// The record of a file, or of standard input.
+    /// Reads the record of a file, or of standard input.
     pub(crate) fn read(&self, path: &Path) -> Result<Record, Failure> {
         let unreadable = |error: io::Error| Failure::Record {
             path: path.to_owned(),
@@ -110,7 +110,7 @@ impl RecordArgs {
         self.read_from(path, File::open(path).map_err(unreadable)?)
     }
 
-    /// The same of what is read of it.
+    /// Reads the record from the content of a file.
     pub(crate) fn read_from(&self, path: &Path, from: impl Read) -> Result<Record, Failure> {
         let options = Options {
             time: self.time.clone(),
@@ -131,7 +131,7 @@ impl RecordArgs {
     }
 }
 
-/// What a user may do about an error.
+/// Returns the advice to the user about an error.
 pub(crate) fn remedy(error: &clatter_record::Error) -> &'static str {
     match error {
         clatter_record::Error::Lines(_) => "\n--skip-bad goes on without them",

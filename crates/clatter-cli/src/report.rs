@@ -1,4 +1,4 @@
-//! `clatter report`: the printed reports.
+//! This module is `clatter report`: it writes the printed reports.
 
 use std::path::PathBuf;
 

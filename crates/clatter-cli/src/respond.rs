@@ -1,4 +1,4 @@
-//! `clatter respond`: what one clatter does to one component.
+//! This module is `clatter respond`: it shows the effect of one clatter on one component.
 
 mod drop;
 mod limits;
@@ -175,12 +175,12 @@ pub(crate) struct Args {
     format: Format,
 }
 
-/// What stands in place of a clatter, and what says a clatter.
+/// The arguments that replace a clatter, and those that describe one.
 const GIVEN: [&str; 4] = ["shocks_file", "pulses_file", "followed", "case"];
 const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
-/// What says how a drop is, that of a product file apart.
+/// The arguments that describe a drop, except those of a product file.
 const OF_ONE_DROP: [&str; 30] = [
     "spin_rad_s",
     "first",
@@ -240,7 +240,7 @@ impl Inertia {
     fn given(&self) -> Option<PerAxis<Quantity>> {
         self.gyration.or(self.gyration_m)
     }
-    /// The paper's bar.
+    /// Makes the paper's bar.
     fn bar(&self, e: f64) -> Result<Bar, Failure> {
         Ok(match (self.q, self.gyration_ratio, &self.mass[..]) {
             (_, Some(k), _) => Bar::from_gyration_ratio(k, e)?,
@@ -302,7 +302,7 @@ impl Args {
         Ok(())
     }
 
-    /// Tells of values that no part has, and of these.
+    /// Warns of values that no part has, and of these.
     fn warn(&self, others: impl Iterator<Item = Slip>, streams: &mut Streams<'_>) {
         let frequency = self.frequency.and_then(|frequency| slip("natural_frequency", &frequency));
         for slip in others.chain(self.damping.slip()).chain(frequency) {
@@ -310,19 +310,19 @@ impl Args {
         }
     }
 
-    /// What clap requires unless there is a file.
+    /// Returns e, which clap requires unless there is a file.
     fn e(&self) -> f64 {
         self.e.unwrap_or(f64::NAN)
     }
-    /// The place on a bar.
+    /// Returns the place on a bar.
     fn bar_at(&self) -> Result<Option<Place>, Failure> {
         self.at.map(|at| at.of_bar("--at")).transpose()
     }
-    /// The position on the paper's bar.
+    /// Returns the position on the paper's bar.
     fn position(&self) -> Result<Option<f64>, Failure> {
         self.bar_at()?.map(|at| at.relative("--at", None)).transpose()
     }
-    /// Whether the paper's bar has units: all of its numbers, or none.
+    /// Returns whether the numbers of the paper's bar have units; refuses them where only some have.
     fn has_units(&self) -> Result<bool, Failure> {
         let [a, b] = self.velocity;
         let typed = [a, b, self.height_gap].map(|quantity| quantity.unit.is_some());
@@ -333,12 +333,12 @@ impl Args {
             "--velocity and --height-gap go together with units or without: --velocity=-4m/s,-4m/s --height-gap=5mm",
         ))
     }
-    /// The natural angular frequency that was given.
+    /// Returns the natural angular frequency that was given.
     fn omega(&self) -> Option<f64> {
         self.omega.or(self.frequency.map(|frequency| TAU * frequency.si))
     }
 
-    /// A question that has no answer; of a natural frequency with the option that gives it.
+    /// Makes the failure of a question without an answer; for a natural frequency with the option that gives it.
     fn of_omega(&self, error: clatter_answer::Error) -> Failure {
         match error {
             clatter_answer::Error::Quantity { name, value, allowed } => {
@@ -349,7 +349,7 @@ impl Args {
         }
     }
 
-    /// The component in a drop, over that of a product file; none that is mounted rigidly.
+    /// Returns the suspension of the component in a drop, which replaces that of a product file; none where it is mounted rigidly.
     fn suspension(&self, of_file: Option<(Quantity, DampingRatio)>) -> Result<Option<Suspension>, Failure> {
         let damping =
             || self.damping.given().map_or_else(|| of_file.map_or_else(|| self.damping.ratio(), |(_, z)| Ok(z)), Ok);
@@ -366,7 +366,7 @@ impl Args {
     }
 }
 
-/// To six digits.
+/// Rounds a number to six digits.
 fn six(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }

@@ -1,4 +1,4 @@
-//! `clatter scatter`: how likely each part of a product survives, and what that hangs on.
+//! This module is `clatter scatter`: it shows how likely each part of a product survives, and which inputs decide that.
 
 pub(crate) mod table;
 
@@ -158,7 +158,7 @@ impl Args {
     }
 }
 
-/// Heading of a column.
+/// Returns the heading of a column.
 fn title(file: &ProductFile, column: Column) -> String {
     let there = |what: &str, n: usize| format!("{what} {}", file.drop_names()[n].there());
     match column {
@@ -205,7 +205,7 @@ fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, counted: &C
     })
 }
 
-/// The name of a part by its index.
+/// Returns the name of a part by its index.
 fn name_of(file: &ProductFile, i: usize) -> &str {
     file.components.get(i).map_or("", |component| &component.name)
 }

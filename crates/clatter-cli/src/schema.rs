@@ -1,4 +1,4 @@
-//! `clatter schema`: what a product file may hold, for editors.
+//! This module is `clatter schema`: it writes the schema of a product file, for editors.
 
 use crate::{Failure, Streams};
 

@@ -1,4 +1,4 @@
-//! `clatter simulate`: one drop in time, by a model of the user's choice.
+//! This module is `clatter simulate`: it follows one drop in time, by a model of the user's choice.
 
 mod block;
 mod file;
@@ -146,7 +146,7 @@ struct Drop<'a> {
     setup: Setup,
     /// The drop as its flight has it.
     scene: Scene,
-    /// Positions asked for, and how they are called.
+    /// Requested positions, and their names.
     at: Vec<f64>,
     called: Vec<String>,
     answer: bar::Answer,
@@ -244,7 +244,7 @@ impl Args {
     }
 }
 
-/// What is told beside an answer: its kind, and the words.
+/// Notes to report with an answer: the kind and the words of each.
 type Notes = Vec<(&'static str, String)>;
 
 impl Drop<'_> {

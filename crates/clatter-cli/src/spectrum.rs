@@ -1,4 +1,4 @@
-//! `clatter spectrum`: shock response spectra of records, pulses and velocity shocks.
+//! This module is `clatter spectrum`: it computes shock response spectra of records, pulses and velocity shocks.
 
 mod boundary;
 mod history;
@@ -236,7 +236,7 @@ impl QuantityName {
         }
     }
 
-    /// The name, as it is given, and the unit.
+    /// Returns the name, as it is given, and the unit.
     fn name(self) -> [&'static str; 2] {
         spectrum::name(self.quantity())
     }
@@ -254,7 +254,7 @@ fn target(text: &str) -> Result<Target, String> {
 struct Computed<'a> {
     args: &'a Args,
     answer: Answer<'a>,
-    /// That frequencies were typed in.
+    /// The unit that frequencies were typed in.
     unit: Option<&'static Unit>,
     limit: Option<LimitArg>,
 }
@@ -348,7 +348,7 @@ impl Args {
         Ok(if damages || parts.iter().any(wants) { Exit::Unsafe } else { Exit::Done })
     }
 
-    /// A curve as it was typed or from its file; refused in a unit of another quantity.
+    /// Returns a curve as it was typed or from its file; refuses it in a unit of another quantity.
     fn curve(&self, flag: &str, typed: Option<&LimitArg>, file: Option<&Path>) -> Result<Option<LimitArg>, Failure> {
         let own = self.quantity.dimension();
         let curve = match file {
@@ -361,7 +361,7 @@ impl Args {
         Err(Failure::Wrong(format!("{flag} in {} is {what}, and the quantity is {name}, in one of {own}", unit.name)))
     }
 
-    /// The required curve with its tolerance.
+    /// Returns the required curve with its tolerance.
     fn required_within(&self, curve: Option<LimitArg>) -> Result<Option<RequiredSpectrum>, Failure> {
         let Some(LimitArg { curve, .. }) = curve else {
             return match self.tolerance {
@@ -373,7 +373,7 @@ impl Args {
         Ok(Some(RequiredSpectrum::new(curve, below_db, above_db)?))
     }
 
-    /// How the quantity is shown: in the unit asked for, else of the limit, else of a pulse.
+    /// Returns how the quantity is shown: in the requested unit, else in that of the limit, else in that of a pulse.
     fn show(&self, limit: Option<&LimitArg>) -> Show {
         if self.output_units.is_some() {
             return self.written();
@@ -384,7 +384,7 @@ impl Args {
         Show { unit: typed.or(pulse), name: self.quantity.name()[1] }
     }
 
-    /// How CSV and JSON have the quantity: in SI unless gn is asked for.
+    /// Returns how CSV and JSON have the quantity: in SI unless gn is requested.
     fn written(&self) -> Show {
         let in_g = self.output_units == Some(OutputUnits::G);
         let unit = if in_g { ACCELERATION.unit("gn") } else { None };
@@ -421,7 +421,7 @@ impl Computed<'_> {
         Against { limit: limit.as_ref(), required: required.as_ref() }
     }
 
-    /// What is odd about the records, and frequencies that they don't tell of.
+    /// Returns the warnings: oddities of the records, and frequencies that the records do not cover.
     fn warnings(&self) -> Vec<String> {
         let hz = self.answer.frequencies.hz();
         let (low, high) = hz.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), hz| (low.min(*hz), high.max(*hz)));
@@ -477,7 +477,7 @@ impl Computed<'_> {
         clatter_figures::spectra(&all, self.against())
     }
 
-    /// The channel and the quality factor of a part, as far as there are several.
+    /// Names the channel and the quality factor of a part, as far as there are several.
     fn name(&self, part: &Part) -> String {
         let several = self.answer.parts.iter().any(|other| other.spectrum.damping != part.spectrum.damping);
         let q = several.then(|| format!("Q = {}", figures(0.5 / part.spectrum.damping.get())));

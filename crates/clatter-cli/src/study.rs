@@ -1,4 +1,4 @@
-//! `clatter study`: a plan that is larger than one machine, a shard at a time, and the answer of all shards.
+//! This module is `clatter study`: it draws a plan that is larger than one machine, one shard at a time, and answers from all shards.
 
 mod merge;
 mod table;
@@ -76,7 +76,7 @@ fn parquet(text: &str) -> Result<PathBuf, String> {
     Target::of(text, &[Kind::Parquet]).map(|target| target.path)
 }
 
-/// What was done.
+/// The finished shard of a study.
 #[derive(Serialize)]
 struct Done<'a> {
     part: &'a Path,
@@ -84,7 +84,7 @@ struct Done<'a> {
     /// The first row, and the one after the last.
     rows: [u64; 2],
     of: u64,
-    /// Whether it was there already.
+    /// True where the file was there already.
     skipped: bool,
 }
 
@@ -143,7 +143,7 @@ impl Args {
     }
 }
 
-/// A plan and its product, which is where the plan says, seen from there.
+/// Reads a plan and its product, whose path in the plan is relative to the plan.
 fn read(path: &Path, output: &Path, force: bool, streams: &mut Streams<'_>) -> Result<Study, Failure> {
     let plan =
         Plan::read(&text_of(path)?, &input::name(path)).map_err(|faults| Failure::Product(faults.to_string()))?;
@@ -157,7 +157,7 @@ fn read(path: &Path, output: &Path, force: bool, streams: &mut Streams<'_>) -> R
     Ok(Study::new(plan, &text, &origin)?)
 }
 
-/// The text of a file, of a size that product files have.
+/// Reads the text of a file, of a size that product files have.
 fn text_of(path: &Path) -> Result<String, Failure> {
     let unreadable = |reason: io::Error| Failure::Unreadable { path: path.to_owned(), reason };
     let mut text = String::new();
@@ -167,7 +167,7 @@ fn text_of(path: &Path) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// Whether a file is this very part. One that is another is not written over.
+/// Returns whether a file holds this very part; refuses to write over any other file.
 fn is_there(path: &Path, notes: &[(&str, String)], rows: u64) -> Result<bool, Failure> {
     let Ok(file) = File::open(path) else { return Ok(false) };
     let same = RowGroups::new(file).is_ok_and(|part| {

@@ -1,5 +1,5 @@
-//! Text of others in what the command writes: names from product files, names of files, cells of lists, values of the
-//! command line, what other programs said. It may be of any length, in any script, and out to harm.
+//! This module makes foreign text safe in the output of the command: names from product files, names of files, cells of lists, values
+//! of the command line, messages of other programs. Such text may be of any length, in any script, and meant to harm.
 //!
 //! All of it goes through here on its way to a terminal or into CSV. Control characters (C0, DEL, C1), and so all escape
 //! sequences, characters that set the direction of text, ends of lines and paragraphs and characters without a width
@@ -9,19 +9,19 @@
 //!
 //! A cell of CSV is a [`field`]. One that begins with `=`, `+`, `-`, `@`, a tab or a carriage return, which a spreadsheet
 //! would compute, gets an apostrophe before it and stands in quotes. Numbers are no such text: they are written as they
-//! are. In JSON names stand as they are, escaped as JSON asks for.
+//! are. In JSON names stand as they are, escaped as JSON requires.
 
 use std::path::Path;
 
 pub(crate) use clatter_assess::{visible, visible_lines};
 use unicode_width::UnicodeWidthStr;
 
-/// The name of a file, or of standard input.
+/// Returns the name of a file, or of standard input.
 pub(crate) fn path(path: &Path) -> String {
     visible(&crate::input::name(path)).into_owned()
 }
 
-/// A name as it can be printed: [`visible`], in at most `width` columns, text that runs from right to left kept to
+/// Returns a name as it can be printed: [`visible`], in at most `width` columns, with text that runs from right to left kept to
 /// itself.
 pub(crate) fn shown(name: &str, width: usize) -> String {
     let mut text = String::new();
@@ -41,18 +41,18 @@ pub(crate) fn shown(name: &str, width: usize) -> String {
     if text.chars().any(runs_left) { format!("\u{2068}{text}\u{2069}") } else { text }
 }
 
-/// The text filled up with blanks, and the columns it takes by itself.
+/// Returns the text filled up with blanks, and the columns it takes by itself.
 pub(crate) fn column(text: &str, width: usize) -> (String, usize) {
     let own = text.width();
     (format!("{text}{}", " ".repeat(width.saturating_sub(own))), own)
 }
 
-/// Letters of scripts written from right to left.
+/// Returns whether a letter is of a script that is written from right to left.
 fn runs_left(c: char) -> bool {
     matches!(c, '\u{590}'..='\u{8ff}' | '\u{fb1d}'..='\u{fdff}' | '\u{fe70}'..='\u{feff}' | '\u{10800}'..='\u{10fff}' | '\u{1e800}'..='\u{1efff}')
 }
 
-/// A cell of a CSV file that is text: [`visible`], in quotes where it has to be (RFC 4180), and never computed.
+/// Writes a cell of a CSV file that is text: [`visible`], in quotes where it has to be (RFC 4180), and never computed.
 pub(crate) fn field(text: &str) -> String {
     let computed = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     let text = visible(text);

@@ -1,4 +1,4 @@
-//! `clatter tradeoff`: what every model gets wrong in the worst drops of a product, and what it costs.
+//! This module is `clatter tradeoff`: it shows the error of every model in the worst drops of a product, and its cost.
 
 use std::io::{self, Write};
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! `clatter zone`: where on the bar or plate a threshold of velocity shock is not exceeded.
+//! This module is `clatter zone`: it finds where on the bar or plate a threshold of velocity shock is not exceeded.
 
 mod plate;
 

@@ -1,4 +1,4 @@
-//! The pages of an assessment: verdict first, then each part.
+//! This module writes the pages of an assessment: the verdict first, then each part.
 
 mod changes;
 mod inputs;
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use crate::Pages;
 use crate::words::{hundredths, name, percent, sure_name};
 
-/// What the models leave out, in plain words.
+/// The effects that the models leave out, in plain words.
 const NOT_COVERED: [[&str; 2]; 10] = [
     [
         "Corners and edges",
@@ -56,7 +56,7 @@ const NOT_COVERED: [[&str; 2]; 10] = [
     ["Damage by repetition", "Each limit is on the worst moment of one drop. Fatigue over many drops is not counted."],
 ];
 
-/// Of a bar or of a plate, which may turn as it lands.
+/// Returns the effects that the model of a bar leaves out, or that of a plate, which may turn as it lands.
 fn not_covered(is_plate: bool, spins: bool) -> Vec<[String; 2]> {
     let of_plate = |said: [&'static str; 2]| {
         let other = plate::NOT_COVERED.into_iter().find(|other| is_plate && other.0 == said[0]);
@@ -73,7 +73,7 @@ const CURVES: usize = 16;
 /// A part of the file, what was found of it, and what is drawn.
 type Part<'a> = ((&'a Component, &'a ComponentAssessment), &'a Portrait);
 
-/// The files of the pages: figures and data.
+/// Makes the files of the pages: figures and data.
 pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureError> {
     let Pages { file, assessment, portraits, measured: drops, .. } = *pages;
     let parts: Vec<Part<'_>> = file.components.iter().zip(&assessment.components).zip(portraits).collect();
@@ -147,7 +147,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
     Ok(files)
 }
 
-/// The same assessment with names that can surely be set; `None` where its names are such already.
+/// Makes the same assessment with names that can surely be set; `None` where its names are such already.
 pub(crate) fn surely_named(assessment: &Assessment) -> Option<Assessment> {
     let mut sure = assessment.clone();
     let mut changed = false;
@@ -158,7 +158,7 @@ pub(crate) fn surely_named(assessment: &Assessment) -> Option<Assessment> {
     changed.then_some(sure)
 }
 
-/// The limit that is exceeded by most: the part, the margin.
+/// Finds the limit that is exceeded by most: the part, the margin.
 fn hardest(assessment: &Assessment) -> Option<Value> {
     let limits = assessment.components.iter().flat_map(|c| c.limits.iter().map(move |l| (c, l)));
     let exceeded = limits.filter(|(_, l)| l.verdict == Verdict::Unsafe);
@@ -169,7 +169,7 @@ fn hardest(assessment: &Assessment) -> Option<Value> {
     })
 }
 
-/// What the tightest limit is on, as the figures say it: they are too low for the longest of the words.
+/// Returns the quantity of the tightest limit, as the figures name it: they are too low for the longest of the words.
 fn title(of: &LimitAssessment) -> String {
     let what = match of.limit {
         LimitKind::AngularVelocityChange => "change of *ω*",
@@ -178,7 +178,7 @@ fn title(of: &LimitAssessment) -> String {
     format!("{what}, {}", of.unit.customary().name)
 }
 
-/// The response over time of one part.
+/// Draws the response over time of one part.
 fn over_time(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<(String, String), FigureError> {
     let tightest = assessed.tightest();
     let unit = tightest.unit.customary();
@@ -188,7 +188,7 @@ fn over_time(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<(Str
     Ok((format!("history-{number}.svg"), history(&points, &impacts, unit.of_si(tightest.allowed), titles)?))
 }
 
-/// The demand of one part of a bar over the tilt.
+/// Draws the demand of one part of a bar over the tilt.
 fn tilts(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<(String, String), FigureError> {
     let tightest = assessed.tightest();
     let allowed = tightest.unit.customary().of_si(tightest.allowed);
@@ -201,8 +201,8 @@ fn tilts(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<(String,
     Ok((format!("tilt-{number}.svg"), over_tilt(&curves, allowed, titles)?))
 }
 
-/// What the tightest limit of a part is asked over the tilt, the worse of both first ends, as a share of what it allows; of a plate over
-/// the direction.
+/// Returns the demand on the tightest limit of a part over the tilt, the worse of both first ends, as a share of the allowed value; of a
+/// plate over the direction.
 fn share<'a>(((_, assessed), portrait): &Part<'_>, name: &'a str) -> Share<'a> {
     let around = portrait.plate.iter().flat_map(plate::around);
     let mut points: Vec<(f64, f64)> = around.map(|(direction, share, _)| (direction, share)).collect();
@@ -266,7 +266,7 @@ mod tests {
         }
     }
 
-    /// A page prints the changes that were found, each in the unit of the file; where none is known it says where to ask.
+    /// A page prints the changes that were found, each in the unit of the file; where none is known it names the command that finds them.
     #[test]
     fn a_part_is_told_what_would_make_it_safe() {
         let file = ProductFile::read(include_str!("../../../tests/cases/bar-laptop.toml"), "laptop.toml").unwrap();
@@ -333,12 +333,12 @@ mod tests {
             let asked = most(&mut part.1.over_tilt.iter().flat_map(|(_, curve)| curve).map(|point| point.share));
             assert!((drawn - asked).abs() < 1e-12, "{drawn}, not {asked}");
             let tilt = told["tilt"].as_str().unwrap().split(" Up to ").nth(1).unwrap().split('°').next().unwrap();
-            // A step of the tilts is missing at most.
+            // At most one step of the tilts is missing.
             assert!((as_one - 0.15..=as_one + 0.005).contains(&tilt.parse().unwrap()), "{tilt}, not {as_one}");
         }
     }
 
-    /// Where the worst drop asks for nearly all that is allowed, the search does not tell, and the page says so.
+    /// Where the worst drop demands nearly all that is allowed, the search does not decide, and the page says so.
     #[test]
     fn an_undecided_part_is_told_as_such() {
         let file = |limit: f64| {
@@ -408,7 +408,7 @@ mod tests {
         let pdf = pages(text, &dir.path().join("report.pdf"));
         let first: String = said(&pdf, 1).split_whitespace().collect();
         assert!(first.contains(&format!("therattlespaceofdiskdrive:theworstdropasksfor{share}%ofit")), "{first}");
-        // The last page is no page of a few lines.
+        // The last page has more than a few lines.
         let last = u32::try_from(pdf.get_pages().len()).unwrap();
         assert!(said(&pdf, last).len() > 800, "{}", said(&pdf, last));
     }
@@ -492,7 +492,7 @@ mod tests {
         assert!(plain.contains("dddd…") && plain.contains("□□"), "{plain}");
     }
 
-    /// Each of these would fail the page: a mark that combines, one that surrounds, a sign beside accented Greek.
+    /// Each of these would fail the page: a mark that combines, one that surrounds, a sign next to accented Greek.
     #[test]
     fn names_that_cannot_be_set_are_drawn_as_boxes_and_told() {
         let dir = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Files as outputs: whole, or as they were.
+//! This module writes files as outputs: they are complete, or as they were before.
 
 use std::fs::{self, File, Permissions};
 use std::io;
@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use crate::leftovers::{Left, Listed};
 use tempfile::{Builder, NamedTempFile, TempPath};
 
-/// Writes a file beside `path` and puts it in its place only once it is whole, so that a full disk or a killed run
-/// leaves what was there before. A link is followed; what is no regular file (a directory, a device) is refused. Content and name
-/// are on the disk as it returns; a file that is there keeps its permissions.
+/// Writes a file next to `path` and puts it in its place only once it is complete, so that a full disk or a killed run leaves the earlier
+/// file as it was. A link is followed; a path to anything but a regular file (to a directory, a device) is refused. Content and name
+/// are on the disk when the function returns; a file that is there keeps its permissions.
 ///
 /// # Errors
-/// What the system says, or what is wrong with `path`.
+/// Returns the error of the system, or the fault of `path`.
 ///
 /// # Examples
 /// ```
@@ -35,8 +35,8 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
     Ok(())
 }
 
-/// The permissions of the regular file that a path leads to; none where nothing is there. It is looked at and not opened: who opens a
-/// pipe waits for its other end.
+/// Returns the permissions of the regular file that a path leads to; none where nothing is there. It does not open the file, as opening
+/// a pipe waits for its other end.
 fn regular(path: &Path) -> io::Result<Option<Permissions>> {
     match fs::metadata(path) {
         Ok(old) if old.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
@@ -46,7 +46,8 @@ fn regular(path: &Path) -> io::Result<Option<Permissions>> {
     }
 }
 
-/// The one name of a file that is to be written, whichever of its names is given: links are followed, and its directory has its full name.
+/// Returns the one name of a file that is to be written, whichever of its names is given: links are followed, and its directory has its
+/// full name.
 ///
 /// # Errors
 /// Where what is there is no regular file, or there is no such directory.
@@ -57,15 +58,15 @@ pub fn place_of(path: &Path) -> io::Result<PathBuf> {
     Ok(directory_of(&target)?.canonicalize()?.join(name))
 }
 
-/// Whether a new file can be made in a directory, as [`replace`] does; for what takes long, told before it begins.
+/// Checks whether a new file can be made in a directory, as [`replace`] does, so that long work is refused before it begins.
 ///
 /// # Errors
-/// What the system says.
+/// Returns the error of the system.
 pub fn takes_files(directory: &Path) -> io::Result<()> {
     tempfile::tempfile_in(directory).map(drop).map_err(|error| error.kind().into())
 }
 
-/// Whether a file is there that its user may not write.
+/// Returns whether the path is a file that its user may not write.
 #[must_use]
 pub fn is_protected(path: &Path) -> bool {
     let Ok(Some(permissions)) = regular(path) else { return false };
@@ -73,7 +74,7 @@ pub fn is_protected(path: &Path) -> bool {
     permissions.readonly() || File::options().write(true).open(path).is_err_and(denied)
 }
 
-/// Whether two [places](place_of) in one directory have names that differ by capitals alone, and the directory takes them as one.
+/// Returns whether two [places](place_of) in one directory have names that differ by capitals alone, and the directory takes them as one.
 #[must_use]
 pub fn differ_by_case_alone(a: &Path, b: &Path) -> bool {
     let lower = |path: &Path| path.file_name().map(|name| name.to_string_lossy().to_lowercase());
@@ -89,7 +90,7 @@ pub fn differ_by_case_alone(a: &Path, b: &Path) -> bool {
     capitals.is_some_and(|name| probe.path().with_file_name(name).exists())
 }
 
-/// Where a path leads, also where nothing is there yet.
+/// Returns the place that a path leads to, also where nothing is there yet.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..LINKS {
@@ -99,18 +100,18 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other(format!("more than {LINKS} links, one to the next")))
 }
 
-/// Links that are followed one after the other, as many as systems do.
+/// The number of links that are followed one after the other, as many as systems do.
 const LINKS: usize = 40;
 
-/// The new name on the disk, as its content is, so that a loss of power leaves the old file or the new one. The file is there already:
-/// a directory that may not be read, or a file system that cannot do it, is no failure.
+/// Writes the new name to the disk, as the content is there, so that a loss of power leaves the old file or the new one. The file exists
+/// already: a directory that may not be read, or a file system that cannot do it, is no failure.
 fn settle(target: &Path) {
     if cfg!(unix) {
         let _ = directory_of(target).and_then(File::open).and_then(|directory| directory.sync_all());
     }
 }
 
-/// As [`replace`], for a file that must not be there yet.
+/// Writes a file as [`replace`] does, but refuses a file that is there already.
 ///
 /// # Errors
 /// As [`replace`]; [`io::ErrorKind::AlreadyExists`] where there is a file, which stays as it is.
@@ -121,10 +122,10 @@ pub fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> i
     Ok(())
 }
 
-/// The directory that a file is to stand in; for what takes long, told before it begins.
+/// Returns the directory that a file is to stand in, so that long work is refused before it begins.
 ///
 /// # Errors
-/// [`io::ErrorKind::NotFound`] where it is not there.
+/// Returns [`io::ErrorKind::NotFound`] where the directory is not there.
 pub fn directory_of(path: &Path) -> io::Result<&Path> {
     let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if parent.is_dir() {
@@ -134,8 +135,8 @@ pub fn directory_of(path: &Path) -> io::Result<&Path> {
     }
 }
 
-/// The whole file, under another name in the same directory. Where the system can do it, it has no name while it is written, which may
-/// take long: so a process that is killed outright leaves nothing there.
+/// Writes the whole file under another name in the same directory. Where the system can do it, the file has no name while it is
+/// written, which may take long: so a process that is killed outright leaves nothing there.
 fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<(Listed, TempPath)> {
     let parent = directory_of(target)?;
     let mut builder = Builder::new();
@@ -162,11 +163,11 @@ fn path_of<F>(file: &NamedTempFile<F>) -> Left {
     Left::Path(file.path().to_owned())
 }
 
-/// Less the umask, as for any new file.
+/// The mode of a new file; the umask is taken off, as for any new file.
 #[cfg(unix)]
 const MODE: u32 = 0o666;
 
-/// A file without a name; none where there is no such thing.
+/// Makes a file without a name; none where the system has no such files.
 #[cfg(target_os = "linux")]
 fn unnamed(parent: &Path) -> Option<File> {
     use rustix::fs::{Mode, OFlags, open};
@@ -187,6 +188,6 @@ fn name(unnamed: &File, path: &Path) -> io::Result<()> {
     Ok(linkat(CWD, own, CWD, path, AtFlags::SYMLINK_FOLLOW)?)
 }
 
-/// Where a process sees its open files by name.
+/// The directory where a process sees its open files by name.
 #[cfg(target_os = "linux")]
 const DESCRIPTORS: &str = "/proc/self/fd";

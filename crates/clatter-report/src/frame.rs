@@ -1,6 +1,6 @@
-//! Whether figures stay within their frames: what tests of pages share.
+//! This module checks that figures stay within their frames, for the tests of all pages.
 
-/// No line of a figure leaves its frame, and every coordinate is a number.
+/// Checks that no line of a figure leaves its frame, and that every coordinate is a number.
 pub(crate) fn stay_within_their_frame(files: &[(&'static str, String)]) {
     for (name, svg) in files.iter().filter(|(name, _)| name.ends_with("svg")) {
         let size = svg.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next()).unwrap();

@@ -1,11 +1,11 @@
-//! What every model gets wrong and what it costs, drawn.
+//! This module draws the error and the cost of every model.
 
 use clatter_assess::ladder::{LimitLadder, ProductLadder};
 use clatter_figures::{FigureError, LadderPanel as Panel, ladders as panels, three};
 
 use crate::words;
 
-/// A panel for each limit.
+/// Draws a panel for each limit.
 pub(crate) fn of_product(product: &ProductLadder) -> Result<String, FigureError> {
     panels(&product.limits.iter().map(|limit| of_limit(limit, product.tolerance)).collect::<Vec<_>>())
 }

@@ -1,4 +1,5 @@
-//! What goes when the process is stopped from outside: temporary files and directories, and programs that work for it.
+//! This module removes the leftovers of a process that is stopped from outside: temporary files and directories, and programs that work
+//! for it.
 
 use std::fs;
 use std::io;
@@ -8,7 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::TempDir;
 
-/// What must not outlive the process.
+/// A thing that must not outlive the process.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Left {
     Path(PathBuf),
@@ -16,7 +17,7 @@ pub(crate) enum Left {
     Group(u32),
 }
 
-/// What is there now.
+/// The leftovers that are there now.
 static THERE: Mutex<Vec<Left>> = Mutex::new(Vec::new());
 
 fn there() -> MutexGuard<'static, Vec<Left>> {
@@ -27,10 +28,10 @@ fn there() -> MutexGuard<'static, Vec<Left>> {
 /// or a time limit stops it: no new temporary is made and no program started until it ends.
 pub fn remove_leftovers() {
     let mut there = there();
-    // Programs first: they write into the directories.
+    // Programs end first: they write into the directories.
     there.sort_by_key(|left| matches!(left, Left::Path(_)));
     for left in there.drain(..) {
-        // What is gone already, or cannot be removed, is no reason to stay.
+        // A leftover that is gone already, or that cannot be removed, is no reason to stay.
         match left {
             Left::Group(number) => kill_group(number),
             Left::Path(path) if path.is_dir() => drop(fs::remove_dir_all(&path)),
@@ -45,7 +46,7 @@ pub fn remove_leftovers() {
 pub(crate) fn kill_group(number: u32) {
     use rustix::process::{Pid, Signal, kill_process_group};
     if let Some(group) = i32::try_from(number).ok().and_then(Pid::from_raw) {
-        // What has ended by itself in between needs no killing.
+        // A program that has ended by itself in the meantime needs no killing.
         let _ = kill_process_group(group, Signal::KILL);
     }
 }
@@ -53,7 +54,7 @@ pub(crate) fn kill_group(number: u32) {
 #[cfg(not(unix))]
 pub(crate) fn kill_group(_: u32) {}
 
-/// Keeps something on the list; off it once this is dropped, which is to come after the end of the thing itself.
+/// Keeps something on the list, and takes it off when this is dropped, which must come after the end of the thing itself.
 #[derive(Debug)]
 pub(crate) struct Listed(Left);
 
@@ -67,12 +68,12 @@ impl Listed {
         Ok((Self(left), made))
     }
 
-    /// A temporary directory.
+    /// Makes a temporary directory and keeps it on the list.
     pub(crate) fn directory(make: impl FnOnce() -> io::Result<TempDir>) -> io::Result<(Self, TempDir)> {
         Self::new(make, |dir| Left::Path(dir.path().to_owned()))
     }
 
-    /// A program that leads a group of its own.
+    /// Starts a program that leads a group of its own, and keeps it on the list.
     pub(crate) fn group(start: impl FnOnce() -> io::Result<Child>) -> io::Result<(Self, Child)> {
         Self::new(start, |child| Left::Group(child.id()))
     }

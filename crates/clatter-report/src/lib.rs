@@ -1,4 +1,5 @@
-//! Printed reports as pure functions of data: the pages of an assessment, and what every report is written and set with.
+//! This crate makes printed reports as pure functions of data: it has the pages of an assessment, and the means to write and set every
+//! report.
 //!
 //! A report computes nothing: it is handed what was computed and says how it is drawn, worded and set. Figures are SVG, data
 //! JSON; the page is a typst file that reads them. One module alone starts typst.
@@ -26,16 +27,16 @@ pub use leftovers::remove_leftovers;
 pub use page::{File, write_pages};
 pub use typst::Typst;
 
-/// What was written.
+/// The files of a written report, and its warnings.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Written {
     /// The files, the PDF first.
     pub files: Vec<PathBuf>,
-    /// What the caller should tell the user.
+    /// The warnings that the caller should show the user.
     pub warnings: Vec<String>,
 }
 
-/// Why a report was not written.
+/// The reason why a report was not written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReportError {
@@ -47,7 +48,7 @@ pub enum ReportError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// A figure could not be drawn.
@@ -55,30 +56,31 @@ pub enum ReportError {
     Figure(#[from] clatter_figures::FigureError),
 }
 
-/// What the pages of an assessment are made from.
+/// The data that the pages of an assessment are made from.
 #[derive(Debug, Clone, Copy)]
 pub struct Pages<'a> {
     /// The product.
     pub file: &'a ProductFile,
-    /// What was found of it.
+    /// The assessment of the product.
     pub assessment: &'a Assessment,
-    /// What there is to draw of each part.
+    /// The data of the figures of each part.
     pub portraits: &'a [clatter_assess::Portrait],
-    /// What would make parts safe with a margin of 10 %; where nothing is told of a part that is not safe, the pages name the command that does.
+    /// The changes that would make parts safe with a margin of 10 %; where a part that is not safe has no entry, the pages name the command
+    /// that finds its changes.
     pub remedies: &'a [Remedies],
-    /// What was measured of it; a section stands for each drop.
+    /// The measured drops of the product; the pages have a section for each.
     pub measured: &'a [clatter_assess::fit::MeasuredDrop],
-    /// Where the product was read from, as it is to be told.
+    /// The path that the product was read from, as the pages print it.
     pub path: &'a str,
-    /// The day that is to be told, if any.
+    /// The day that the pages print, if any.
     pub date: Option<&'a str>,
 }
 
-/// Writes the pages of an assessment to `pdf`: the verdict first, then a part at a time. Gives what the caller should
-/// tell the user.
+/// Writes the pages of an assessment to `pdf`: the verdict first, then one part after the other. Returns the warnings that the caller
+/// should show the user.
 ///
 /// Where names have characters that the typefaces cannot set, they are drawn as boxes, and a warning says so. The file is
-/// written beside its place and renamed; the same assessment gives the same bytes.
+/// written next to its place and renamed; the same assessment gives the same bytes.
 ///
 /// ```no_run
 /// // typst may have to be installed first
@@ -105,7 +107,7 @@ pub fn write_assessment(
     Ok(warnings)
 }
 
-/// The same report, not written anywhere, and the warnings.
+/// Makes the same report without writing it anywhere, and returns it with the warnings.
 ///
 /// # Errors
 /// [`ReportError`].
@@ -133,8 +135,8 @@ pub fn assessment_pdf(
     Ok((bytes, warnings))
 }
 
-/// Error over cost of every model that was measured on the worst drop of each limit, log-log, a panel a limit: the cheapest one
-/// within the tolerance is ringed. What is off by less than the reference is known to stands in a strip at the foot.
+/// Draws error over cost of every model that was measured on the worst drop of each limit, log-log, one panel for each limit: the
+/// cheapest model within the tolerance is ringed. A model whose error is below that of the reference stands in a strip at the foot.
 ///
 /// ```
 /// use clatter_assess::{EXAMPLE, ProductFile};

@@ -1,4 +1,4 @@
-//! A report on paper: its files computed and written, its page set from them.
+//! This module makes a report on paper: its files are computed and written, and its page is set from them.
 
 use std::fs;
 use std::io::{self, Write as _};
@@ -11,7 +11,7 @@ use crate::{ReportError, Written, is_protected, replace};
 
 /// The shared style of all pages.
 const STYLE: &str = include_str!("../../../reports/style.typ");
-/// What every page is told beside its data.
+/// The data that every page receives in addition to its own.
 const PAGE: &str = concat!("{\"version\":\"", env!("CARGO_PKG_VERSION"), "\"}");
 
 /// A file of a report that needs no typst: its name and content.
@@ -20,7 +20,7 @@ pub type File = (&'static str, String);
 /// Writes a report into `dir`, which is made if it is missing: its files as `compute` gives them, and the pages `pdf`, set from
 /// the source of that name, from the files and from `inputs`, which are not written.
 ///
-/// The files are computed while typst is looked for. Each is written beside its place and renamed, so that none is ever half
+/// The files are computed while typst is looked for. Each is written next to its place and renamed, so that none is ever half
 /// there. `progress` gets one line a step.
 ///
 /// ```no_run
@@ -60,7 +60,7 @@ pub fn write_pages<E: From<ReportError> + Send>(
         let typst = Typst::find(progress);
         let files = match beside {
             Ok(beside) => beside.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
-            // Where no further thread can be made, one after the other.
+            // The files come after the search for typst where no further thread can be made.
             Err(_) => files(),
         };
         (files, typst)

@@ -1,4 +1,4 @@
-//! The one place that starts typst.
+//! This module is the one place that starts typst.
 
 mod build;
 mod find;
@@ -23,9 +23,9 @@ use run::run;
 const VERSION: &str = "0.15.1";
 /// A compile of these pages takes well under a second; whatever takes so long hangs.
 const COMPILE_LIMIT: Duration = Duration::from_secs(300);
-/// Asking for the version takes milliseconds.
+/// The time limit of a request for the version, which takes milliseconds.
 const VERSION_LIMIT: Duration = Duration::from_secs(20);
-/// Some times what a build takes.
+/// The time limit of the lock, which is several times that of a build.
 const LOCK_LIMIT: Duration = Duration::from_secs(45 * 60);
 
 /// A typst to start: its command, or a program that does the same once it is given some arguments before those of typst.
@@ -38,12 +38,12 @@ pub struct Typst {
     limit: Duration,
 }
 
-/// A variable of the environment; what is empty counts as not set.
+/// Returns a variable of the environment; an empty one counts as not set.
 fn env(name: &str) -> Option<OsString> {
     std::env::var_os(name).filter(|value| !value.is_empty())
 }
 
-/// The failure of an outside program; the message may hold what it said.
+/// Makes the failure of an outside program; the message may hold the program's own words.
 pub(crate) fn failed(message: impl AsRef<str>) -> ReportError {
     ReportError::Typst(visible_lines(message.as_ref()).into_owned())
 }
@@ -53,14 +53,14 @@ impl Typst {
         Self { program, before: &[], limit: COMPILE_LIMIT }
     }
 
-    /// The typst that `CLATTER_TYPST` names, else the first on PATH that runs, else the one in the project's cache, else
+    /// Finds the typst that `CLATTER_TYPST` names, else the first on PATH that runs, else the one in the project's cache, else makes
     /// a new one there, unless `CLATTER_NO_INSTALL` is set: the wheel for Python, and where that cannot be had, one built
-    /// with cargo. Warnings tell what was passed over and of a version other than the tested one.
+    /// with cargo. Warnings name the ones that were passed over and a version other than the tested one.
     pub(crate) fn find(progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
         Self::find_with(&env, progress)
     }
 
-    /// The command typst of the version that the pages are tested with, where there is one: named by `CLATTER_TYPST`, on PATH or
+    /// Finds the command typst of the version that the pages are tested with, where there is one: named by `CLATTER_TYPST`, on PATH or
     /// built into the project's cache.
     ///
     /// # Errors
@@ -71,7 +71,7 @@ impl Typst {
         Ok(all.find(|typst| typst.asked().is_ok_and(|warning| warning.is_none())))
     }
 
-    /// The wheel of typst in the project's cache, put there if there is none that runs, unless `CLATTER_NO_INSTALL` is set.
+    /// Finds the wheel of typst in the project's cache, or puts it there if none runs, unless `CLATTER_NO_INSTALL` is set.
     ///
     /// # Errors
     /// [`ReportError`] where it cannot be had.
@@ -87,8 +87,7 @@ impl Typst {
         wheel::install(&env, &root, wheel::STEP_LIMIT, progress)
     }
 
-    /// Whatever keeps it from being found is one failure, that of the outside program: a full disk and a directory that cannot be
-    /// written as well.
+    /// Finds typst, and makes every failure one of the outside program: also a full disk, and a directory that cannot be written.
     fn find_with(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
         Self::search(env, progress).map_err(|error| {
             let text = match error {
@@ -119,7 +118,7 @@ impl Typst {
         }
     }
 
-    /// The first that runs; what was passed over and what is to be said of it are warnings.
+    /// Returns the first that runs; the ones that were passed over, and remarks on that one, become warnings.
     fn first(all: impl IntoIterator<Item = Self>, warnings: &mut Vec<String>) -> Option<Self> {
         all.into_iter().find(|typst| match typst.asked() {
             Ok(warning) => {
@@ -133,7 +132,7 @@ impl Typst {
         })
     }
 
-    /// The one in the project's cache, put there if there is none that runs.
+    /// Returns the one in the project's cache, or puts one there if none runs.
     fn cached(env: Env<'_>, warnings: &mut Vec<String>, progress: &mut dyn FnMut(&str)) -> Result<Self, ReportError> {
         let root = find::root(env)?;
         let kept = || [build::kept(&root), wheel::kept(&root)].into_iter().filter(|typst| typst.program.is_file());
@@ -160,14 +159,14 @@ impl Typst {
         }
     }
 
-    /// The command as far as it is the same for all that typst is to do.
+    /// Returns the command with the arguments that all runs of typst share.
     fn command(&self) -> Command {
         let mut command = Command::new(&self.program);
         command.args(self.before);
         command
     }
 
-    /// Asks for the version, as typst tells it; a warning where that is another one.
+    /// Runs typst for its version; returns a warning where that is not the tested one.
     fn asked(&self) -> Result<Option<String>, ReportError> {
         let program = &self.program;
         let own = Listed::directory(tempfile::tempdir);
@@ -211,7 +210,7 @@ impl Typst {
     }
 }
 
-/// Whether it begins and ends as a PDF does; after the end there may be little else.
+/// Returns whether the bytes begin and end as a PDF does; after the end there may be little else.
 fn is_pdf(bytes: &[u8]) -> bool {
     let last = &bytes[bytes.len().saturating_sub(1024)..];
     bytes.starts_with(b"%PDF-") && last.windows(5).any(|end| end == b"%%EOF")
@@ -228,7 +227,7 @@ pub(crate) mod tests {
     use super::*;
     use std::os::unix::fs::PermissionsExt as _;
 
-    /// A program that stands in for another one.
+    /// Makes a program that stands in for another one.
     pub(crate) fn stand_in(dir: &Path, name: &str, script: &str) -> PathBuf {
         let path = dir.join(name);
         fs::write(&path, format!("#!/bin/sh\n[ \"$1\" = ready ] && exit\n{script}\n")).unwrap();
@@ -240,7 +239,7 @@ pub(crate) mod tests {
         path
     }
 
-    /// A stand-in for typst in a directory of its own.
+    /// Makes a stand-in for typst in a directory of its own.
     fn typst(script: &str) -> (tempfile::TempDir, PathBuf) {
         let dir = tempfile::tempdir().unwrap();
         let path = stand_in(dir.path(), "typst", script);
@@ -366,7 +365,7 @@ pub(crate) mod tests {
         let all = path(&[&dirs[..], &[last.path()]].concat());
         let (typst, warnings) = Typst::find_with(&only("PATH", &all), &mut |_| ()).unwrap();
         assert_eq!((typst.program, warnings.len()), (program, 3), "{warnings:?}");
-        // Where none runs, the error tells of each.
+        // Where none runs, the error names each of them.
         let bad = path(&dirs);
         let env = |name: &str| match name {
             "PATH" => Some(bad.clone().into_os_string()),

@@ -1,25 +1,25 @@
-//! How numbers, limits and names are told in running text.
+//! This module writes numbers, limits and names in running text.
 
 use clatter::End;
 use clatter_assess::{Model, Spread, Unit};
 
 use clatter_figures::three;
 
-/// Longest name in a running text; the figures cut theirs to the room there is.
+/// The length of the longest name in a running text; the figures cut theirs to the available room.
 const LONGEST_NAME: usize = 60;
 
-/// A value in the unit that engineers use for it.
+/// Writes a value in the unit that engineers use for it.
 pub(crate) fn shown(unit: Unit, value: f64) -> String {
     let unit = unit.customary();
     if value.is_finite() { format!("{} {}", three(unit.of_si(value)), unit.name) } else { "∞".to_owned() }
 }
 
-/// A share as one of a hundred.
+/// Writes a share as a percentage.
 pub(crate) fn hundredths(share: f64) -> String {
     format!("{}\u{a0}%", three(100.0 * share))
 }
 
-/// As a signed share of a hundred.
+/// Writes a share as a signed percentage.
 pub(crate) fn percent(share: f64) -> String {
     if share.is_infinite() {
         return "–".to_owned();
@@ -29,7 +29,7 @@ pub(crate) fn percent(share: f64) -> String {
     text.replace('-', "−")
 }
 
-/// A sentence with minus signs as long as a plus, where hyphens stand before numbers.
+/// Writes a sentence with minus signs as long as a plus, where hyphens stand before numbers.
 pub(crate) fn minus(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let is_minus = |i: usize| {
@@ -40,7 +40,7 @@ pub(crate) fn minus(text: &str) -> String {
     (0..letters.len()).map(|i| if is_minus(i) { '−' } else { letters[i] }).collect()
 }
 
-/// A reason as the ladder gives it, its numbers without powers of ten and its models without hyphens.
+/// Writes a reason of the ladder, its numbers without powers of ten and its models without hyphens.
 ///
 /// ```
 /// let told = clatter_report::words::reason("contacts overlap: τ/Δt = 2.60e0; finite-tilt");
@@ -65,13 +65,13 @@ pub(crate) fn millimeters(m: f64) -> String {
     format!("{} mm", three(1e3 * m)).replace('-', "−")
 }
 
-/// A place of a plate, along and across it from the middle.
+/// Writes a place of a plate, along and across it from the middle.
 pub(crate) fn place(m: [f64; 2]) -> String {
     let [x, y] = m.map(|m| three(1e3 * m + 0.0).replace('-', "−"));
     format!("{x}, {y} mm")
 }
 
-/// A name for running text: cut where it is endless, with a box for every character that the pages' typefaces lack.
+/// Writes a name for running text: cut where it is endless, with a box for every character that the pages' typefaces lack.
 pub(crate) fn name(text: &str) -> String {
     let printable = |c: char| {
         let known = matches!(u32::from(c), 0x20..=0x7e | 0xa0..=0x24f | 0x370..=0x3ff | 0x400..=0x4ff | 0x5d0..=0x5ea
@@ -93,13 +93,13 @@ pub(crate) fn name(text: &str) -> String {
     cut
 }
 
-/// A name with a box for every character but those that the pages' serif has in itself, beside any other of them:
-/// letters of Latin, Greek and Cyrillic without marks that combine.
+/// Returns a name with a box in place of every character but those that the pages' serif can set next to any other: letters of
+/// Latin, Greek and Cyrillic without combining marks.
 pub(crate) fn sure_name(text: &str) -> String {
     name(text).chars().map(|c| if is_sure(c) { c } else { '□' }).collect()
 }
 
-/// Whether the pages' typefaces have a character.
+/// Returns whether the typefaces of the pages have a character.
 pub(crate) fn is_sure(c: char) -> bool {
     matches!(u32::from(c), 0x20..=0x7e | 0xa0..=0x17f | 0x370..=0x482 | 0x48a..=0x4ff | 0x25a1)
 }
@@ -111,12 +111,12 @@ pub(crate) fn end(end: End) -> &'static str {
     }
 }
 
-/// "0.9 to 1.2 m", or one value.
+/// Writes a range such as "0.9 to 1.2 m", or one value.
 pub(crate) fn range(spread: &Spread, factor: f64, unit: &str) -> String {
     span([spread.lo(), spread.hi()], factor, unit)
 }
 
-/// The same of a low and a high end.
+/// Writes a range from its low and high end in the same way.
 pub(crate) fn span([lo, hi]: [f64; 2], factor: f64, unit: &str) -> String {
     let [lo, hi] = [lo, hi].map(|v| three(v / factor).replace('-', "−"));
     let text = if lo == hi { format!("{lo} {unit}") } else { format!("{lo} to {hi} {unit}") };

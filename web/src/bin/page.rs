@@ -1,4 +1,4 @@
-//! Builds the page: `cargo run --release -p clatter-web` writes `target/web/clatter.html`.
+//! This program builds the page: `cargo run --release -p clatter-web` writes `target/web/clatter.html`.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -10,16 +10,16 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-/// Of the targets of WebAssembly the one that needs no glue: what it asks of a system is stubbed in `page/worker.js`.
+/// The target of WebAssembly that needs no glue: its calls to a system are stubbed in `page/worker.js`.
 const TARGET: &str = "wasm32-wasip1";
 
-/// Bytes that the page takes compressed, at most.
+/// The largest number of bytes of the compressed page.
 const MOST: usize = 1_000_000;
 
 const PAGE: &str = include_str!("../../page/page.html");
 const STYLE: &str = include_str!("../../page/style.css");
 const WORKER: &str = include_str!("../../page/worker.js");
-/// In this order one module.
+/// The modules of the page, which are joined to one in this order.
 const MODULES: [&str; 6] = [
     include_str!("../../page/engine.js"),
     include_str!("../../page/element.js"),
@@ -62,7 +62,7 @@ fn build() -> Result<String, String> {
     Ok(format!("{}: {} kB, {} kB compressed", path.display(), page.len() / 1000, small / 1000))
 }
 
-/// The crate as WebAssembly.
+/// Compiles the crate to WebAssembly.
 fn compiled(root: &Path, target: &Path) -> Result<Vec<u8>, String> {
     let known = Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]).output();
     let known = known.ok().and_then(|told| String::from_utf8(told.stdout).ok());
@@ -85,7 +85,7 @@ fn run(command: &mut Command) -> Result<(), String> {
     }
 }
 
-/// As small as gzip can be, which takes some seconds; a browser unpacks it.
+/// Packs bytes as small as gzip can, which takes some seconds; a browser unpacks them.
 fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let mut packed = Vec::new();
     // More blocks each have their own codes: 15 instead of 200 take 13 kB more.
@@ -94,7 +94,7 @@ fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
     Ok(packed)
 }
 
-/// As servers send it.
+/// Packs bytes as servers send them.
 fn gzipped(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;

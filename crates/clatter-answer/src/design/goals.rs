@@ -1,4 +1,4 @@
-//! Goals in the plane of q and e: where they are met, and the front of the largest zone.
+//! This module finds where goals in the plane of q and e are met, and the front of the largest zone.
 //!
 //! ```
 //! use clatter::design::Goal;
@@ -21,12 +21,12 @@ use crate::{Error, Json};
 const PAPER: [[f64; 2]; 2] = [[0.5, 0.1], [2.0, 0.85]];
 /// Restitutions whose fronts are given.
 const RESTITUTIONS: [f64; 7] = [0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
-/// Points of a front for a unit of q.
+/// The number of points of a front for a unit of q.
 const STEPS: u32 = 200;
-/// How far the border may lie off its chords.
+/// The largest distance of the border from its chords.
 const FLATNESS: f64 = 2e-4;
 
-/// The goals of the paper's example.
+/// Returns the goals of the paper's example.
 ///
 /// # Errors
 /// None: they are goals.
@@ -34,13 +34,13 @@ pub fn paper() -> Result<Vec<Goal>, clatter::Error> {
     PAPER.iter().map(|[x, s]| Goal::zone(*x, *s)).collect()
 }
 
-/// What goals come to.
+/// The region of designs that meets all goals.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Answer {
-    /// Of the first goal, in v0.
+    /// The threshold of the first goal, in v0.
     pub threshold: f64,
-    /// Of the first goal: the part of the bar.
+    /// The part of the bar that the first goal demands to be safe.
     pub wanted: f64,
     /// The other goals.
     pub others: Vec<Goal>,
@@ -58,7 +58,7 @@ pub struct Answer {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct AtRestitution {
-    /// Among designs that meet the other goals, and among all.
+    /// The fronts among designs that meet the other goals, and among all.
     pub fronts: [Front; 2],
     /// The smallest q that meets all goals.
     pub smallest_q: Option<f64>,
@@ -74,13 +74,13 @@ pub struct Design {
     pub e: f64,
     /// Its zone within the first goal.
     pub s: f64,
-    /// Which goals it meets.
+    /// True for each goal that the design meets.
     pub met: Vec<bool>,
     /// The largest zone at its restitution that leaves the other goals met.
     pub largest: Option<FrontPoint>,
 }
 
-/// Where goals are met: the first is the safe zone that fronts enlarge, with all others met.
+/// Finds where the goals are met: the first is the safe zone that fronts enlarge, with all others met.
 ///
 /// # Errors
 /// [`Error::NoZone`].

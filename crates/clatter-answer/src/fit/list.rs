@@ -1,4 +1,5 @@
-//! Files of measured drops: lists, each told by the line that names its columns, and the records that a product file names.
+//! This module reads files of measured drops: lists, each recognized by the line that names its columns, and the records that a product
+//! file names.
 
 use std::io::Read;
 
@@ -10,7 +11,7 @@ use clatter_record::{Cell, Options, names_columns, read_list};
 use super::{Data, DropRecords, Record};
 use crate::Error;
 
-/// Columns of heights: as tables of trackers call them too.
+/// Columns of heights, also by the names in tables of trackers.
 const HEIGHTS: [[&str; 3]; 2] = [["time_s", "height_a_m", "height_b_m"], ["time_s", "y_a_m", "y_b_m"]];
 
 /// A list of what was measured; what begins as none is a record of accelerations.
@@ -28,10 +29,10 @@ pub enum List {
 }
 
 impl List {
-    /// Bytes that the lines down to the names of the columns may have.
+    /// The largest number of bytes in the lines down to the names of the columns.
     pub const HEADER: u64 = 1 << 16;
 
-    /// Which list begins so, if any.
+    /// Returns the kind of list that begins with these bytes, if any.
     ///
     /// ```
     /// use clatter_answer::fit::List;
@@ -96,7 +97,7 @@ fn bounces(input: impl Read) -> Result<Vec<f64>, clatter_record::Error> {
     Ok(list)
 }
 
-/// Times of bounces by those between them, from the first bounce on.
+/// Reads the times of bounces from the intervals between them, from the first bounce on.
 fn intervals(input: impl Read) -> Result<Vec<f64>, clatter_record::Error> {
     let mut list = vec![0.0];
     read_list(input, ["interval_s"], |[interval]| {
@@ -123,12 +124,12 @@ fn heights(input: impl Read, names: [&str; 3]) -> Result<Vec<MeasuredHeights>, c
     Ok(list)
 }
 
-/// The number of a cell.
+/// Reads the number of a cell.
 fn finite(name: &str, cell: Cell<'_>) -> Result<f64, String> {
     cell.number.ok_or_else(|| format!("{name}: '{}' is not a number such as 0.5", visible(cell.text)))
 }
 
-/// A time, not before the one in the row above.
+/// Reads a time that is not before the one in the row above.
 fn rising(name: &str, cell: Cell<'_>, before: Option<f64>) -> Result<f64, String> {
     let time = finite(name, cell)?;
     match before {
@@ -143,7 +144,7 @@ fn below(count: usize, most: usize, name: &str) -> Result<(), String> {
     if count < most { Ok(()) } else { Err(format!("more than {most} {name}")) }
 }
 
-/// How a record of accelerations is read that a product file names.
+/// Returns the options for reading a record of accelerations that a product file names.
 ///
 /// # Errors
 /// Units that are none.
@@ -157,7 +158,7 @@ pub fn options(record: &RecordFile) -> Result<Options, clatter_record::Error> {
 }
 
 impl DropRecords {
-    /// The drops whose records a product file names, in its order; `read` reads one of the records.
+    /// Reads the drops whose records a product file names, in its order; `read` reads one of the records.
     ///
     /// # Errors
     /// Those of `read`.
@@ -185,7 +186,7 @@ impl DropRecords {
     }
 }
 
-/// Why there is no fit, with the names of the records in place of their numbers, from 1.
+/// Returns the reason why there is no fit, with the names of the records in place of their numbers, from 1.
 pub fn refusal(error: &Error, name: impl Fn(usize) -> String) -> String {
     let Error::Fit(error) = error else { return error.to_string() };
     match error {
@@ -195,7 +196,7 @@ pub fn refusal(error: &Error, name: impl Fn(usize) -> String) -> String {
         fit::Error::Count { record, count, name: what, allowed } => {
             format!("{}: {count} {what}; allowed: {allowed}", name(*record))
         }
-        // The name of the file in place of "record 1".
+        // The name of the file replaces "record 1".
         fit::Error::Far { record, .. } | fit::Error::Scatter { record, .. } | fit::Error::Noise { record, .. } => {
             error.to_string().replacen(&format!("record {record}"), &name(*record), 1)
         }

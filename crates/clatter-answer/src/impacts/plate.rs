@@ -1,4 +1,4 @@
-//! The impacts of one drop of a plate.
+//! This module computes the impacts of one drop of a plate.
 //!
 //! ```
 //! use clatter::{Plate, PlateCount, PlateStart};
@@ -24,24 +24,24 @@ pub struct Question {
     pub plate: Plate,
     /// Velocities and height gaps at the first touch.
     pub start: PlateStart,
-    /// Places whose velocity shocks are asked for, in half-lengths and half-widths from the middle.
+    /// Places whose velocity shocks are requested, in half-lengths and half-widths from the middle.
     pub at: Vec<[f64; 2]>,
-    /// Impacts listed at most; at least 1000 are followed for the summary.
+    /// The largest number of impacts in the list; at least 1000 are followed for the summary.
     pub limit: usize,
 }
 
 impl Question {
-    /// With 1000 impacts listed at most, and no place but the corners.
+    /// Makes a question with at most 1000 impacts in the list, and no place but the corners.
     #[must_use]
     pub fn new(plate: Plate, start: PlateStart) -> Self {
         Self { plate, start, at: Vec::new(), limit: FOLLOWED }
     }
 }
 
-/// So many impacts are followed at least for the summary.
+/// The least number of impacts that are followed for the summary.
 const FOLLOWED: usize = 1000;
 
-/// What one drop of a plate amounts to, and its impacts.
+/// The totals of one drop of a plate, and its impacts.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Answer<'a> {
@@ -51,16 +51,16 @@ pub struct Answer<'a> {
     pub center_of_mass: [Json; 2],
     /// Coefficient of restitution.
     pub e: Json,
-    /// Of corners a, b, c and d at the first touch, in v0, upward positive.
+    /// The velocities of corners a, b, c and d at the first touch, in v0, upward positive.
     pub velocity: [Json; 4],
-    /// Of corners b and d at the first touch, in h0.
+    /// The heights of corners b and d at the first touch, in h0.
     pub height_gap: [Json; 2],
-    /// The places asked for.
+    /// The requested places.
     pub at: Vec<[Json; 2]>,
     /// Number of impacts, as far as they were followed.
     #[serde(serialize_with = "count")]
     pub count: PlateCount,
-    /// Whether that is the whole count, not just what was followed.
+    /// True where that is the whole count, not only the number of impacts that were followed.
     pub count_exact: bool,
     /// Time of the last impact, or the limit it tends to, in h0/v0.
     pub duration: Json,
@@ -77,15 +77,15 @@ pub struct Answer<'a> {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Peak {
-    /// Of a corner.
+    /// The largest shock of a corner.
     pub corner: Json,
     /// The impact that gives it, the first if several do.
     pub impact: u64,
     /// The corner that strikes then.
     pub struck: char,
-    /// Of the center of mass.
+    /// The largest shock of the center of mass.
     pub center: Json,
-    /// What no impact that was not followed exceeds.
+    /// The bound on the shock of any impact that was not followed.
     pub later: Json,
 }
 
@@ -93,21 +93,21 @@ pub struct Peak {
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Impact {
-    /// From 1.
+    /// The number of the impact, from 1.
     pub number: u64,
     /// The corner that strikes.
     pub corner: char,
-    /// From the first touch, in h0/v0.
+    /// The time from the first touch, in h0/v0.
     pub time: Json,
     /// Velocity of the corner before it strikes, in v0.
     pub approach: Json,
     /// Velocity shocks of corners a, b, c and d, in v0.
     pub delta_v: [Json; 4],
-    /// Velocity shocks at the places asked for, in v0.
+    /// Velocity shocks at the requested places, in v0.
     pub delta_v_at: Vec<Json>,
-    /// Whether another corner comes down at the same instant.
+    /// True where another corner comes down at the same instant.
     pub tie: bool,
-    /// How the order of a tie is taken.
+    /// The rule by which the order of a tie is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub order: Option<&'static str>,
 }
@@ -117,7 +117,7 @@ pub struct Impact {
 pub struct Impacts<'a>(&'a Question);
 
 impl<'a> Impacts<'a> {
-    /// From the first impact on.
+    /// Returns the impacts from the first on.
     pub fn iter(&self) -> impl Iterator<Item = Impact> + use<'a> {
         let Question { plate, start, at, limit } = self.0;
         plate.train(start).take(*limit).map(move |impact| Impact {
@@ -139,7 +139,7 @@ impl Serialize for Impacts<'_> {
     }
 }
 
-/// The order of a tie, in words.
+/// Describes the order of a tie in words.
 fn order(start: &PlateStart) -> &'static str {
     if start.gaps().iter().all(|gap| *gap == 0.0) {
         "as if tilted along the diagonal by next to nothing"

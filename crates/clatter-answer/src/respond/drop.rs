@@ -1,4 +1,4 @@
-//! A part in one drop of any body, answered as an assessment answers it.
+//! This module answers a part in one drop of any body, as an assessment answers it.
 //!
 //! ```
 //! use clatter_answer::respond::drop;
@@ -30,26 +30,26 @@ pub struct Question {
     pub drop: Drop,
     /// The physics that is kept of it.
     pub model: Model,
-    /// Where on the product the part may be: of several the place is answered that asks most of a limit, else the first.
+    /// The places on the product where the part may be: of several, the one with the highest demand on a limit is answered, else the first.
     pub places: Vec<Place>,
     /// The part; none that is mounted rigidly.
     pub suspension: Option<Suspension>,
     /// Limits of the part that are held against the drop.
     pub limits: Option<Vec<Limit>>,
-    /// How exact the answer is for the model, as a share of it.
+    /// The allowed error of the answer for the model, as a share of the answer.
     pub tolerance: f64,
     /// A table whose half-sine is to do the same to the part.
     pub shock_table: Option<ShockTable>,
 }
 
 impl Question {
-    /// Of a place on which a part is mounted rigidly, to 1 %.
+    /// Makes the question of a place on which a part is mounted rigidly, to 1 %.
     #[must_use]
     pub fn new(drop: Drop, model: Model, place: Place) -> Self {
         let places = vec![place];
         Self { drop, model, places, suspension: None, limits: None, tolerance: 0.01, shock_table: None }
     }
-    /// Of a drop as data.
+    /// Makes the question of a drop that is given as data.
     ///
     /// # Errors
     /// A part that does not swing.

@@ -1,4 +1,4 @@
-//! The answer of one drop of any body: what it does to a part and at its place, and what it asks of its limits.
+//! This module answers one drop of any body: its effect on a part and at its place, and its demand on the limits of the part.
 
 use clatter_assess::{Drop, LimitKind, Model, Part, Place, Unit};
 use clatter_shock::{ShockTable, Suspension};
@@ -7,46 +7,46 @@ use serde::Serialize;
 use super::{Equivalent, Factors, Largest, LargestValues, Peaks, swings};
 use crate::{Error, Json};
 
-/// One limit of a part in one drop; null where nothing is felt, or where it is not known.
+/// One limit of a part in one drop; null where nothing acts on the part, or where the demand is not known.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Limit {
-    /// What is limited.
+    /// The limited quantity.
     pub limit: LimitKind,
-    /// SI.
+    /// The SI unit.
     pub unit: Unit,
-    /// In the unit.
+    /// The allowed value, in the unit.
     pub allowed: Json,
-    /// In the unit: the demand of an assessment.
+    /// The demand, as an assessment has it, in the unit.
     pub value: Option<Json>,
-    /// Value over allowed.
+    /// The value over the allowed value.
     pub share: Option<Json>,
-    /// The place that asks most, from the middle along length, width and thickness.
+    /// The place with the highest demand, from the middle along length, width and thickness.
     pub position_m: [Json; 3],
     /// Number of the impact.
     pub impact: Option<u64>,
-    /// Since the first touch.
+    /// The time since the first touch.
     pub time_s: Option<Json>,
-    /// As a share of the value.
+    /// The largest error, as a share of the value.
     pub error: Option<Json>,
-    /// Which of the places asks most.
+    /// The index of the place with the highest demand.
     #[serde(skip)]
     pub place: usize,
 }
 
 impl Limit {
-    /// Below every share where nothing is known.
+    /// Returns the demand over the allowed value; below every such share where the demand is not known.
     fn of_allowed(&self) -> f64 {
         self.share.map_or(-1.0, |share| share.0)
     }
-    /// The one that leaves least, of those that are known.
+    /// Returns the limit with the least margin, of those that are known.
     fn tightest(limits: &[Self]) -> Option<&Self> {
         let known = limits.iter().filter(|limit| limit.share.is_some());
         known.max_by(|a, b| a.of_allowed().total_cmp(&b.of_allowed()))
     }
 }
 
-/// A drop that is asked about, with a part.
+/// One drop and a part.
 pub(super) struct OneDrop<'a> {
     pub(super) drop: Drop,
     pub(super) model: Model,
@@ -59,11 +59,11 @@ pub(super) struct OneDrop<'a> {
     pub(super) shock_table: Option<ShockTable>,
 }
 
-/// What a drop does to a part and at its place: the same of every body.
+/// The effect of a drop on a part and at its place, the same for every body.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct AtPlace {
-    /// Which of the places is answered.
+    /// The index of the answered place.
     #[serde(skip)]
     pub index: usize,
     /// The limits that were given.
@@ -74,32 +74,32 @@ pub struct AtPlace {
     pub part: Option<Peaks>,
     /// Largest change of velocity of one shock at the place.
     pub velocity_change_m_s: Json,
-    /// Largest acceleration that is felt there; null without a contact time.
+    /// Largest acceleration that acts there; null without a contact time.
     pub acceleration_m_s2: Option<Json>,
     /// Largest change of angular velocity of one shock, about any axis.
     pub angular_velocity_change_rad_s: Json,
-    /// When the largest values come.
+    /// The largest values, with their times.
     pub answers: LargestValues,
-    /// What (1 + e) v at once would do to the part, as without clatter.
+    /// The response of the part to (1 + e) v at one instant, as without clatter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clatter_free: Option<Factors>,
-    /// What 2 v would do, as standards assume.
+    /// The response of the part to 2 v, as standards assume.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub standard: Option<Factors>,
     /// Peak acceleration over that of the standards' shock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gain: Option<Json>,
-    /// Where a shock table was given.
+    /// The equivalent pulse, where a shock table was given.
     #[serde(flatten)]
     pub equivalent: Option<Equivalent>,
 }
 
-/// Nothing is allowed or forbidden by this: the value alone counts.
+/// Makes a limit that allows or forbids nothing: the value alone counts.
 fn unlimited(kind: LimitKind) -> clatter_assess::Limit {
     clatter_assess::Limit::new(kind, 1.0)
 }
 
-/// What is not felt is 0.
+/// Returns the largest value, or 0 where nothing acts on the place.
 fn value(largest: Option<Largest>) -> Json {
     largest.map_or(Json(0.0), |largest| largest.value)
 }
@@ -113,7 +113,7 @@ impl OneDrop<'_> {
         clatter_assess::answer(&self.drop, part, limit, self.model, self.tolerance)
     }
 
-    /// What is asked of a limit at a place; none where nothing is felt, or where it is not known.
+    /// Returns the demand on a limit at a place; none where nothing acts there, or where the demand is not known.
     fn felt(
         &self,
         limit: &clatter_assess::Limit,
@@ -127,8 +127,8 @@ impl OneDrop<'_> {
         }
     }
 
-    /// Follows the drop until nothing later counts, and answers the one of these places that asks most of a limit, else the first. Where not
-    /// even the place that goes through all of the drop is answered, none is.
+    /// Follows the drop until nothing later counts, and answers that one of these places that has the highest demand on a limit, else the
+    /// first. Where not even the place that goes through all of the drop has an answer, there is none.
     pub(super) fn at(&self, places: &[Place]) -> Result<AtPlace, Error> {
         let Some(first) = places.first() else {
             return Err(clatter_shock::Error::Empty("the list of places").into());
@@ -176,12 +176,12 @@ impl OneDrop<'_> {
         })
     }
 
-    /// The largest value of a quantity at a place.
+    /// Returns the largest value of a quantity at a place.
     fn largest(&self, kind: LimitKind, place: &Part, part: Option<Suspension>) -> Result<Option<Largest>, Error> {
         Ok(self.felt(&unlimited(kind), place, part)?.map(Largest::from))
     }
 
-    /// Every limit at the worst of these places.
+    /// Answers every limit at the worst of these places.
     fn limits(&self, limits: &[clatter_assess::Limit], places: &[Place]) -> Result<Vec<Limit>, Error> {
         let mut found = Vec::with_capacity(limits.len());
         for limit in limits {

@@ -1,4 +1,4 @@
-//! What every answer about a part has in common: peaks, single shocks beside them, the equivalent pulse.
+//! This module holds the common content of all answers about a part: peaks, single shocks for comparison, the equivalent pulse.
 
 use clatter_assess::{Answer, Unit};
 use clatter_shock::{
@@ -22,9 +22,9 @@ pub struct Peaks {
     pub omega_peak_relative_displacement: Json,
     /// Largest A/W.
     pub peak_absolute_acceleration_over_omega: Json,
-    /// Of the absolute acceleration; the other times are in `peaks`.
+    /// The time of the largest absolute acceleration; the other times are in `peaks`.
     pub time_of_peak: Json,
-    /// Of either sign.
+    /// The peaks of either sign.
     pub peaks: AllPeaks,
 }
 
@@ -32,11 +32,11 @@ pub struct Peaks {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct AllPeaks {
-    /// W z.
+    /// The extremes of W z.
     pub omega_relative_displacement: Extremes,
-    /// z′.
+    /// The extremes of z′.
     pub relative_velocity: Extremes,
-    /// A/W.
+    /// The extremes of A/W.
     pub absolute_acceleration_over_omega: Extremes,
 }
 
@@ -59,7 +59,7 @@ pub struct Extremes {
 pub struct Extreme {
     /// The value.
     pub value: Json,
-    /// When.
+    /// The time at which it is reached.
     pub time: Json,
     /// Number of the impact, shock or start of a pulse that it follows, where that is known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -67,7 +67,7 @@ pub struct Extreme {
 }
 
 impl Peaks {
-    /// `number` is that of the shock that an extreme follows, where it is known.
+    /// Makes the peaks; `number` is that of the shock that an extreme follows, where it is known.
     pub(super) fn new(
         part: &Suspension,
         response: &Response,
@@ -94,13 +94,13 @@ impl Peaks {
         }
     }
 
-    /// Peak acceleration over that of a single shock.
+    /// Returns the peak acceleration over that of a single shock.
     pub(super) fn gain(&self, shock: &Factors) -> Json {
         Json(self.peak_absolute_acceleration_over_omega.0 / shock.peak_absolute_acceleration_over_omega.0)
     }
 }
 
-/// What one velocity shock does to a part, as velocities.
+/// The response of a part to one velocity shock, as velocities.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Factors {
@@ -114,7 +114,7 @@ pub struct Factors {
 }
 
 impl Factors {
-    /// Of a shock to a part with this damping.
+    /// Computes the response of a part with this damping to a shock.
     #[must_use]
     pub fn new(damping: DampingRatio, shock: f64) -> Self {
         Self::of(shock, damping.impulse_factors().times(shock))
@@ -128,7 +128,8 @@ impl Factors {
         }
     }
 
-    /// All of a product rebounds at once, without spin, as it would without clatter; and what standards assume.
+    /// Returns the response where all of a product rebounds at one instant, without spin, as it would without clatter; and the one that
+    /// standards assume.
     pub(super) fn at_once(damping: DampingRatio, e: f64, speed: f64) -> [Self; 2] {
         [(1.0 + e) * speed, 2.0 * speed].map(|shock| Self::new(damping, shock))
     }
@@ -140,14 +141,14 @@ impl Factors {
 pub struct Equivalent {
     /// The half-sine.
     pub equivalent_pulse: Option<HalfSine>,
-    /// Why there is none.
+    /// The reason why there is no equivalent pulse.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_equivalent_pulse: Option<String>,
     /// The least service condition of JESD22-B110 that covers what the part goes through; null where none does.
     pub service_condition: Option<ServiceCondition>,
 }
 
-/// A service condition of a shock test, beside what the part goes through.
+/// A service condition of a shock test, for comparison with the response of the part.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct ServiceCondition {
@@ -155,7 +156,7 @@ pub struct ServiceCondition {
     pub pulse: &'static str,
     /// Peak of its half-sine in standard gravities.
     pub acceleration_g: Json,
-    /// How long that lasts.
+    /// The duration of the half-sine.
     pub duration_s: Json,
     /// The largest acceleration that it gives the part over that in the drop.
     pub acceleration_ratio: Json,
@@ -179,7 +180,7 @@ impl From<clatter_shock::ServiceCondition> for ServiceCondition {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct HalfSine {
-    /// `half-sine`.
+    /// The shape, which is `half-sine`.
     pub shape: &'static str,
     /// Its peak.
     pub acceleration_m_s2: Json,
@@ -193,10 +194,10 @@ pub struct HalfSine {
     pub displacement_mismatch: Json,
 }
 
-/// Why no pulse is equivalent to nothing.
+/// The reason why no pulse is equivalent to nothing.
 pub const NOTHING_FELT: &str = "nothing is felt here, which no pulse does";
 
-/// Mismatch of the relative displacement that an equivalent pulse may have.
+/// The mismatch of the relative displacement that an equivalent pulse may have.
 const EQUIVALENT: f64 = 0.01;
 
 impl Equivalent {
@@ -225,19 +226,19 @@ impl Equivalent {
     }
 }
 
-/// The largest values of a drop at a place and of a part there; null where nothing is felt, and of a part that is mounted rigidly.
+/// The largest values of a drop at a place and of a part there; null where nothing acts, and of a part that is mounted rigidly.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct LargestValues {
-    /// Of the place.
+    /// The largest change of velocity of the place.
     pub velocity_change: Option<Largest>,
-    /// Of the place.
+    /// The largest acceleration of the place.
     pub acceleration: Option<Largest>,
-    /// Of the product.
+    /// The largest change of angular velocity of the product.
     pub angular_velocity_change: Option<Largest>,
-    /// Of the part.
+    /// The largest acceleration of the part.
     pub part_acceleration: Option<Largest>,
-    /// Of the part, relative to its place.
+    /// The largest displacement of the part, relative to its place.
     pub part_displacement: Option<Largest>,
 }
 
@@ -245,15 +246,15 @@ pub struct LargestValues {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Largest {
-    /// In the unit.
+    /// The value, in the unit.
     pub value: Json,
-    /// SI.
+    /// The SI unit.
     pub unit: Unit,
-    /// Since the first touch.
+    /// The time since the first touch.
     pub time_s: Json,
     /// Number of the impact.
     pub impact: u64,
-    /// As a share of the value.
+    /// The largest error, as a share of the value.
     pub error: Json,
 }
 

@@ -1,4 +1,4 @@
-//! A part of any natural frequency: its peaks over W h0/v0.
+//! This module computes the peaks of a part of any natural frequency over W h0/v0.
 //!
 //! ```
 //! use clatter::{Bar, Start};
@@ -20,7 +20,7 @@ use crate::{Error, Json, on_body};
 
 /// The least and the largest W h0/v0, unless the part lies beyond.
 const DRAWN: [f64; 2] = [1e-2, 1e3];
-/// Points to a decade, and in all.
+/// The number of points to a decade, and in all.
 const POINTS: [f64; 2] = [100.0, 4000.0];
 
 /// The rule. It serializes to a list for each quantity of its points.
@@ -31,7 +31,7 @@ pub struct Answer {
     pub rule: Rule,
 }
 
-/// The rule at a position of a bar, over frequencies about that of a part.
+/// Computes the rule at a position of a bar, over frequencies about that of a part.
 ///
 /// # Errors
 /// A position off the bar, a flat drop, which has no rule, or what [`three_way_rule`] refuses.
@@ -45,7 +45,7 @@ pub fn answer(bar: &Bar, start: &Start, at: f64, part: &Suspension) -> Result<An
     Ok(Answer { rule: three_way_rule(bar, start, at, part.damping(), &omegas(ratio))? })
 }
 
-/// W h0/v0 of the points.
+/// Returns W h0/v0 of the points.
 fn omegas(ratio: f64) -> Vec<f64> {
     let (low, high) = (DRAWN[0].min(0.1 * ratio).max(1e-300), DRAWN[1].max(10.0 * ratio).min(1e300));
     let steps = (POINTS[0] * libm::log10(high / low)).ceil().min(POINTS[1]);

@@ -1,4 +1,4 @@
-//! One drop of a bar in time: its strikes, how hard they are, and how it comes to rest.
+//! This module follows one drop of a bar in time: its strikes, how hard they are, and how it comes to rest.
 
 use clatter::End;
 use clatter_flight::{Model as Physics, Motion, Stop, Strike};
@@ -11,51 +11,51 @@ use crate::{Error, Json, letter, neat, on_body};
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Answer {
-    /// What was kept of the drop.
+    /// The model of the drop.
     pub model: &'static str,
-    /// From end to end.
+    /// The length from end to end.
     pub length_m: Json,
     /// Radius of gyration about the center of mass.
     pub gyration_m: Json,
-    /// In [−1, 1].
+    /// The position of the center of mass, in [−1, 1].
     pub center_of_mass: Json,
-    /// Of the body.
+    /// The thickness of the body.
     pub thickness_m: Json,
-    /// For strikes at end a and end b.
+    /// The inertia ratios for strikes at end a and end b.
     pub inertia_ratios: [Json; 2],
     /// Coefficient of restitution.
     pub e: Json,
-    /// From which it fell, where that was given.
+    /// The height from which it fell, where that was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<Json>,
-    /// At the first touch.
+    /// The speed at the first touch.
     pub speed_m_s: Json,
-    /// At the first touch.
+    /// The tilt at the first touch.
     pub tilt_deg: Json,
-    /// Of end b as a touches.
+    /// The height of end b as a touches.
     pub height_gap_m: Json,
-    /// Of gravity.
+    /// The acceleration of gravity.
     pub gravity_m_s2: Json,
-    /// At the first touch, end b upward.
+    /// The angular velocity at the first touch, end b upward.
     pub spin_rad_s: Json,
-    /// Where contacts take time.
+    /// The contacts, where they take time.
     #[serde(flatten)]
     pub contact: Option<ContactAnswer>,
-    /// Until which it was followed, where that was limited.
+    /// The time until which the drop was followed, where that was limited.
     pub time_limit_s: Option<Json>,
-    /// Strikes followed at most.
+    /// The largest number of strikes followed.
     pub impact_limit: usize,
-    /// The positions asked for.
+    /// The requested positions.
     pub at: Vec<Json>,
     /// Largest velocity shock of each end, in its own strikes and those of the other.
     pub largest_delta_v_m_s: [Json; 2],
-    /// The same at the positions asked for.
+    /// The same at the requested positions.
     pub largest_delta_v_at_m_s: Vec<Json>,
     /// The strikes.
     pub impacts: Impacts,
     /// Times in which one end lay on the ground and the body turned about it.
     pub pivots: Vec<PivotAnswer>,
-    /// Why the motion ends.
+    /// The reason why the motion ends.
     #[serde(serialize_with = "stop")]
     pub stop: Stop,
 }
@@ -64,11 +64,11 @@ pub struct Answer {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct PivotAnswer {
-    /// `"a"` or `"b"`.
+    /// The end, `"a"` or `"b"`.
     pub end: &'static str,
-    /// Since the first touch.
+    /// The beginning, from the first touch on.
     pub from_s: Json,
-    /// Since the first touch.
+    /// The end, from the first touch on.
     pub until_s: Json,
 }
 
@@ -76,28 +76,28 @@ pub struct PivotAnswer {
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Impact {
-    /// From 1.
+    /// The number of the strike, from 1.
     pub number: u64,
     /// The end that strikes, `"a"` or `"b"`.
     pub end: &'static str,
-    /// Since the first touch.
+    /// The time since the first touch.
     pub time_s: Json,
     /// Velocity of the end just before.
     pub approach_m_s: Json,
     /// Velocity shocks of both ends; none, as those at positions, where the contact is unfinished.
     pub delta_v_m_s: [Option<Json>; 2],
-    /// Velocity shocks at the positions asked for.
+    /// Velocity shocks at the requested positions.
     pub delta_v_at_m_s: Vec<Option<Json>>,
-    /// Where contacts take time: when this one ends, infinite where the end stays down.
+    /// The end of the contact, where contacts take time; infinite where the end of the bar stays down.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub until_s: Option<Json>,
-    /// Whether a limit has cut off the contact.
+    /// True where a limit has cut off the contact.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub unfinished: bool,
 }
 
 impl Impact {
-    /// The larger shock of the ends, 0 where it is not known.
+    /// Returns the larger shock of the ends, 0 where it is not known.
     #[must_use]
     pub fn largest_m_s(&self) -> f64 {
         self.delta_v_m_s.into_iter().flatten().fold(0.0, |most: f64, v| most.max(v.0.abs()))
@@ -112,16 +112,16 @@ pub struct Impacts {
 }
 
 impl Impacts {
-    /// The motion whose strikes they are.
+    /// Returns the motion whose strikes they are.
     #[must_use]
     pub fn motion(&self) -> &Motion {
         &self.motion
     }
-    /// From the first strike on.
+    /// Returns the strikes from the first on.
     pub fn iter(&self) -> impl Iterator<Item = Impact> + '_ {
         (0..self.motion.strikes.len()).map(|i| self.get(i))
     }
-    /// How many begin while the other end still presses, and the number of the first of them.
+    /// Returns how many strikes begin while the other end still presses, and the number of the first of them.
     #[must_use]
     pub fn overlaps(&self) -> Option<(usize, u64)> {
         let (mut parted_s, mut found) = (f64::NEG_INFINITY, None);
@@ -170,7 +170,7 @@ pub struct WithHistory<'a> {
 }
 
 impl Answer {
-    /// With the rows of its motion: straight lines through them follow it.
+    /// Adds the rows of the motion: straight lines through them follow it.
     #[must_use]
     pub fn with_history(&self) -> WithHistory<'_> {
         WithHistory { answer: self, history: History(&self.impacts) }

@@ -1,4 +1,4 @@
-//! One drop of a box in time, in any orientation, with contacts that take time.
+//! This module follows one drop of a box in time, in any orientation, with contacts that take time.
 
 use clatter_flight::{Block, BlockDrop, BlockStrike, Contact, Model as Physics, Stop};
 use serde::{Serialize, Serializer};
@@ -13,45 +13,45 @@ pub struct Answer {
     /// The drop.
     #[serde(flatten)]
     pub drop: DropAnswer,
-    /// What the ground does while a corner touches.
+    /// The law by which the ground acts while a corner touches.
     pub contact_law: &'static str,
-    /// What the energy of the body changes by without reason, over that at the first touch.
+    /// The numerical error of the energy of the body, over its energy at the first touch.
     pub energy_error: Json,
     /// The presses, in the order of their touches.
     pub impacts: Vec<Impact>,
-    /// Why the motion ends.
+    /// The reason why the motion ends.
     #[serde(serialize_with = "stop")]
     pub stop: Stop,
 }
 
-/// What a drop of a box is.
+/// The inputs of a drop of a box.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct DropAnswer {
-    /// What was kept of it: contacts that take time.
+    /// The model of the drop: contacts that take time.
     pub model: &'static str,
     /// Length, width and thickness.
     pub size_m: [Json; 3],
-    /// About the axes of the box through its center of mass.
+    /// The radii of gyration about the axes of the box through its center of mass.
     pub gyration_m: [Json; 3],
-    /// From the middle.
+    /// The position of the center of mass from the middle.
     pub center_of_mass_m: [Json; 3],
     /// Coefficient of restitution.
     pub e: Json,
-    /// At the first touch.
+    /// The speed at the first touch.
     pub speed_m_s: Json,
     /// The vertical in axes of the box.
     pub upward: [Json; 3],
-    /// About the axes of the box.
+    /// The angular velocities about the axes of the box.
     pub spin_rad_s: [Json; 3],
-    /// Of gravity.
+    /// The acceleration of gravity.
     pub gravity_m_s2: Json,
-    /// Of a lone contact.
+    /// The duration of a lone contact.
     pub contact_time_s: Json,
 }
 
 impl DropAnswer {
-    /// A drop as it is told.
+    /// Takes the reported inputs from a drop and its contact.
     #[must_use]
     pub fn new(drop: &BlockDrop, contact: &Contact) -> Self {
         let block = drop.block();
@@ -70,21 +70,21 @@ impl DropAnswer {
     }
 }
 
-/// Why and when the motion of a box ends.
+/// The reason for the end of the motion of a box, and its time.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct StopAnswer {
-    /// As [`Stop::reason`] calls it.
+    /// The reason, by the name of [`Stop::reason`].
     pub reason: &'static str,
-    /// Since the first touch.
+    /// The time since the first touch.
     pub time_s: Json,
-    /// At rest alone: no later press changes a velocity by more.
+    /// The bound on the change of a velocity by any later press; at rest alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shock_bound_m_s: Option<Json>,
 }
 
 impl StopAnswer {
-    /// The end of a motion as it is told.
+    /// Takes the reported end from the stop of a motion.
     #[must_use]
     pub fn new(stop: &Stop) -> Self {
         let bound = if let Stop::AtRest { shock_bound_m_s, .. } = stop { Some(Json(*shock_bound_m_s)) } else { None };
@@ -100,17 +100,17 @@ fn stop<S: Serializer>(stop: &Stop, serializer: S) -> Result<S::Ok, S::Error> {
 #[derive(Debug, Clone, Copy, Serialize)]
 #[non_exhaustive]
 pub struct Impact {
-    /// From 1.
+    /// The number of the press, from 1.
     pub number: u64,
     /// The signs of x, y and z.
     pub corner: &'static str,
-    /// When it touches.
+    /// The time at which the corner touches.
     pub time_s: Json,
     /// Vertical velocity of the corner as it touches.
     pub approach_m_s: Json,
     /// Vertical velocity shocks of corners ---, +--, -+-, ++-, --+, +-+, -++, +++; none where a limit has cut off the contact.
     pub delta_v_m_s: [Option<Json>; 8],
-    /// When it parts, infinite where the corner stays down.
+    /// The time at which the corner parts from the ground; infinite where it stays down.
     pub until_s: Json,
     /// Its index among the corners.
     #[serde(skip)]
@@ -118,12 +118,12 @@ pub struct Impact {
 }
 
 impl Impact {
-    /// Whether a limit has cut off the contact.
+    /// Returns whether a limit has cut off the contact.
     #[must_use]
     pub fn is_unfinished(&self) -> bool {
         self.delta_v_m_s[self.index].is_none()
     }
-    /// The largest shock of a corner, 0 where it is not known.
+    /// Returns the largest shock of a corner, 0 where it is not known.
     #[must_use]
     pub fn largest_m_s(&self) -> f64 {
         self.delta_v_m_s.into_iter().flatten().fold(0.0, |most: f64, v| most.max(v.0.abs()))

@@ -1,4 +1,4 @@
-//! One drop of a plate in time: by instant impacts, without gravity or with it, or with contacts that take time.
+//! This module follows one drop of a plate in time: by instant impacts, without gravity or with it, or with contacts that take time.
 
 use clatter::{Corner, PlateStart};
 use clatter_flight::{Model as Physics, PlateMotion, PlateScene, Stop};
@@ -11,50 +11,50 @@ use crate::{Error, Json, neat, on_plate};
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Answer {
-    /// What was kept of the drop.
+    /// The model of the drop.
     pub model: &'static str,
-    /// From edge to edge.
+    /// The length from edge to edge.
     pub length_m: Json,
-    /// From edge to edge.
+    /// The width from edge to edge.
     pub width_m: Json,
     /// Radii of gyration along the length and along the width.
     pub gyration_m: [Json; 2],
-    /// In half-lengths and half-widths from the middle.
+    /// The position of the center of mass, in half-lengths and half-widths from the middle.
     pub center_of_mass: [Json; 2],
     /// Coefficient of restitution.
     pub e: Json,
-    /// From which it fell, where that was given.
+    /// The height from which it fell, where that was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<Json>,
-    /// At the first touch.
+    /// The speed at the first touch.
     pub speed_m_s: Json,
     /// The steepest slope.
     pub tilt_deg: Json,
-    /// None of a plate that falls level.
+    /// The direction of the tilt; none of a plate that falls level.
     pub direction_deg: Option<Json>,
     /// Rates of the slopes along length and width at the first touch; left out where it does not turn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spin_rad_s: Option<[Json; 2]>,
     /// Heights of b and d as a touches.
     pub gaps_m: [Json; 2],
-    /// Of gravity.
+    /// The acceleration of gravity.
     pub gravity_m_s2: Json,
-    /// Where contacts take time.
+    /// The contacts, where they take time.
     #[serde(flatten)]
     pub contact: Option<ContactAnswer>,
-    /// Until which it was followed, where that was limited.
+    /// The time until which the drop was followed, where that was limited.
     pub time_limit_s: Option<Json>,
-    /// Strikes followed at most.
+    /// The largest number of strikes followed.
     pub impact_limit: usize,
-    /// The places asked for.
+    /// The requested places.
     pub at: Vec<[Json; 2]>,
     /// Largest velocity shocks of corners a, b, c and d, in all strikes.
     pub largest_delta_v_m_s: [Json; 4],
-    /// The same at the places asked for.
+    /// The same at the requested places.
     pub largest_delta_v_at_m_s: Vec<Json>,
     /// The strikes.
     pub impacts: Impacts,
-    /// Why the motion ends.
+    /// The reason why the motion ends.
     #[serde(serialize_with = "super::stop")]
     pub stop: Stop,
 }
@@ -63,28 +63,28 @@ pub struct Answer {
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Impact {
-    /// From 1.
+    /// The number of the strike, from 1.
     pub number: usize,
     /// The corner that strikes.
     pub corner: char,
-    /// Since the first touch.
+    /// The time since the first touch.
     pub time_s: Json,
     /// Velocity of the corner just before.
     pub approach_m_s: Json,
     /// Velocity shocks of corners a, b, c and d; none, as those at places, where the contact is unfinished.
     pub delta_v_m_s: [Option<Json>; 4],
-    /// Velocity shocks at the places asked for.
+    /// Velocity shocks at the requested places.
     pub delta_v_at_m_s: Vec<Option<Json>>,
-    /// Where contacts take time: when this one ends, infinite where the corner stays down.
+    /// The end of the contact, where contacts take time; infinite where the corner stays down.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub until_s: Option<Json>,
-    /// Whether a limit has cut off the contact.
+    /// True where a limit has cut off the contact.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub unfinished: bool,
 }
 
 impl Impact {
-    /// The largest shock of a corner, 0 where it is not known.
+    /// Returns the largest shock of a corner, 0 where it is not known.
     #[must_use]
     pub fn largest_m_s(&self) -> f64 {
         self.delta_v_m_s.into_iter().flatten().fold(0.0, |most: f64, v| most.max(v.0.abs()))
@@ -96,7 +96,7 @@ impl Impact {
 pub struct Impacts {
     strikes: Vec<Strike>,
     at: Vec<[f64; 2]>,
-    /// Whether a limit has ended the motion.
+    /// True where a limit has ended the motion.
     cut: bool,
 }
 
@@ -107,12 +107,12 @@ struct Strike {
     time_s: f64,
     approach_m_s: f64,
     delta_v_m_s: [f64; 4],
-    /// Where the contact takes time.
+    /// The end of the contact, where it takes time.
     until_s: Option<f64>,
 }
 
 impl Strike {
-    /// At a place in half-sides: the plate stays plane.
+    /// Returns the shock at a place in half-sides: the plate stays plane.
     fn delta_v_at(&self, [x, y]: [f64; 2]) -> f64 {
         let [a, b, c, d] = self.delta_v_m_s;
         0.25 * ((1.0 - y) * ((1.0 - x) * a + (1.0 + x) * b) + (1.0 + y) * ((1.0 - x) * d + (1.0 + x) * c))
@@ -120,12 +120,12 @@ impl Strike {
 }
 
 impl Impacts {
-    /// How many there are.
+    /// Returns the number of strikes.
     #[must_use]
     pub fn count(&self) -> usize {
         self.strikes.len()
     }
-    /// From the first strike on.
+    /// Returns the strikes from the first on.
     pub fn iter(&self) -> impl Iterator<Item = Impact> + '_ {
         self.strikes.iter().enumerate().map(|(i, strike)| {
             let unfinished = self.cut && strike.until_s.is_some_and(f64::is_infinite);
@@ -153,14 +153,14 @@ impl Serialize for Impacts {
     }
 }
 
-/// What was followed of a drop.
+/// The followed motion of a drop.
 struct Followed {
     strikes: Vec<Strike>,
     stop: Stop,
     contact: Option<ContactAnswer>,
 }
 
-/// Strikes that are followed without gravity unless more are asked for.
+/// The number of strikes that are followed without gravity unless more are requested.
 const OF_MAP: usize = 1000;
 
 /// Follows one drop of a plate.
@@ -188,7 +188,7 @@ pub(super) fn answer(question: &Question, scene: PlateScene, physics: Physics) -
     };
     let impacts = Impacts { strikes, at: at.clone(), cut: is_cut(&stop) };
     let (limit_s, is_tilted) = (scene.time_limit_s(), scene.gaps_m().iter().any(|gap| *gap > 0.0));
-    // As it rises from its lowest corner, which is a.
+    // The direction is that in which the plate rises from its lowest corner, which is a.
     let (sin, cos) = libm::sincos(drop.direction_rad);
     let direction_deg = neat(libm::atan2(sin.abs(), cos.abs()).to_degrees());
     Ok(Answer {
@@ -230,7 +230,7 @@ fn followed(motion: &PlateMotion) -> Followed {
     Followed { strikes: strikes.collect(), stop: motion.stop, contact }
 }
 
-/// Without gravity: straight lines and impulses.
+/// Follows the drop without gravity: straight lines and impulses.
 fn by_map(scene: &PlateScene, center_of_mass: [f64; 2], e: f64) -> Result<Followed, clatter::Error> {
     let ([kx, ky], [length, width]) = (scene.plate().gyration_m(), scene.plate().sides_m());
     let plate = clatter::Plate::off_center([kx / (0.5 * length), ky / (0.5 * width)], center_of_mass, e)?;

@@ -1,4 +1,4 @@
-//! The damage boundary of a pulse or a record: which velocity changes and accelerations of a shock a part does not stand.
+//! This module finds the damage boundary of a pulse or a record: the velocity changes and accelerations of a shock that damage a part.
 //!
 //! ```
 //! use clatter_answer::spectrum::boundary::Boundary;
@@ -23,29 +23,29 @@ use crate::shape_name;
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Boundary {
-    /// Of which shape, or of which record.
+    /// The shape of the pulse, or the name of the record.
     pub of: String,
-    /// In m/s; none where velocities cancel.
+    /// The critical velocity change in m/s; none where velocities cancel.
     pub critical_velocity_change: Option<f64>,
-    /// In m/s².
+    /// The critical acceleration in m/s².
     pub critical_acceleration: f64,
-    /// In m/s; none where velocities cancel.
+    /// The velocity change at the knee in m/s; none where velocities cancel.
     pub knee_velocity_change: Option<f64>,
     /// Velocity changes and accelerations.
     pub curve: Vec<(f64, f64)>,
-    /// Of the shock.
+    /// The velocity change of the shock.
     pub velocity_change: f64,
-    /// Of the shock.
+    /// The acceleration of the shock.
     pub acceleration: f64,
-    /// What the part stands of the shock.
+    /// The margin of the part for the shock.
     pub margin: Margin,
 }
 
-/// Points of the damage boundary between the critical velocity change and the knee.
+/// The number of points of the damage boundary between the critical velocity change and the knee.
 const BOUNDARY_POINTS: usize = 200;
 
 impl Boundary {
-    /// Of a pulse.
+    /// Finds the damage boundary of a pulse.
     ///
     /// # Errors
     /// An amplitude or a duration that is none.
@@ -63,10 +63,10 @@ impl Boundary {
         })
     }
 
-    /// Of a channel of a record.
+    /// Finds the damage boundary of a channel of a record.
     ///
     /// # Errors
-    /// A history without a boundary, or a frequency that its samples do not tell.
+    /// Fails for a history without a boundary, or a frequency that its samples do not cover.
     pub fn of_channel(
         channel: &Channel,
         between: Between,
@@ -95,7 +95,7 @@ impl Boundary {
     }
 }
 
-/// The area below straight lines, in m/s.
+/// Returns the area below straight lines, in m/s.
 fn velocity_change(points: &[(f64, f64)]) -> f64 {
     points.windows(2).map(|pair| (pair[1].0 - pair[0].0) * 0.5 * (pair[0].1 + pair[1].1)).sum()
 }

@@ -1,4 +1,4 @@
-//! A spectrum for programs.
+//! This module writes a spectrum for programs.
 
 use clatter_assess::units::Unit;
 use clatter_record::{Channel, Finding, TimeAxis};
@@ -42,7 +42,7 @@ struct AnswerJson<'a> {
     records: Vec<RecordJson<'a>>,
     #[serde(flatten)]
     first: Option<ColumnsJson<'a>>,
-    /// Of each channel and damping ratio, where there are several; of one channel the first is also above.
+    /// The spectra of each channel and damping ratio, where there are several; of one channel the first is also above.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     spectra: Vec<ColumnsJson<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -66,7 +66,7 @@ struct ColumnsJson<'a> {
     primary_negative: Vec<Json>,
     residual_positive: Vec<Json>,
     residual_negative: Vec<Json>,
-    /// Null where it is made of several.
+    /// The time of the peak; null where the spectrum is made of several.
     time_of_peak_s: Vec<Option<Json>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<LimitJson>,
@@ -117,13 +117,13 @@ struct RecordJson<'a> {
     findings: Vec<String>,
 }
 
-/// Null where channels differ.
+/// The times of channels; null where channels differ.
 #[derive(Serialize)]
 struct TimesJson {
     samples: Option<usize>,
     start_s: Option<Json>,
     end_s: Option<Json>,
-    /// Null where the samples are uneven, too.
+    /// The step; null where the samples are uneven, too.
     step_s: Option<Json>,
 }
 
@@ -163,7 +163,7 @@ impl<'a> RecordJson<'a> {
 
 #[derive(Serialize)]
 struct LimitJson {
-    /// Null outside of the limit curve, as the margin is.
+    /// The allowed value; null outside of the limit curve, as the margin is.
     allowed: Vec<Option<Json>>,
     margin_db: Vec<Option<Json>>,
     worst: Option<WorstJson>,
@@ -201,7 +201,7 @@ struct EnvelopingJson {
     amplitude_m_s2: Json,
     duration_s: Json,
     velocity_change_m_s: Json,
-    /// By how much its spectrum is above.
+    /// The height of its spectrum above the enveloped one.
     mean_db: Json,
     most_db: Json,
     most_frequency_hz: Json,
@@ -223,16 +223,16 @@ impl EnvelopingJson {
 
 #[derive(Serialize)]
 struct RequiredJson {
-    /// Null outside of the required curve, as the deviation is.
+    /// The required level; null outside of the required curve, as the deviation is.
     level: Vec<Option<Json>>,
     deviation_db: Vec<Option<Json>>,
     lowest: Option<DeviationJson>,
     highest: Option<DeviationJson>,
-    /// Frequencies that are judged, and how many of them are below and above by more than the tolerance.
+    /// The number of frequencies that are compared, and how many of them are below and above by more than the tolerance.
     frequencies: usize,
     below: usize,
     above: usize,
-    /// Null where a part of the required curve is not judged, and what is judged is reached.
+    /// True where the spectrum reaches the required curve; null where a part of the curve is not covered, and the covered part is reached.
     reached: Option<bool>,
 }
 
@@ -273,7 +273,7 @@ impl RequiredJson {
 #[derive(Serialize)]
 struct BoundaryJson<'a> {
     shape: &'a str,
-    /// Null where both directions cancel, as the knee.
+    /// The critical velocity change; null where both directions cancel, as the knee.
     critical_velocity_change_m_s: Option<Json>,
     critical_acceleration_m_s2: Json,
     knee_velocity_change_m_s: Option<Json>,

@@ -1,4 +1,4 @@
-//! The answer of a study, and its JSON.
+//! This module holds the answer of a study, and its JSON.
 
 use clatter_assess::scatter::Scatter;
 use clatter_assess::{LimitKind, ProductFile, Unit, Verdict};
@@ -7,13 +7,13 @@ use serde::{Serialize, Serializer};
 use super::Study;
 use crate::{Json, scatter};
 
-/// What came of all rows of a study.
+/// The result of all rows of a study.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Answer<'a> {
     /// The study.
     pub study: &'a Study,
-    /// Of all intervals.
+    /// The confidence of all intervals.
     pub confidence: f64,
     /// The share of drops that all parts of each product are to survive.
     pub target: Option<f64>,
@@ -28,11 +28,11 @@ pub struct Member {
     pub values: Vec<String>,
     /// The product.
     pub file: ProductFile,
-    /// What came of it.
+    /// The result of the product.
     pub outcome: Outcome,
 }
 
-/// What came of a product.
+/// The result of a product.
 #[derive(Debug, Clone)]
 pub enum Outcome {
     /// Its drops.
@@ -46,22 +46,22 @@ pub enum Outcome {
 pub struct SearchedLimit {
     /// The part, by its index in the file.
     pub component: usize,
-    /// Which limit.
+    /// The kind of limit.
     pub limit: LimitKind,
-    /// What the file allows; none of a damage boundary.
+    /// The allowed value of the file; none of a damage boundary.
     pub allowed: Option<f64>,
-    /// What the worst drop asks; none where none was answered, and of a damage boundary.
+    /// The demand of the worst drop; none where no drop has an answer, and of a damage boundary.
     pub demand: Option<f64>,
-    /// What no drop passes, by energy.
+    /// The bound by energy, which no drop exceeds.
     pub bound: Option<f64>,
-    /// Allowed over demand, less 1.
+    /// The allowed value over the demand, less 1.
     pub margin: Option<f64>,
-    /// Whether it holds.
+    /// The verdict on the limit.
     pub verdict: Verdict,
 }
 
 impl Member {
-    /// Whether it holds: each limit is safe, and the interval of the survival lies above the target, if there is one.
+    /// Returns whether the product holds: each limit is safe, and the interval of the survival lies above the target, if there is one.
     #[must_use]
     pub fn holds(&self, target: Option<f64>) -> bool {
         match &self.outcome {
@@ -72,7 +72,7 @@ impl Member {
 }
 
 impl Answer<'_> {
-    /// Whether all of its products hold.
+    /// Returns whether all products of the study hold.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.members.iter().all(|member| member.holds(self.target))

@@ -1,4 +1,4 @@
-//! All rows of a study, in order, to its answer.
+//! This module takes in all rows of a study, in order, and makes its answer.
 
 use clatter_assess::scatter::{PartRow, Recount};
 use clatter_assess::{Component, LimitKind, ProductFile, Verdict};
@@ -6,7 +6,7 @@ use clatter_assess::{Component, LimitKind, ProductFile, Verdict};
 use super::answer::{Answer, Member, Outcome, SearchedLimit};
 use super::{Error, Study, in_si};
 
-/// Takes in the rows of a study in order; what it holds does not grow with the drops of a product.
+/// Takes in the rows of a study in order; its memory does not grow with the drops of a product.
 #[derive(Debug)]
 pub struct Merge<'a> {
     study: &'a Study,
@@ -103,19 +103,19 @@ impl<'a> Merge<'a> {
         Ok(())
     }
 
-    /// The values of a product, without quotes.
+    /// Returns the values of a product, without quotes.
     fn values(&self, member: u64) -> Vec<String> {
         let values = self.study.family.values(member);
         values.into_iter().map(|value| value.trim_matches(['"', '\'']).to_owned()).collect()
     }
 
-    /// How many rows were taken in.
+    /// Returns the number of rows that were taken in.
     #[must_use]
     pub fn taken(&self) -> u64 {
         self.next
     }
 
-    /// What came of all rows.
+    /// Returns the result of all rows.
     ///
     /// # Errors
     /// [`Error::Parts`] where rows are missing.
@@ -129,7 +129,7 @@ impl<'a> Merge<'a> {
     }
 }
 
-/// What a row tells of a part.
+/// Reads the cells of a part from a row.
 fn of_part(component: &Component, cells: &mut impl Iterator<Item = f64>) -> Option<PartRow> {
     let mut cell = || cells.next().unwrap_or(f64::NAN);
     let (utilization, open) = (cell(), cell() > 0.0);

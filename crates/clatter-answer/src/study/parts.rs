@@ -1,4 +1,4 @@
-//! What the shards of a study say of themselves, and whether they are those of one plan, each once.
+//! This module reads the notes in the shards of a study, and checks that the shards are those of one plan, each once.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,9 +8,9 @@ use super::{Error, Study};
 /// A part of a study: one of so many of about equal size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Which, from 1.
+    /// The number of the shard, from 1.
     pub index: u64,
-    /// Of how many.
+    /// The number of shards.
     pub of: u64,
 }
 
@@ -39,7 +39,7 @@ const SHARD: &str = "clatter.shard";
 const ROWS: &str = "clatter.rows";
 
 impl Study {
-    /// What the file of a shard says of itself, by name: plan and product as they were read, the version, the seed, the shard and its
+    /// Returns the notes in the file of a shard, by name: plan and product as they were read, the version, the seed, the shard and its
     /// rows, of which the last one is left out.
     ///
     /// # Errors
@@ -97,13 +97,13 @@ impl Parts {
         Ok(())
     }
 
-    /// Plan and product of all.
+    /// Returns the plan and the product of all shards.
     #[must_use]
     pub fn plan_and_product(&self) -> Option<(&str, &str)> {
         self.first.as_ref().map(|[_, plan, product]| (plan.as_str(), product.as_str()))
     }
 
-    /// The files in the order of their rows, by their place in the list, with their rows.
+    /// Returns the files in the order of their rows, by their place in the list, with their rows.
     ///
     /// # Errors
     /// [`Error::Parts`] where they are not all rows of the study, each once.
@@ -139,7 +139,7 @@ impl Parts {
         Ok(order.into_iter().map(|i| (i, self.list[i].2.clone())).collect())
     }
 
-    /// What is missing: rows, and the first shard that has them where all are of one size.
+    /// Names the missing part: the rows, and the first shard that has them where all shards are of one size.
     fn lacks(&self, study: &Study, rows: &Range<u64>) -> String {
         let all = study.rows();
         let mut of = self.list.iter().map(|(_, shard, _)| shard.of);
@@ -154,7 +154,7 @@ impl Parts {
     }
 }
 
-/// The first line in which two texts differ, of each.
+/// Returns the first line in which two texts differ, from each of them.
 fn difference(a: &str, b: &str) -> [String; 2] {
     let (mut a, mut b) = (a.lines(), b.lines());
     loop {

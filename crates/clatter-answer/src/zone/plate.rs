@@ -1,4 +1,4 @@
-//! Where on a plate no velocity shock exceeds a threshold: a polygon.
+//! This module finds where on a plate no velocity shock exceeds a threshold: a polygon.
 //!
 //! ```
 //! use clatter::Plate;
@@ -22,19 +22,19 @@ pub struct Question {
     pub plate: Plate,
     /// Velocity shocks that a part survives, in v0.
     pub thresholds: Vec<f64>,
-    /// Heights of corners b and d as a touches, in h0, where one drop alone is asked for.
+    /// Heights of corners b and d as a touches, in h0, where one drop alone is requested.
     pub height_gap: Option<[f64; 2]>,
 }
 
 impl Question {
-    /// In any direction of tilt, any corner first.
+    /// Requests the zones for any direction of tilt, any corner first.
     #[must_use]
     pub fn new(plate: Plate, thresholds: Vec<f64>) -> Self {
         Self { plate, thresholds, height_gap: None }
     }
 }
 
-/// Strikes that are followed in every direction, and in one drop.
+/// The number of strikes that are followed in every direction, and in one drop.
 const OF_EACH: usize = 40;
 const OF_ONE: u64 = 1000;
 
@@ -48,15 +48,15 @@ pub struct Answer {
     pub center_of_mass: [Json; 2],
     /// Coefficient of restitution.
     pub e: Json,
-    /// Of the one drop that the zones are of, in h0; none for all directions.
+    /// The heights of corners b and d in the one drop that the zones are of, in h0; none for all directions.
     pub height_gap: Option<[Json; 2]>,
     /// Largest shocks of corners a, b, c and d in their own strikes, in v0.
     pub struck: [Json; 4],
-    /// What impacts that were not followed give a corner at most, in v0.
+    /// The bound on the shock of a corner by impacts that were not followed, in v0.
     pub later: Json,
-    /// Whether that makes no zone smaller.
+    /// True where that bound makes no zone smaller.
     pub proven: bool,
-    /// One for each threshold.
+    /// The zones: one for each threshold.
     pub zones: Vec<Zone>,
     /// The largest shocks of every place.
     #[serde(skip)]
@@ -67,9 +67,9 @@ pub struct Answer {
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Zone {
-    /// In v0.
+    /// The threshold, in v0.
     pub threshold: Json,
-    /// How much of the plate that is.
+    /// The share of the plate that is safe: none, a part or all.
     #[serde(serialize_with = "super::extent")]
     pub extent: Extent,
     /// Its corners, in half-lengths and half-widths from the middle.

@@ -35,7 +35,7 @@ impl Random {
     }
 }
 
-/// A product with a part that is mounted rigidly, all limits of which are set.
+/// Returns a product with a part that is mounted rigidly, all limits of which are set.
 fn product(r: &mut Random) -> String {
     let sides = r.one_of(&[1, 2, 3, 3]);
     let (is_box, is_plate) = (sides == 3, sides == 2);
@@ -113,7 +113,7 @@ fn product(r: &mut Random) -> String {
     text
 }
 
-/// The largest demand over its bound of one drop of a random product, and the file; none of a drop that is refused.
+/// Returns the largest demand over its bound of one drop of a random product, and the file; none of a drop that is refused.
 fn tightest(seed: u64) -> Option<([f64; 5], String)> {
     let mut r = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
     let text = product(&mut r);
@@ -135,8 +135,8 @@ fn tightest(seed: u64) -> Option<([f64; 5], String)> {
     Some((most, text))
 }
 
-/// What one drop of a random product asks after its first landing over what was told as it was up, at most: of a part that is mounted
-/// rigidly and of a suspended one; none of a drop that is refused or over by then.
+/// Returns the demand of one drop of a random product after its first landing over the bound reported while it was up, at most: of a part
+/// that is mounted rigidly and of a suspended one; none of a drop that is refused or over by then.
 fn later(seed: u64) -> Option<([f64; 2], String)> {
     let mut r = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
     let text = product(&mut r);
@@ -169,8 +169,8 @@ fn later(seed: u64) -> Option<([f64; 2], String)> {
     Some(([hard, soft], text))
 }
 
-/// What comes after the first landing is within what is told as the product is up: of rigid parts always, of suspended ones but for one in
-/// three hundred whose shocks come in step.
+/// Checks that the demand after the first landing is within the bound reported while the product is up: of rigid parts always, of suspended
+/// ones but for one in three hundred whose shocks come in step.
 fn later_landings_stay_within(products: u64) {
     let all: Vec<([f64; 2], String)> = (0..products).into_par_iter().filter_map(later).collect();
     for (k, name) in ["rigid", "suspended"].into_iter().enumerate() {

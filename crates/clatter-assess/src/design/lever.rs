@@ -1,4 +1,4 @@
-//! What a designer can change, how far, and what a change does.
+//! This module defines the levers that a designer can change, the bounds of a change, and its effect.
 
 use crate::{Component, ComponentAssessment, Error, LimitKind, Mount, Product, Spread, units};
 
@@ -9,23 +9,24 @@ pub enum Lever {
     InertiaRatio,
     /// Its coefficient of restitution e, by the casing; a range moves as a whole, cut at the bounds.
     Restitution,
-    /// Where the part is.
+    /// The place of the part.
     Position,
-    /// Where the part is across a plate.
+    /// The place of the part across a plate.
     Across,
     /// The part's natural frequency; a range is multiplied as a whole.
     Frequency,
     /// The part's damping ratio.
     Damping,
-    /// How long a lone contact of an end takes, by a bumper; a range is multiplied as a whole.
+    /// The time of a lone contact of an end, by a bumper; a range is multiplied as a whole.
     ContactTime,
-    /// What a limit allows, by a stronger part or more room; a range is multiplied as a whole, of a damage boundary its critical
+    /// The allowed value of a limit, by a stronger part or more room; a range is multiplied as a whole, of a damage boundary its critical
     /// velocity change.
     Limit(LimitKind),
 }
 
 impl Lever {
-    /// Those of a part: the inertia ratio of a bar, the place across a plate, the contact time where the file gives one, and each of its limits.
+    /// Returns the levers of a part: the inertia ratio of a bar, the place across a plate, the contact time where the file gives one, and
+    /// each of its limits.
     #[must_use]
     pub fn of(product: &Product, component: &Component) -> Vec<Self> {
         let mut levers = if product.body.is_wide() {
@@ -39,8 +40,8 @@ impl Lever {
         levers
     }
 
-    /// `inertia-ratio`, `restitution`, `position`, `position-across`, `natural-frequency`, `damping-ratio`, `contact-time`; of a limit `acceleration-limit`,
-    /// `rattle-space`, …
+    /// Returns its name: `inertia-ratio`, `restitution`, `position`, `position-across`, `natural-frequency`, `damping-ratio`,
+    /// `contact-time`; of a limit `acceleration-limit`, `rattle-space`, …
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -54,7 +55,7 @@ impl Lever {
             Self::Limit(kind) => kind.lever(),
         }
     }
-    /// What it is called in tables and pages.
+    /// Returns its name in tables and pages.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -68,7 +69,7 @@ impl Lever {
             Self::Limit(kind) => kind.allowed(),
         }
     }
-    /// SI unit of its values: empty, `m`, `Hz`, `s` or that of the limit.
+    /// Returns the SI unit of its values: empty, `m`, `Hz`, `s` or that of the limit.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -79,7 +80,7 @@ impl Lever {
             Self::Limit(kind) => kind.unit().name(),
         }
     }
-    /// The unit in which the file writes it, where it has one and is known.
+    /// Returns the unit in which the file writes it, where it has one and is known.
     #[must_use]
     pub fn written_in(self, product: &Product, component: &Component) -> Option<&'static units::Unit> {
         match (self, &component.mount) {
@@ -93,7 +94,7 @@ impl Lever {
     }
 }
 
-/// How far a designer can go. A place is bounded by the product itself.
+/// The bounds of what a designer can change. A place is bounded by the product itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// Inertia ratios that can be built; below 0 the mass would be outside of the body.
@@ -111,7 +112,7 @@ pub struct Bounds {
 }
 
 impl Default for Bounds {
-    /// 0 ≤ q ≤ 0.9 and 0.05 ≤ e ≤ 0.9 (neither all mass in the center nor very dead or very bouncy casings can be
+    /// Takes 0 ≤ q ≤ 0.9 and 0.05 ≤ e ≤ 0.9 (neither all mass in the center nor very dead or very bouncy casings can be
     /// built: section 6 of the paper), frequencies a factor of 4 either way, damping ratios up to 0.5, contacts of 0.2 ms to 2 ms (at
     /// 5 m/s an edge then gives by some 5 mm), limits up to 4 times as high.
     fn default() -> Self {
@@ -160,7 +161,7 @@ impl Bounds {
 /// A change of one lever: low and high end of its value before and after, the same where it is one value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
-    /// Which.
+    /// The lever that is changed.
     pub lever: Lever,
     /// Before.
     pub from: [f64; 2],
@@ -169,7 +170,7 @@ pub struct Change {
     pub to: [f64; 2],
 }
 
-/// What one lever can do for one part.
+/// The effect of one lever on one part.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
     /// The smallest change that makes it safe with the margin, and what the assessment of the file with these very values says.
@@ -193,9 +194,9 @@ pub enum Outcome {
 /// One lever and what it can do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remedy {
-    /// Which.
+    /// The lever.
     pub lever: Lever,
-    /// What it can do.
+    /// The effect of the lever.
     pub outcome: Outcome,
 }
 
@@ -208,21 +209,21 @@ pub struct Together {
     pub after: Box<ComponentAssessment>,
 }
 
-/// What would make one failing part safe.
+/// The remedies that would make one failing part safe.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remedies {
     /// Index of the component in the file.
     pub component: usize,
     /// Each lever alone, in the order of [`Lever::of`].
     pub levers: Vec<Remedy>,
-    /// Where no lever alone is enough, the two that are with the smallest changes.
+    /// The two levers that are enough with the smallest changes, where no lever alone is.
     pub pair: Option<Together>,
-    /// Where no two are enough either, how near one gets.
+    /// The nearest result, where no two levers are enough either.
     pub nearest: Option<Together>,
 }
 
 impl Product {
-    /// The product with another inertia ratio: the radius of gyration that has it, the arms as they are.
+    /// Returns the product with another inertia ratio: the radius of gyration that has it, the arms as they are.
     ///
     /// # Formula
     /// q² (L_a² + ρ²)(L_b² + ρ²) = (L_a L_b − ρ²)², a quadratic in ρ², whose smaller root has q > 0.

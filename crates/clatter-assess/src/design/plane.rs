@@ -1,4 +1,4 @@
-//! Which (q, e) make the parts safe, over the design plane of the paper.
+//! This module finds the (q, e) that make the parts safe, over the design plane of the paper.
 
 use std::ops::Range;
 
@@ -18,19 +18,19 @@ pub struct Plane {
     pub q: f64,
     /// Its coefficients of restitution.
     pub e: [f64; 2],
-    /// What can be built.
+    /// The bounds of products that can be built.
     pub bounds: Bounds,
     /// The model that answered: [`Model::Map`] is the closed form.
     pub model: Model,
-    /// What the closed form gets wrong at most, in some drops all over the plane; infinite where it or the fullest model has no answer.
+    /// The largest error of the closed form, in some drops all over the plane; infinite where it or the fullest model has no answer.
     pub closed_form_error: f64,
     /// Values of q, and of e, of a grid.
     pub side: usize,
-    /// In the order of the file.
+    /// The components, in the order of the file.
     pub components: Vec<PlaneComponent>,
 }
 
-/// Where one component is safe.
+/// The region in which one component is safe.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneComponent {
     /// Its name.
@@ -39,11 +39,11 @@ pub struct PlaneComponent {
     pub border: Border,
 }
 
-/// How the border is known.
+/// The form in which the border is known.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Border {
-    /// As curves e(q), below which the component is safe; without any it is nowhere. By the closed form, for limits on velocity shocks
-    /// and turning of products whose center of mass is in the middle and that may touch with either end first.
+    /// The border as curves e(q), below which the component is safe; without any it is nowhere. By the closed form, for limits on velocity
+    /// shocks and turning of products whose center of mass is in the middle and that may touch with either end first.
     Exact(Vec<Vec<Point>>),
     /// Margins allowed/demand − 1 on a grid of [`Plane::side`] values of q and of e from 0 to 1, e fastest; none where the model has
     /// no answer and beyond what can be built. The drops are those of [`extremes`].
@@ -61,8 +61,8 @@ impl Plane {
     /// The same of a product with a contact time, whose drops cost ten times as much to follow: the plane still takes some seconds.
     pub const SIDE_OF_CONTACTS: usize = 21;
 
-    /// The border of every component within what can be built. Limits are at their least values, and all ranges but that of the
-    /// restitution are those of the file.
+    /// Finds the border of every component within the bounds of products that can be built. Limits are at their least values, and all
+    /// ranges but that of the restitution are those of the file.
     ///
     /// # Errors
     /// As [`extremes`] and [`Bounds::check`].
@@ -121,7 +121,7 @@ impl Plane {
         })
     }
 
-    /// Value k of q, or of e, of the grid.
+    /// Returns value k of q, or of e, of the grid.
     #[must_use]
     pub fn value(&self, k: usize) -> f64 {
         value(k, self.side)
@@ -134,7 +134,7 @@ fn value(k: usize, side: usize) -> f64 {
     share
 }
 
-/// The values of a grid that a range within [0, 1] lies between; two at least, for a cell.
+/// Returns the values of a grid that a range within [0, 1] lies between; two at least, for a cell.
 fn within([lo, hi]: [f64; 2], side: usize) -> Range<usize> {
     #[expect(clippy::cast_precision_loss, reason = "a small count")]
     let steps = (side - 1) as f64;
@@ -145,7 +145,7 @@ fn within([lo, hi]: [f64; 2], side: usize) -> Range<usize> {
     lo..hi.max(lo + 1) + 1
 }
 
-/// The limits of a component as goals in the plane; `None` where they are none.
+/// Returns the limits of a component as goals in the plane; `None` where they are none.
 fn goals(file: &ProductFile, component: &Component) -> Option<Vec<Goal>> {
     let body = &file.product.body;
     let [a, b] = body.arms_m();

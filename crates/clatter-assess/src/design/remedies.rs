@@ -20,16 +20,17 @@ const TRIES: u32 = 8;
 const SHARES: u32 = 16;
 
 impl ProductFile {
-    /// For every component that is not safe with a margin, and every lever alone, the smallest change that makes it so; where none
+    /// Finds, for every component that is not safe with a margin, and every lever alone, the smallest change that makes it so; where none
     /// does, the best pair of changes, or how near one gets.
     ///
     /// # Method
     /// Values are tried outward from the present one, in steps of 1/48 of the bounds (frequencies: of their logarithm); the
     /// step in which safety begins is bisected to 1/256. Every value is rounded before it is assessed to what can be specified,
     /// as [`Change::to`] says: [`assess_to`](Self::assess_to) finds the part safe with the margin, of the file with the value as it is
-    /// printed; by both contact laws where contacts take time and the file names none. No mass is put outside of the body, ρ² ≤ `L_a L_b`. A value is passed over at once where a drop that broke the part before still does, and a search for its worst drop
-    /// is left as soon as one breaks it: what takes its time is to find nothing. So the first value that no known drop breaks is
-    /// searched, and what breaks it tells of the next. Two levers go from their present values to the best of each together.
+    /// printed; by both contact laws where contacts take time and the file names none. No mass is put outside of the body, ρ² ≤ `L_a L_b`.
+    /// A value is passed over at once where a drop that broke the part before still does, and a search for its worst drop is left as soon
+    /// as one breaks it: what takes its time is to find nothing. So the first value that no known drop breaks is searched, and what breaks
+    /// it tells of the next. Two levers go from their present values to the best of each together.
     ///
     /// A box is searched in all of its drops, one after the other, until one breaks the part.
     ///
@@ -44,7 +45,7 @@ impl ProductFile {
         self.remedies_watched(assessment, bounds, margin, &|_, _| true)
     }
 
-    /// The same, watched. Where `watch` says to stop, what was found by then is answered: levers that were not tried to their end are
+    /// Finds the same, watched. Where `watch` says to stop, the results so far are returned: levers that were not tried to their end are
     /// [`Outcome::Stopped`].
     ///
     /// # Errors
@@ -68,7 +69,7 @@ impl ProductFile {
         let levers = |i: usize| Lever::of(&self.product, &self.components[i]);
         let tasks: Vec<_> =
             failing.flat_map(|(i, found)| levers(i).into_iter().map(move |lever| (i, found, lever))).collect();
-        // Each lever of each component alone, and then beside the others.
+        // Each lever of each component is tried alone, and then together with the others.
         let (all, done) = (2 * tasks.len(), AtomicUsize::new(0));
         let go_on = || watch(done.load(Ordering::Relaxed).min(all), all);
         let does = |steps: usize| {
@@ -109,18 +110,18 @@ impl ProductFile {
 #[derive(Clone, Copy)]
 pub(super) struct Case<'a> {
     pub(super) file: &'a ProductFile,
-    /// Which component of the file.
+    /// The number of the component in the file.
     pub(super) number: usize,
     pub(super) component: &'a Component,
     pub(super) accuracy: Accuracy,
     pub(super) bounds: &'a Bounds,
     pub(super) margin: f64,
-    /// Whether there is time.
+    /// Returns true as long as there is time.
     pub(super) go_on: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Case<'_> {
-    /// What one lever can do.
+    /// Finds the effect of one lever.
     ///
     /// # Errors
     /// [`Error::Stopped`].
@@ -129,7 +130,7 @@ impl Case<'_> {
             return Ok(Outcome::NoEffect);
         }
         let (here, [lo, hi]) = (self.here(lever), self.reach(lever));
-        // Where the present value is beyond the bounds, from the bound that is next to it.
+        // Where the present value is beyond the bounds, the search starts from the bound next to it.
         let start = here.clamp(lo, hi);
         let mut breakers = Breakers::of(self.file, self, found);
         let step = (hi - lo) / f64::from(STEPS);
@@ -156,7 +157,7 @@ impl Case<'_> {
         Ok(Outcome::Nowhere { bounds: [self.shown(lever, lo), self.shown(lever, hi)] })
     }
 
-    /// The best pair that is enough, and else how near one gets.
+    /// Finds the best pair that is enough, and else how near one gets.
     ///
     /// # Errors
     /// [`Error::Stopped`].
@@ -185,7 +186,7 @@ impl Case<'_> {
                 };
                 let changes = |k: u32| at(k).iter().map(|&(lever, x)| self.change(lever, x)).collect::<Vec<_>>();
                 let first = if let Some((least, _)) = &pair {
-                    // Of use where it takes a smaller share.
+                    // The second lever is of use where it takes a smaller share.
                     if *least > 1 { self.first(least - 1, None, &at, &mut breakers)? } else { None }
                 } else {
                     let room = nearest.as_ref().map(|nearest| self.file.least_margin(&nearest.after).min(self.margin));
@@ -207,7 +208,7 @@ impl Case<'_> {
         })
     }
 
-    /// The value of a lever, among some from bound to bound, that leaves the largest margin.
+    /// Returns the value of a lever, among some from bound to bound, that leaves the largest margin.
     fn best_of(
         &self,
         lever: Lever,
@@ -224,7 +225,7 @@ impl Case<'_> {
         for (_, k) in order {
             let least = best.as_ref().map(|(_, best)| room(best));
             let Some(after) = self.with_room(&[(lever, at(k))], least, breakers)? else { continue };
-            // Of two that are alike the one nearer to the upper bound.
+            // Of two that are alike the one nearer to the upper bound counts.
             let better = |(other, best): &(u32, ComponentAssessment)| {
                 room(&after).total_cmp(&room(best)).then(k.cmp(other)).is_gt()
             };
@@ -235,7 +236,7 @@ impl Case<'_> {
         Ok(best.map(|(k, after)| (lever, at(k), after)))
     }
 
-    /// Whether a limit of the part depends on a lever.
+    /// Returns whether a limit of the part depends on a lever.
     fn matters(&self, lever: Lever) -> bool {
         let kinds = self.component.limits.kinds();
         let suspended = matches!(self.component.mount, Mount::Suspended { .. });

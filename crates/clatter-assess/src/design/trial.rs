@@ -1,4 +1,4 @@
-//! Whether values of levers make a part safe, found by what breaks it.
+//! This module finds whether values of levers make a part safe, by the drops that break it.
 
 use super::lever::Lever;
 use super::remedies::Case;
@@ -7,7 +7,7 @@ use crate::search::{Ranges, Task};
 use crate::{ComponentAssessment, Error, Limit, LimitAssessment, ProductFile, Verdict, WorstCase};
 
 impl ProductFile {
-    /// The least margin of a part that was assessed, allowed/demand − 1: by both contact laws where contacts take time and the file
+    /// Returns the least margin of a part that was assessed, allowed/demand − 1: by both contact laws where contacts take time and the file
     /// names none, for a verdict counts with both then; infinite where no drop was answered.
     #[must_use]
     pub fn least_margin(&self, found: &ComponentAssessment) -> f64 {
@@ -18,12 +18,12 @@ impl ProductFile {
         found.limits.iter().map(of).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a part is safe with a margin.
+    /// Returns whether a part is safe with a margin.
     pub(super) fn is_enough(&self, found: &ComponentAssessment, margin: f64) -> bool {
         found.verdict == Verdict::Safe && self.least_margin(found) >= margin
     }
 
-    /// The same where every margin is known: of a change, drops that nothing answers show nothing.
+    /// Returns the same where every margin is known: of a change, drops that nothing answers show nothing.
     pub(super) fn is_known_enough(&self, found: &ComponentAssessment, margin: f64) -> bool {
         self.is_enough(found, margin) && found.limits.iter().all(|limit| limit.margin.is_some())
     }
@@ -36,7 +36,7 @@ const ALIKE: f64 = 1.0 + 1e-12;
 pub(super) struct Breakers(Vec<Breaker>);
 
 impl Breakers {
-    /// The worst cases of an assessment.
+    /// Returns the worst cases of an assessment.
     pub(super) fn of(file: &ProductFile, case: &Case<'_>, found: &ComponentAssessment) -> Self {
         let mut breakers = Self(Vec::new());
         breakers.learn(file, case, found);
@@ -57,10 +57,10 @@ impl Breakers {
     }
 }
 
-/// A product with a part that is changed, and what is asked of that.
+/// A product with a part that is changed, and the demands on that part.
 struct Changed {
     file: ProductFile,
-    /// Which part.
+    /// The number of the part.
     number: usize,
     /// Its drops.
     listed: Vec<Listed>,
@@ -74,7 +74,7 @@ impl Changed {
     }
 }
 
-/// What may be asked, as a share of the limit, that leaves a margin.
+/// Returns the largest demand, as a share of the limit, that leaves a margin.
 fn most(margin: f64) -> f64 {
     (1.0 + margin).recip()
 }
@@ -90,13 +90,13 @@ impl Case<'_> {
         file.ranges_of(&listed.drop, listed.base, &self.accuracy)
     }
 
-    /// The law by which a drop breaks the part.
+    /// Returns the law by which a drop breaks the part.
     fn by_law<'b>(&self, changed: &'b Changed, breaker: &Breaker) -> Ranges<'b> {
         let own = self.ranges(&changed.file, &changed.listed[breaker.listed]);
         if breaker.other_law { Ranges { law: own.law.other(), ..own } } else { own }
     }
 
-    /// Whether a drop that is known breaks the part with these values, or they cannot be had.
+    /// Returns whether a drop that is known breaks the part with these values, or they cannot be had.
     fn is_broken(&self, values: &[(Lever, f64)], breakers: &mut Breakers) -> bool {
         let Some(changed) = self.with(values) else { return true };
         let breaks = |breaker: &Breaker| {
@@ -111,7 +111,7 @@ impl Case<'_> {
         by.is_some()
     }
 
-    /// The most that known drops ask of the part with these values.
+    /// Returns the largest demand of known drops on the part with these values.
     pub(super) fn asked(&self, values: &[(Lever, f64)], breakers: &Breakers) -> f64 {
         let Some(changed) = self.with(values) else { return f64::INFINITY };
         let asked = breakers.0.iter().flat_map(|b| {
@@ -121,7 +121,7 @@ impl Case<'_> {
         asked.fold(0.0, f64::max)
     }
 
-    /// The part with these values, unless its margin is below `room`. What cannot be assessed is nothing to know of.
+    /// Returns the part with these values, unless its margin is below `room`. A part that cannot be assessed has no result.
     ///
     /// # Errors
     /// [`Error::Stopped`].
@@ -143,7 +143,7 @@ impl Case<'_> {
         self.searched(&changed, most, breakers)
     }
 
-    /// The part with these values, unless a drop is found that asks for more, by any law that its verdict counts with.
+    /// Returns the part with these values, unless a drop is found that demands more, by any law that its verdict counts with.
     fn searched(
         &self,
         changed: &Changed,
@@ -172,7 +172,7 @@ impl Case<'_> {
         }
     }
 
-    /// The part with these values, if it is safe with the margin.
+    /// Returns the part with these values, if it is safe with the margin.
     fn enough(
         &self,
         values: &[(Lever, f64)],
@@ -183,8 +183,8 @@ impl Case<'_> {
         Ok(found.filter(|found| self.file.is_known_enough(found, self.margin)).map(Box::new))
     }
 
-    /// The first step of those up to `last` that makes the part safe with the margin, where the steps before fail and those after do not;
-    /// `last` may be known. None where that one fails.
+    /// Finds the first step of those up to `last` that makes the part safe with the margin, where the steps before fail and those after do
+    /// not; `last` may be known. None where that one fails.
     ///
     /// # Errors
     /// [`Error::Stopped`].
@@ -196,7 +196,7 @@ impl Case<'_> {
         breakers: &mut Breakers,
     ) -> Result<Option<(u32, Box<ComponentAssessment>)>, Error> {
         let (mut short, mut enough) = (0, known.map(|after| (last, Box::new(after))));
-        // Whether the drops that are known tell where to look.
+        // The flag is true as long as the drops that are known show where to look.
         let mut guided = true;
         loop {
             let end = enough.as_ref().map_or(last, |(n, _)| *n);
@@ -229,7 +229,7 @@ impl Case<'_> {
         }
     }
 
-    /// Whether values are the same as they can be specified.
+    /// Returns whether values are the same as they can be specified.
     fn is_same(&self, some: &[(Lever, f64)], others: &[(Lever, f64)]) -> bool {
         let value = |&(lever, x): &(Lever, f64)| self.value(lever, x).map(f64::to_bits);
         some.iter().map(value).eq(others.iter().map(value))

@@ -5,7 +5,7 @@ use super::remedies::Case;
 use crate::{Damping, Law, Mount, Product, ProductFile, Spread};
 
 impl Case<'_> {
-    /// The present value, low and high end.
+    /// Returns the present value, low and high end.
     fn present(&self, lever: Lever) -> [f64; 2] {
         let of = |spread: &Spread| [spread.lo(), spread.hi()];
         let (product, component) = (&self.file.product, self.component);
@@ -22,12 +22,12 @@ impl Case<'_> {
         }
     }
 
-    /// The same as the lever counts: a range by its low end, what is multiplied by the logarithm of its factor.
+    /// Returns the present value as the lever counts: a range by its low end, a multiple by the logarithm of its factor.
     pub(super) fn here(&self, lever: Lever) -> f64 {
         if multiplied(lever) { 0.0 } else { self.present(lever)[0] }
     }
 
-    /// The bounds, as the lever counts.
+    /// Returns the bounds, as the lever counts.
     pub(super) fn reach(&self, lever: Lever) -> [f64; 2] {
         let [lo, hi] = self.present(lever);
         match lever {
@@ -48,7 +48,7 @@ impl Case<'_> {
         }
     }
 
-    /// A bound as it is shown.
+    /// Returns a bound as it is shown.
     pub(super) fn shown(&self, lever: Lever, x: f64) -> f64 {
         match lever {
             Lever::Restitution => x.clamp(self.bounds.e[0], self.bounds.e[1]),
@@ -61,7 +61,7 @@ impl Case<'_> {
         Change { lever, from: self.present(lever), to: self.value(lever, x) }
     }
 
-    /// What a value of the lever means, low and high end, as it can be specified.
+    /// Returns the quantity that a value of the lever means, low and high end, as it can be specified.
     pub(super) fn value(&self, lever: Lever, x: f64) -> [f64; 2] {
         let [lo, hi] = self.present(lever);
         let [lo, hi] = match lever {
@@ -79,13 +79,13 @@ impl Case<'_> {
         if lever == Lever::Restitution { rounded.map(|e| e.clamp(self.bounds.e[0], self.bounds.e[1])) } else { rounded }
     }
 
-    /// The side of the product along which a place is.
+    /// Returns the side of the product along which a place is.
     fn side_m(&self, lever: Lever) -> f64 {
         let [along, across] = self.file.product.sides_m();
         if lever == Lever::Across { across } else { along }
     }
 
-    /// To two digits in the unit of the file; a place to a hundredth of the decade of the side along it.
+    /// Rounds to two digits in the unit of the file; a place to a hundredth of the decade of the side along it.
     fn specified(&self, lever: Lever, si: f64, way: fn(f64) -> f64) -> f64 {
         let unit = lever.written_in(&self.file.product, self.component);
         let of_si = |x: f64| unit.map_or(x, |unit| unit.of_si(x));
@@ -95,7 +95,7 @@ impl Case<'_> {
         unit.map_or(rounded, |unit| unit.to_si(rounded))
     }
 
-    /// The product with about this inertia ratio, its radius of gyration in mm as it can be specified, and within the body.
+    /// Returns the product with about this inertia ratio, its radius of gyration in mm as it can be specified, and within the body.
     fn with_ratio(&self, q: f64) -> Option<Product> {
         let product = self.file.product.with_inertia_ratio(q).ok()?;
         let [a, b] = product.body.arms_m();
@@ -106,7 +106,7 @@ impl Case<'_> {
         Some(Product { body: product.body_with(gyration).ok()?, gyration_m, ..product })
     }
 
-    /// The file with these values; without its records, which a verdict is not made from.
+    /// Returns the file with these values; without its records, which a verdict is not made from.
     pub(super) fn changed(&self, values: &[(Lever, f64)]) -> Option<ProductFile> {
         let mut component = self.component.clone();
         let mut product = self.file.product.clone();
@@ -141,18 +141,18 @@ impl Case<'_> {
     }
 }
 
-/// The low ends of a range of places whose part of this room stays within.
+/// Returns the low ends of a range of places whose part of this room stays within.
 fn within(room_m: f64, range_m: f64) -> [f64; 2] {
     let most = 0.5 * room_m.max(0.0);
     [-most, (most - range_m).max(-most)]
 }
 
-/// Whether a lever multiplies what is there.
+/// Returns whether a lever multiplies the present value.
 fn multiplied(lever: Lever) -> bool {
     matches!(lever, Lever::Frequency | Lever::ContactTime | Lever::Limit(_))
 }
 
-/// A value to the second digit of a size.
+/// Rounds a value to the second digit of a size.
 fn to_digits(value: f64, size: f64, way: fn(f64) -> f64) -> f64 {
     if size == 0.0 {
         return value;
@@ -160,7 +160,7 @@ fn to_digits(value: f64, size: f64, way: fn(f64) -> f64) -> f64 {
     #[expect(clippy::cast_possible_truncation, reason = "a small exponent")]
     let step = 10_f64.powi(libm::log10(size.abs()).floor() as i32 - 1);
     let count = value / step;
-    // What is a multiple but for roundings is one.
+    // A value that is a multiple but for roundings counts as one.
     let nearest = count.round();
     let count = if (count - nearest).abs() < 1e-9 * nearest.abs().max(1.0) { nearest } else { way(count) };
     format!("{:.12e}", count * step).parse().unwrap_or(value) + 0.0

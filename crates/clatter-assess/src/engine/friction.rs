@@ -16,13 +16,14 @@ impl PlaceHistory<'_> {
         of_parts.unwrap_or_else(|| self.friction(limit, None))
     }
 
-    /// Returns the utilization that [`FRICTION`] may add to what this drop asks of a limit; 0 of a bar, of a plate, of a part along the
-    /// thickness of a box and of the turning.
+    /// Returns the utilization that [`FRICTION`] may add to the demand of this drop for a limit; 0 of a bar, of a plate, of a part along
+    /// the thickness of a box and of the turning.
     ///
     /// # Formula
-    /// Each corner is pushed across the vertical by at most μ times its force, all of them by μ P together, P the acceleration of the center
-    /// of mass. At the place that is at most μ P (1 + |J⁻¹ (p × a)| r), a the axis of the part and r the distance of the farthest corner. Pushes
-    /// that overlap are one, of impulse I and peak P; a suspended part feels each as a shock of the velocity I, and as no more than twice its peak.
+    /// Each corner is pushed across the vertical by at most μ times its force, all of them by μ P together, P the acceleration of the
+    /// center of mass. At the place that is at most μ P (1 + |J⁻¹ (p × a)| r), a the axis of the part and r the distance of the farthest
+    /// corner. Pushes that overlap are one, of impulse I and peak P; each acts on a suspended part as a shock of the velocity I, and as no
+    /// more than twice its peak.
     fn friction(&self, limit: &Limit, suspension: Option<&Suspension>) -> f64 {
         let axis = self.place.axis;
         let Some(levers) = self.followed.drop.levers(&self.place).filter(|_| axis != Axis::Z) else { return 0.0 };

@@ -1,4 +1,4 @@
-//! What may come after a motion was left, by the energy that is left.
+//! This module bounds the effect of strikes that may come after a motion was left, by the energy that is left.
 
 use clatter_flight::Followed;
 use clatter_shock::Suspension;
@@ -8,13 +8,13 @@ use crate::Limit;
 use crate::bound::box_acceleration;
 use crate::quantity::Source;
 
-/// What strikes may do at a place after a motion was left, by the energy left.
+/// The bounds on strikes at a place after a motion was left, by the energy left.
 pub(super) struct Later {
-    /// Of a motion that was given up, with many strikes to come.
+    /// The bounds for a motion that was given up, with many strikes to come.
     pub(super) given_up: Option<GivenUp>,
-    /// What the place will come to feel for ever.
+    /// The weight that will act on the place for ever in the end.
     pub(super) weight_m_s2: f64,
-    /// Of one strike, and of strikes that overlap.
+    /// The shock of one strike, and of strikes that overlap.
     pub(super) shock_m_s: f64,
     pub(super) turned_m_s: f64,
     pub(super) turn_rad_s: f64,
@@ -23,8 +23,8 @@ pub(super) struct Later {
 }
 
 impl Later {
-    /// The velocity shock that does as much to a part: one that is fast beside a contact feels no more than a pulse twice as high, and a
-    /// weight that comes on at once moves it by no more than twice its static deflection.
+    /// Returns the velocity shock that does as much to a part: on one that is fast next to a contact no more than a pulse twice as high
+    /// acts, and a weight that comes on at once moves it by no more than twice its static deflection.
     pub(super) fn shock_of(&self, part: &Suspension) -> f64 {
         let one = self.shock_m_s.min(2.0 * self.acceleration_m_s2 / part.omega());
         let all = self.given_up.as_ref().map_or(0.0, |left| left.shock_of(part, one));
@@ -32,11 +32,11 @@ impl Later {
     }
 }
 
-/// What bounds many strikes that are all in step with a part.
+/// The bounds on many strikes that are all in step with a part.
 pub(super) struct GivenUp {
     /// Ends that bounce one at a time do e times as much at each strike: so many times the first in all, of both.
     pub(super) in_turn: f64,
-    /// What an impulse does to the place over what it does to the center of mass, at most.
+    /// The velocity change that an impulse gives to the place over that of the center of mass, at most.
     pub(super) lever: f64,
     /// Change of velocity of the center of mass, at most.
     pub(super) center_m_s: f64,
@@ -44,15 +44,15 @@ pub(super) struct GivenUp {
 }
 
 impl GivenUp {
-    /// Momentum: within a time t the ground gives the center of mass no more than what turns it around and g t. A part forgets at its
-    /// rate of decay, so that of g t the weight over that rate counts.
+    /// Returns the bound by momentum: within a time t the ground gives the center of mass no more than what turns it around and g t. A part
+    /// forgets at its rate of decay, so that of g t the weight over that rate counts.
     fn shock_of(&self, part: &Suspension, one_m_s: f64) -> f64 {
         let momentum = self.lever * (self.center_m_s + self.gravity_m_s2 / (slowest(part) * part.omega()));
         momentum.min(self.in_turn * one_m_s)
     }
 }
 
-/// Rate at which the free motion of a part decays, over ω.
+/// Returns the rate at which the free motion of a part decays, over ω.
 pub(super) fn slowest(part: &Suspension) -> f64 {
     let zeta = part.damping().get();
     if zeta < 1.0 { zeta } else { 1.0 / (zeta + (zeta * zeta - 1.0).sqrt()) }
@@ -63,7 +63,7 @@ pub(super) fn slowest(part: &Suspension) -> f64 {
 const CHATTER: f64 = 1.5;
 
 impl PlaceHistory<'_> {
-    /// The utilization that strikes after the motion was left may reach, by the energy that is left and what a part still rings
+    /// Returns the utilization that strikes after the motion was left may reach, by the energy that is left and what a part still rings
     /// with; 0 where that is not above `above`. Of the parts given, or of a limit that is no response.
     pub(crate) fn later_most<'p>(
         &self,
@@ -94,7 +94,7 @@ impl PlaceHistory<'_> {
         };
         if most > above { most } else { 0.0 }
     }
-    /// What strikes may do here after the motion was left.
+    /// Returns the bounds on strikes here after the motion was left.
     pub(super) fn later(&self) -> Later {
         let drop = &self.followed.drop;
         let (points, here) = drop.in_radii(&self.place);
@@ -135,7 +135,7 @@ impl PlaceHistory<'_> {
             },
         }
     }
-    /// The utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
+    /// Returns the utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
     /// `above` as the last contact ended, has decayed since, and stays below.
     fn rings_most(&self, per_velocity: f64, part: &Suspension, shock: f64, above: f64) -> f64 {
         let omega = part.omega();
@@ -145,12 +145,12 @@ impl PlaceHistory<'_> {
         let rest = self.end_of(part);
         per_velocity * (libm::hypot(omega * rest.displacement, rest.velocity) + shock)
     }
-    /// What a shock of this size may be off by: the share of the largest shock that lever arms get wrong, and what later ones
-    /// could exceed it by.
+    /// Returns the error bound of a shock of this size: the share of the largest shock that lever arms get wrong, and the amount by which
+    /// later ones could exceed it.
     pub(super) fn off_by(&self, value: f64, of_box: impl Fn(&Later) -> f64) -> f64 {
         let Followed { largest_m_s, .. } = self.followed;
-        // No later strike changes the velocity of a point of a bar or of a plate by more, between its ends or corners; of a box, that of its
-        // center of mass. A part may be beyond feet, whose instant impacts are those of the feet.
+        // No later strike changes the velocity of a point of a bar or of a plate by more, between its ends or corners; of a box, that of
+        // its center of mass. A part may be beyond feet, whose instant impacts are those of the feet.
         let later = if self.is_box() || self.followed.drop.body.feet.is_some() {
             of_box(&self.later())
         } else {
@@ -161,7 +161,7 @@ impl PlaceHistory<'_> {
     fn is_box(&self) -> bool {
         self.followed.drop.is_solid()
     }
-    /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
+    /// Returns the possible demand of later strikes where none that was followed has any demand, in the unit of the limit.
     pub(super) fn later_of(&self, limit: &Limit, suspension: Option<&Suspension>) -> f64 {
         let later = self.later();
         match (limit.kind.source(), suspension) {
@@ -184,7 +184,7 @@ mod tests {
     use crate::Model;
     use crate::model::follow;
 
-    /// A box of 120 mm × 80 mm × 20 mm with these radii of gyration of its mass along length and width, that lands flat at 2 m/s.
+    /// Returns a box of 120 mm × 80 mm × 20 mm with these radii of gyration of its mass along length and width, that lands flat at 2 m/s.
     fn lying([along, gyration_m]: [f64; 2], restitution: f64) -> Drop {
         let width = Side { ends_m: [0.04; 2], gyration_m };
         let body = Body::new(0.12, along).unwrap().with_width(width).with_thickness(Side::even(0.02));
@@ -196,7 +196,7 @@ mod tests {
         }
     }
 
-    /// A bar of 150 mm that lands flat, with contacts of 0.2 ms.
+    /// Returns a bar of 150 mm that lands flat, with contacts of 0.2 ms.
     fn bar(speed_m_s: f64, restitution: f64) -> Drop {
         Drop {
             gravity_m_s2: 9.81,
@@ -206,7 +206,7 @@ mod tests {
     }
 
     /// Mass near the edges, landing flat: it lands again with e times its speed, all four corners along one line of their springs. Its
-    /// center feels (1 + e) e v, and √(4/μ) times the peak of a lone contact, 13 % more than one of its own.
+    /// center has a velocity change of (1 + e) e v, and √(4/μ) times the peak of a lone contact, 13 % more than one of its own.
     #[test]
     fn a_box_that_lands_again_stays_within_its_bounds() {
         let (e, v, time_s) = (0.6, 2.0, 2e-4);
@@ -225,7 +225,7 @@ mod tests {
         assert!(later.turn_rad_s >= (1.0 + e) * lands / least, "{}", later.turn_rad_s);
     }
 
-    /// Along a box that lands flat nothing is felt, until it lands otherwise: that is bounded.
+    /// No acceleration acts along a box that lands flat, until it lands otherwise: that is bounded.
     #[test]
     fn where_nothing_is_felt_what_may_come_is_bounded() {
         let drop = lying([0.04, 0.025], 0.5);
@@ -239,7 +239,7 @@ mod tests {
         assert!(asked.value.abs() < 1e-12 && (swing..4.0 * swing).contains(&asked.off_by), "{asked:?}, {swing}");
     }
 
-    /// A part without damping rings on until the product lands again, in step with it or against it: followed on, it is never asked for
+    /// A part without damping rings on until the product lands again, in step with it or against it: followed on, it never has a demand of
     /// more than was said as the product was up.
     #[test]
     fn what_rings_on_adds_to_what_comes() {
@@ -252,7 +252,7 @@ mod tests {
         for n in 0..60 {
             let hz = 20.0 + 0.5 * f64::from(n);
             let damped = Suspension::from_hz(hz, clatter_shock::DampingRatio::new(0.02).unwrap()).unwrap();
-            // What does not come above what was reached by then need not be said.
+            // A later peak that does not exceed the peak so far need not be reported.
             let reached = up.answer(&limit, Some(&damped), 0.0).unwrap().unwrap().utilization();
             let said = up.later_most(&limit, [&damped], reached).max(reached);
             let asked = on.answer(&limit, Some(&damped), 0.0).unwrap().unwrap().utilization();
@@ -266,8 +266,8 @@ mod tests {
         assert!(tightest > 0.7, "{tightest}: none is in step");
     }
 
-    /// A part so soft that its weight counts for more than the fall: it rings by twice what it hangs through, which is said as the
-    /// product is still up and felt only from when it lies.
+    /// A part so soft that its weight counts for more than the fall: it rings by twice what it hangs through, which is reported while the
+    /// product is still up and acts only from when it lies.
     #[test]
     fn a_weight_that_comes_is_among_what_may_come() {
         let drop = bar(0.3, 0.6);
@@ -310,7 +310,7 @@ mod tests {
     }
 
     /// A part that is stiffer than the contact follows its force: of the half-sine with which both ends of a bar land flat again, lasting
-    /// √(μ/2) times as long as a lone contact, an undamped part is asked for no more than is said.
+    /// √(μ/2) times as long as a lone contact, an undamped part has no larger demand than is reported.
     #[test]
     fn a_stiff_part_is_asked_for_no_more_than_said_as_it_lands_again() {
         let (e, v, time_s) = (0.6, 2.0, 2e-4);

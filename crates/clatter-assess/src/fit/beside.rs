@@ -1,4 +1,4 @@
-//! What was measured beside what the product file states.
+//! This module compares the measured values with those that the product file states.
 
 use super::{Estimate, Fit, Known, Quantity};
 use crate::ProductFile;
@@ -14,20 +14,20 @@ pub struct MeasuredDrop {
     pub found: Result<Fit, String>,
 }
 
-/// An estimate beside what the product file states.
+/// An estimate together with the range that the product file states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Comparison<'a> {
-    /// What was measured.
+    /// The measured value.
     pub estimate: &'a Estimate,
-    /// What the file states, as a range; of the drop it is what the worst case is searched over.
+    /// The value that the file states, as a range; of the drop it is the range over which the worst case is searched.
     pub stated: Option<[f64; 2]>,
-    /// Whether they agree: the interval has a part of the range in it, and the estimate is within the range where that is more than
-    /// one value. Nothing where that cannot be told.
+    /// True where they agree: the interval has a part of the range in it, and the estimate is within the range where that is more than
+    /// one value. None where that cannot be decided.
     pub agrees: Option<bool>,
 }
 
 impl Fit {
-    /// Each estimate beside what a product file states.
+    /// Returns each estimate with the range that a product file states.
     #[must_use]
     pub fn beside(&self, file: &ProductFile) -> Vec<Comparison<'_>> {
         let known = Known::from(file);
@@ -43,7 +43,8 @@ impl Fit {
         beside.collect()
     }
 
-    /// Where what was measured of the product, not of how it fell, differs from the file: the verdict is for what the file states.
+    /// Returns the measured values of the product, not of how it fell, that differ from the file: the verdict is for the values of the
+    /// file.
     #[must_use]
     pub fn differs(&self, file: &ProductFile) -> Vec<Comparison<'_>> {
         let of_product = |beside: &Comparison<'_>| beside.estimate.quantity.is_of_product();
@@ -52,7 +53,7 @@ impl Fit {
 }
 
 impl Known {
-    /// What a file states of a quantity, the inertia apart.
+    /// Returns the range that a file states of a quantity, the inertia apart.
     pub(super) fn stated(&self, quantity: Quantity) -> Option<[f64; 2]> {
         let height = |speed: f64| (self.gravity_m_s2 > 0.0).then(|| 0.5 * speed * speed / self.gravity_m_s2);
         Some(match quantity {
@@ -84,7 +85,7 @@ impl Estimate {
 }
 
 impl Quantity {
-    /// Whether it is of the product, and not of how it fell.
+    /// Returns whether it is of the product, and not of how it fell.
     #[must_use]
     pub fn is_of_product(self) -> bool {
         match self {
@@ -98,7 +99,7 @@ impl Quantity {
         }
     }
 
-    /// What it is called in a text, how many of the unit that engineers use for it one SI unit is, and that unit.
+    /// Returns its name in a text, the number of units that engineers use for it in one SI unit, and that unit.
     #[must_use]
     pub fn said(self) -> (&'static str, f64, &'static str) {
         match self {

@@ -11,7 +11,7 @@ use crate::Model;
 /// Unknowns: first touch over the first flight time, ln of the first flight time, restitution.
 const FREE: [usize; 3] = [0, 1, 2];
 
-/// The restitution from the times at which a body that lands flat, or one point of it alone, bounces.
+/// Fits the restitution from the times at which a body that lands flat, or one point of it alone, bounces.
 ///
 /// # Formula
 /// A flight after an approach of v takes 2 e v/g, and the next approach is e v: flight times are f, e f, e² f, … So the n-th bounce
@@ -19,7 +19,7 @@ const FREE: [usize; 3] = [0, 1, 2];
 /// drop, if the body was let go at rest, is (g f/e)²/(8 g).
 ///
 /// # Validity
-/// One restitution at any speed; contacts short beside flights; no air; gravity in m/s².
+/// One restitution at any speed; contacts short compared with flights; no air; gravity in m/s².
 ///
 /// # Errors
 /// [`Error`] unless 3 to 4096 finite times rise, and gravity is in [0, 1000] m/s².
@@ -79,7 +79,7 @@ pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> 
     let range = interval(&|x| x[2]).map(|[lo, hi]| [lo.max(0.0), hi.min(1.0)]);
     let mut estimates = vec![Estimate { quantity: Quantity::Restitution, value: e, interval: range, note: None }];
     if gravity_m_s2 > 0.0 && e > 0.0 {
-        // Of the logarithm, which scatters more evenly than the height.
+        // The interval is that of the logarithm, which scatters more evenly than the height.
         let ln_height = |x: &[f64]| libm::log(0.125 * gravity_m_s2) + 2.0 * (x[1] - libm::log(x[2]));
         let value = libm::exp(ln_height(&minimum.x));
         let interval = interval(&ln_height).map(|ends| ends.map(libm::exp));

@@ -1,4 +1,4 @@
-//! Which of several explanations of the same data counts: Akaike's information criterion.
+//! This module decides which of several explanations of the same data counts: Akaike's information criterion.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
@@ -9,33 +9,33 @@ pub(super) const SIMILAR: f64 = 5.991_464_547_107_98;
 /// Confidence of the intervals is one less this.
 pub(super) const ALPHA: f64 = 0.05;
 
-/// What an explanation leaves unexplained, and what it pays for its unknowns.
+/// The data that an explanation leaves unexplained, and the price that it pays for its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Score {
     misfit: f64,
     paid: f64,
-    /// Whether there are data enough for what is taken for granted.
+    /// True where there are data enough for the assumptions of the explanation.
     is_supported: bool,
 }
 
-/// What an explanation takes for granted beside its free unknowns.
+/// The assumptions of an explanation next to its free unknowns.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Faults {
     /// Strikes that it drops or invents. Each pays as an unknown does.
     pub(super) count: usize,
-    /// In how many ways that may be done, as a logarithm.
+    /// The number of ways in which that may be done, as a logarithm.
     pub(super) ln_ways: f64,
 }
 
 impl Faults {
-    /// Those of two records.
+    /// Returns the assumptions of two records together.
     pub(super) fn and(self, other: Self) -> Self {
         Self { count: self.count + other.count, ln_ways: self.ln_ways + other.ln_ways }
     }
 }
 
 impl Score {
-    /// Of a sum of squares over so many data with so many free unknowns.
+    /// Returns the score of a sum of squares over so many data with so many free unknowns.
     ///
     /// Where the standard deviation of the data is `known`, it is χ² + 2 k (Akaike 1974); where it is one unknown more,
     /// n ln(χ²/n) + 2 k + 2 k (k + 1)/(n − k − 1) (Hurvich and Tsai 1989), with 1 for the last divisor at least. One of many
@@ -52,25 +52,26 @@ impl Score {
         Self { misfit: n * libm::log(sum / n), paid, is_supported: spare > 0.0 }
     }
 
-    /// How far it is above another.
+    /// Returns how far it is above another.
     pub(super) fn above(&self, other: &Self) -> f64 {
         self.misfit + self.paid - (other.misfit + other.paid)
     }
 
-    /// Whether there are data enough for what it takes for granted.
+    /// Returns whether there are data enough for its assumptions.
     pub(super) fn is_supported(&self) -> bool {
         self.is_supported
     }
 }
 
-/// What the sum of squares of so many normal numbers exceeds with a probability.
+/// Returns the value that the sum of squares of so many normal numbers exceeds with a probability.
 pub(super) fn chi_square(alpha: f64, degrees: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a count of data")]
     let chi = ChiSquared::new(degrees as f64);
     chi.map_or(f64::INFINITY, |chi| chi.inverse_cdf(1.0 - alpha))
 }
 
-/// The probability that of two variances of the same noise, by so many degrees of freedom each, the first is so many times the second or more.
+/// Returns the probability that of two variances of the same noise, by so many degrees of freedom each, the first is so many times the
+/// second or more.
 pub(super) fn variances_differ(ratio: f64, [first, second]: [f64; 2]) -> f64 {
     FisherSnedecor::new(first, second).map_or(1.0, |distribution| distribution.sf(ratio))
 }

@@ -1,4 +1,4 @@
-//! What is measured as a function of what is unknown: one drop, computed by the flights of `clatter-flight`.
+//! This module computes the measured data as a function of the unknowns: one drop, by the flights of `clatter-flight`.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -9,7 +9,7 @@ use clatter_flight::{Ahead, Contact, Model, Motion, Profile, Scene};
 use super::solve::{self, Minimum, Problem};
 use super::{Known, Set};
 
-// Where the unknowns stand. Those that are positive are their logarithms, so that a step is a share of them.
+// These are the places of the unknowns. Those that are positive are their logarithms, so that a step is a share of them.
 /// ln of the radius of gyration over half the length.
 pub(super) const GYRATION: usize = 0;
 /// Mean restitution of both ends.
@@ -43,7 +43,7 @@ pub(super) const DATA: [usize; 2] = [16, 256];
 /// Precision of flights with contacts, and while a search is on.
 const PRECISION: f64 = 1e-5;
 const ROUGH: f64 = 1e-3;
-/// Searches at most until what the data scatter by and how much a range counts beside them agree, to this share.
+/// Searches, at most, until the scatter of the data and the weight of a range agree, to this share.
 const SETTLES: usize = 6;
 const SETTLED: f64 = 0.02;
 /// With fewer degrees of freedom nothing tells the scatter.
@@ -66,15 +66,15 @@ pub(super) struct Drop<'a> {
     pub(super) sets: Vec<Set<'a>>,
     /// The end that touches first.
     pub(super) first: End,
-    /// Whether contacts take time.
+    /// True where contacts take time.
     pub(super) contacts: bool,
     /// Unit of time of the offsets.
     pub(super) unit_s: f64,
-    /// Whether flights with contacts are computed roughly, as a search needs them.
+    /// True where flights with contacts are computed roughly, as a search needs them.
     pub(super) is_rough: bool,
     /// Unknowns that the product file gives in a range and the data do not tell: the range is a datum.
     pub(super) ranged: Vec<usize>,
-    /// What the data scatter by, over their deviations, where these are not given.
+    /// The scatter of the data over their deviations, where these are not given.
     pub(super) scatter: f64,
     /// Flights that may still be computed for a search; beyond, each minimum is left where it is.
     pub(super) left: Rc<Cell<usize>>,
@@ -88,7 +88,7 @@ pub(super) struct Path {
 }
 
 impl Drop<'_> {
-    /// Least squares over its unknowns.
+    /// Returns the least-squares problem over its unknowns.
     pub(super) fn problem(&self) -> Problem<'_> {
         let step = match (self.contacts, self.is_rough) {
             (false, _) => STEP,
@@ -110,12 +110,12 @@ impl Drop<'_> {
             precision: solve::PRECISION,
         }
     }
-    /// Whether strike times alone are fitted, with impacts that are instant: a flight is then so quick that hundreds more of them
+    /// Returns whether strike times alone are fitted, with impacts that are instant: a flight is then so quick that hundreds more of them
     /// count for nothing.
     pub(super) fn is_quick(&self) -> bool {
         !self.contacts && self.sets.iter().all(Set::is_strikes)
     }
-    /// The values that the product file gives, a range in its middle.
+    /// Returns the values that the product file gives, a range in its middle.
     pub(super) fn given(&self) -> Vec<f64> {
         let Known { body, restitution, speed_m_s, tilt_rad, contact_time_s, .. } = self.known;
         let ln_middle = |[lo, hi]: [f64; 2]| 0.5 * (libm::log(lo) + libm::log(hi));
@@ -129,7 +129,7 @@ impl Drop<'_> {
         x[CONTACT] = contact_time_s.map_or(0.0, ln_middle);
         x
     }
-    /// The middle of the range that the product file gives for an unknown, and half its width; none of a single value.
+    /// Returns the middle of the range that the product file gives for an unknown, and half its width; none of a single value.
     pub(super) fn range(&self, unknown: usize) -> Option<[f64; 2]> {
         let ln = |[lo, hi]: [f64; 2]| [libm::log(lo), libm::log(hi)];
         let [lo, hi] = match unknown {
@@ -143,16 +143,16 @@ impl Drop<'_> {
         };
         (hi > lo).then_some([0.5 * (lo + hi), 0.5 * (hi - lo)])
     }
-    /// Whether the radius of gyration and the speed are beyond the ranges that the product file gives, counted. The restitution is what a
-    /// fit is for.
+    /// Returns how many of the two, radius of gyration and speed, are beyond the ranges that the product file gives. The restitution is not
+    /// counted, since the fit is for it.
     pub(super) fn beyond(&self, x: &[f64]) -> usize {
         let is_beyond = |unknown: &usize| {
             self.range(*unknown).is_some_and(|[middle, half]| (x[*unknown] - middle).abs() > half * (1.0 + 1e-9))
         };
         [GYRATION, SPEED].iter().filter(|unknown| is_beyond(unknown)).count()
     }
-    /// The minimum next to `x` over these unknowns, and within their ranges over those that the file gives in one. `known`: whether
-    /// the deviations of the data are given; else what they scatter by says how much a range counts beside them.
+    /// Finds the minimum next to `x` over these unknowns, and within their ranges over those that the file gives in one. `known`: whether
+    /// the deviations of the data are given; else their scatter sets the weight of a range.
     pub(super) fn settle(&mut self, x: &[f64], free: &[usize], known: bool) -> Minimum {
         let all = self.with_ranged(free);
         let mut minimum = self.problem().minimize(x, &all);
@@ -170,7 +170,7 @@ impl Drop<'_> {
         }
         minimum
     }
-    /// What the data scatter by over their deviations, and the degrees of freedom that tell it; none where these are too few.
+    /// Returns the scatter of the data over their deviations, and the degrees of freedom behind it; none where these are too few.
     ///
     /// A range is no datum about the scatter: of an unknown that the data tell, and not its range, they have one degree of freedom less.
     /// The leverage of the range says how much of it that is.
@@ -186,11 +186,11 @@ impl Drop<'_> {
         let sum: f64 = minimum.residuals[..data].iter().map(|r| r * r).sum();
         (degrees > LEAST_DEGREES).then(|| ((sum / degrees).sqrt().max(self.least_scatter()), degrees))
     }
-    /// Free unknowns, and those within a range.
+    /// Returns the free unknowns, and those within a range.
     pub(super) fn with_ranged(&self, free: &[usize]) -> Vec<usize> {
         free.iter().chain(self.ranged.iter().filter(|unknown| !free.contains(unknown))).copied().collect()
     }
-    /// A scatter that is that of roundings.
+    /// Returns the scatter of roundings.
     pub(super) fn least_scatter(&self) -> f64 {
         self.sets.iter().map(|set| ROUNDING * set.variation(self.unit_s)).fold(f64::MIN_POSITIVE, f64::max)
     }
@@ -218,20 +218,20 @@ impl Drop<'_> {
         let [a, b] = self.known.body.arms_m();
         if self.first == End::A { [a, b] } else { [b, a] }
     }
-    /// The contact point that an end is, and the other way around.
+    /// Returns the contact point that an end is, and the other way around.
     pub(super) fn end(&self, point: usize) -> End {
         if (point == 0) == (self.first == End::A) { End::A } else { End::B }
     }
-    /// Restitution of the first and the second end.
+    /// Returns the restitution of the first and the second end.
     pub(super) fn restitutions(&self, x: &[f64]) -> [f64; 2] {
         let side = if self.first == End::A { 1.0 } else { -1.0 };
         [1.0, -1.0].map(|sign| (x[RESTITUTION] + sign * side * x[DIFFERENCE]).clamp(0.0, 1.0))
     }
-    /// Sine of the tilt, at most [`STEEPEST`].
+    /// Returns the sine of the tilt, at most [`STEEPEST`].
     pub(super) fn sin_tilt(&self, x: &[f64]) -> f64 {
         (libm::exp(x[GAP_TIME] + x[SPEED]) / self.known.body.length_m()).min(STEEPEST)
     }
-    /// Angular velocity at the first touch, end b upward.
+    /// Returns the angular velocity at the first touch, end b upward.
     pub(super) fn spin_rad_s(&self, x: &[f64]) -> f64 {
         let side = if self.first == End::A { 1.0 } else { -1.0 };
         side * x[SPIN] * libm::exp(x[SPEED]) * 2.0 / self.known.body.length_m()
@@ -243,14 +243,14 @@ impl Drop<'_> {
         Scene::new(body, x[RESTITUTION], speed, tilt.to_degrees(), self.known.gravity_m_s2)?
             .with_spin(x[SPIN] * speed * 2.0 / length)
     }
-    /// The flight of the rigid body until `enough`.
+    /// Computes the flight of the rigid body until `enough`.
     pub(super) fn rigid(&self, x: &[f64], horizon_s: f64, enough: impl FnMut(&Ahead) -> bool) -> Option<Path> {
         let most = self.sets.iter().map(Set::strikes).max().unwrap_or(0).max(MOST_STRIKES);
         let scene = self.scene(x).ok()?.with_impact_limit(most).ok()?.with_time_limit_s(horizon_s).ok()?;
         let motion = scene.fly_by_ends(self.restitutions(x), enough).ok()?;
         Some(Path { scene, motion })
     }
-    /// The flight by the model of the fit, as far as the records need it.
+    /// Computes the flight by the model of the fit, as far as the records need it.
     pub(super) fn path(&self, x: &[f64]) -> Option<Path> {
         self.left.set(self.left.get().saturating_sub(1));
         let until_s = self.until_s(x);
@@ -282,16 +282,16 @@ impl Drop<'_> {
     pub(super) fn horizon_s(&self) -> f64 {
         HORIZON * self.sets.iter().filter_map(Set::span_s).fold(0.0, f64::max)
     }
-    /// Until when heights and accelerations need the motion, since the first touch.
+    /// Returns until when heights and accelerations need the motion, since the first touch.
     fn until_s(&self, x: &[f64]) -> f64 {
         let last = |(k, set): (usize, &Set<'_>)| set.end_s().map(|end_s| end_s - self.offset_s(x, k));
         self.sets.iter().enumerate().filter_map(last).fold(f64::NEG_INFINITY, f64::max)
     }
-    /// The first touch on the time axis of a record.
+    /// Returns the first touch on the time axis of a record.
     pub(super) fn offset_s(&self, x: &[f64], set: usize) -> f64 {
         x[OFFSET + set] * self.unit_s
     }
-    /// Measured less computed over a standard deviation, of all records.
+    /// Returns the measured less the computed values over a standard deviation, of all records.
     pub(super) fn residuals(&self, x: &[f64]) -> Vec<f64> {
         let path = self.path(x);
         let mut all = Vec::new();
@@ -309,7 +309,7 @@ impl Drop<'_> {
 }
 
 impl Drop<'_> {
-    /// The record whose data scatter most, over their deviations.
+    /// Returns the record whose data scatter most, over their deviations.
     pub(super) fn worst(&self, x: &[f64]) -> usize {
         let mut residuals = self.residuals(x).into_iter();
         let mean = |set: &Set<'_>| {
@@ -335,8 +335,8 @@ impl Path {
         let sin = libm::sin(tilt + scene.spin_rad_s() * time_s);
         [center - a * sin, center + b * sin]
     }
-    /// Velocity of a place, at `s` in [−1, 1] from the first end to the second, less that of a free fall from the first touch on: what
-    /// the contacts have given it.
+    /// Returns the velocity of a place, at `s` in [−1, 1] from the first end to the second, less that of a free fall from the first touch
+    /// on: what the contacts have given it.
     pub(super) fn given_m_s(&self, s: f64, time_s: f64) -> f64 {
         if self.motion.contact().is_none() {
             return 0.0;

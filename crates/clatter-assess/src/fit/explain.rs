@@ -1,4 +1,4 @@
-//! A fit, from records to what is told of it.
+//! This module makes a fit, from records to the report.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -21,29 +21,29 @@ use crate::First;
 const FAR_OFF: f64 = 0.1;
 /// Nor accelerations of which half is left: a sensor on a case that rings is off by less.
 const FAR_OFF_ACCELERATION: f64 = 0.5;
-/// So many samples before the first touch tell the noise.
+/// The number of samples before the first touch that determine the noise.
 const QUIET: usize = 16;
 /// Heights that are off by this share of the length, 0.3 mm of 140 mm, are met, and the other end is not tried.
 const MET: f64 = 0.002;
 
 /// Finds the drop that is nearest to what was measured, what the data tell of it, and what they do not.
 ///
-/// All records are of one drop; the time axis of each begins anywhere. The method is told in the [module](crate::fit).
+/// All records are of one drop; the time axis of each begins anywhere. The method is described in the [module](crate::fit).
 ///
 /// # Validity
-/// A rigid bar on hard, level ground without friction; one restitution at any speed. Strikes are told apart where they are missing
+/// A rigid bar on hard, level ground without friction; one restitution at any speed. Strikes are distinguished where they are missing
 /// or wrong as the module says. Contacts take time in the fit where the product file gives their time or an acceleration was
 /// measured; else impacts are instant, at real tilt and with gravity.
 ///
 /// # Accuracy
 /// The intervals of 95 % hold the truth in 93 to 97 of 100 synthetic drops with normal noise, for strikes with instant
 /// impacts where both ends have one restitution (`tests/fit`); less often where they differ and the timing is not given, see
-/// [the module](super). Of accelerations ten synthetic drops are explained to 1 % or refused. Intervals know of noise alone: a bar that bends, an edge that is not flat
-/// or slides, or a restitution that is another one in the next drop is not in them.
+/// [the module](super). Of accelerations ten synthetic drops are explained to 1 % or refused. Intervals know of noise alone: a bar that
+/// bends, an edge that is not flat or slides, or a restitution that is another one in the next drop is not in them.
 ///
 /// # Errors
-/// [`Error`] for what [`Known::check`] refuses, for values that are no times, heights or accelerations, for too many or too few of them, and where no computed drop
-/// has the strikes that were measured.
+/// [`Error`] for what [`Known::check`] refuses, for values that are no times, heights or accelerations, for too many or too few of them,
+/// and where no computed drop has the strikes that were measured.
 ///
 /// # Examples
 /// The paper's reference bar (q = ½, e = 0.3) with a gap of 2 ms times the speed: its four strikes are at 0, 1.212,
@@ -85,7 +85,7 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
     let unit_s = unit_s(&sets);
     let (mut all, mut refused) = (Vec::new(), None);
     let firsts = firsts(known, measured);
-    // What explains the record with one end is a start for the other: for the first one too, once more, where it had no explanation.
+    // An explanation of the record with one end is a start for the other: for the first one too, once more, where it had no explanation.
     let (mut hints, mut explained): (Vec<Vec<f64>>, Vec<End>) = (Vec::new(), Vec::new());
     for (k, &first) in firsts.iter().chain(firsts).enumerate() {
         if k >= firsts.len() && (hints.is_empty() || explained.contains(&first)) {
@@ -121,7 +121,7 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
         is_odd(&a.1).cmp(&is_odd(&b.1)).then(a.1.score.above(&b.1.score).total_cmp(&0.0))
     };
     all.sort_by(order);
-    // Of those that are about as good the one comes first that drops and invents least, then the one within the ranges of the file.
+    // Of those that are about as good, the one comes first that drops and invents least, then the one within the ranges of the file.
     if let Some((_, best)) = all.first() {
         let (best, beyond) = (best.clone(), all[0].0.beyond(&best.minimum.x));
         all.retain(|(drop, told)| {
@@ -171,8 +171,8 @@ fn near(number: usize, found: &RecordFit, set: &Set, drop: &Drop<'_>) -> Result<
     Err(Error::Far { record: number, name: what, percent: 100.0 * found.scatter / unit, of, allowed: 100.0 * allowed })
 }
 
-/// Returns whether a record tells its noise, so that the drop was tested to explain it: accelerations by what they are before the first touch,
-/// other records always.
+/// Returns whether a record tells its noise, so that the drop was tested to explain it: accelerations by what they are before the first
+/// touch, other records always.
 ///
 /// # Errors
 /// [`Error::Noise`] where the drop leaves more than that noise, by the test of two variances.
@@ -195,7 +195,7 @@ fn is_told_by_noise(record: usize, found: &RecordFit, set: &Set) -> Result<bool,
     Ok(true)
 }
 
-/// What explains the data if a given end touches first, and whether there is no need to try the other.
+/// Finds the explanations of the data if a given end touches first, and whether there is no need to try the other.
 fn explanations<'a>(
     drop: &Drop<'a>,
     measured: &[Measured],
@@ -234,7 +234,7 @@ fn explanations<'a>(
     Ok((all, is_plain))
 }
 
-/// The ends that may touch first: both where it matters and nothing says which.
+/// Returns the ends that may touch first: both where it matters and nothing says which.
 fn firsts(known: &Known, measured: &[Measured]) -> &'static [End] {
     let named = measured.iter().find_map(|one| match one {
         Measured::Strikes { strikes, .. } => strikes.first().and_then(|strike| strike.end),

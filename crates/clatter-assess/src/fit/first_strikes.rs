@@ -1,4 +1,4 @@
-//! Where searches begin in the strikes of one record: drops that meet the first of them exactly.
+//! This module finds where searches begin in the strikes of one record: drops that meet the first of them exactly.
 //!
 //! Each strike multiplies what is off before it, so that the sum of squares over all strikes has a valley that is long and
 //! narrow. Its floor is found first: for any restitution the times of the second and third strike tell the gap over the speed and the
@@ -8,12 +8,12 @@ use super::drop::{Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED};
 use super::starts::by_strikes;
 use super::{Set, Which};
 
-/// Radii of gyration from which the one is sought that the first strikes ask for, over that of the product file.
+/// Radii of gyration from which the one is sought that fits the first strikes, over that of the product file.
 const GYRATIONS: [f64; 7] = [1.0, 0.85, 1.2, 0.7, 1.4, 0.5, 2.0];
 /// Steps of a search at most.
 const STEPS: usize = 10;
 /// So many times the space between two restitutions is halved, for the next strike and for those after it: one that is late since the
-/// end that strikes hardly moves asks for more.
+/// end that strikes hardly moves needs more.
 const HALVED: [usize; 2] = [6, 30];
 /// Strikes after the first ones that are met one by one in a wide search.
 const LATER: usize = 4;
@@ -23,7 +23,7 @@ const MET: f64 = 1e-6;
 const SMALL: f64 = 1e-6;
 const LONGEST: f64 = 0.5;
 
-/// Drops that meet the first strikes, for a speed as a logarithm and among so many restitutions. The second and third strike are met
+/// Finds drops that meet the first strikes, for a speed as a logarithm and among so many restitutions. The second and third strike are met
 /// later by `late_s`, which noise may be.
 pub(super) fn meeting(
     drop: &Drop<'_>,
@@ -69,7 +69,7 @@ struct Floor<'a> {
 }
 
 impl Floor<'_> {
-    /// The drops with so many restitutions, and how far later strikes are off; none where the first strikes are not met.
+    /// Returns the drops with so many restitutions, and how far later strikes are off; none where the first strikes are not met.
     fn along(&self, given: &[f64], count: usize) -> Vec<Option<On>> {
         let mut all: Vec<Option<On>> = Vec::with_capacity(count);
         for k in 0..count {
@@ -81,13 +81,13 @@ impl Floor<'_> {
         all
     }
 
-    /// Where a later strike is met too, and about where it is nearly met: the noise of the first strikes may hide that it is.
+    /// Finds where a later strike is met too, and about where it is nearly met: the noise of the first strikes may hide that it is.
     fn met(&self, all: &[Option<On>], given: &[f64]) -> Vec<Vec<f64>> {
         let later = all.iter().flatten().map(|(_, off)| off.len()).max().unwrap_or(0);
         (0..later).flat_map(|n| self.met_by(n, all, given)).collect()
     }
 
-    /// The same of the n-th later strike.
+    /// Finds the same for the n-th later strike.
     fn met_by(&self, n: usize, all: &[Option<On>], given: &[f64]) -> Vec<Vec<f64>> {
         let of = |on: &Option<On>| on.as_ref().map(|(x, off)| (x.clone(), off[n]));
         let all: Vec<Option<(Vec<f64>, f64)>> = all.iter().map(of).collect();
@@ -103,7 +103,7 @@ impl Floor<'_> {
         met.chain(nearly.flatten()).collect()
     }
 
-    /// Between two drops of which one is too early for the n-th later strike and one too late.
+    /// Finds the drop between two drops of which one is too early for the n-th later strike and one too late.
     fn between(&self, n: usize, mut below: (Vec<f64>, f64), mut above: (Vec<f64>, f64), given: &[f64]) -> Vec<f64> {
         for _ in 0..HALVED[n.min(1)] {
             let restitution = 0.5 * (below.0[RESTITUTION] + above.0[RESTITUTION]);
@@ -118,7 +118,7 @@ impl Floor<'_> {
         if below.1.is_finite() && below.1.abs() <= above.1.abs() { below.0 } else { above.0 }
     }
 
-    /// The one with a restitution, and how far later strikes are off; near a known one where there is one.
+    /// Finds the drop with a restitution, and how far later strikes are off; near a known one where there is one.
     fn at(&self, restitution: f64, near: Option<&[f64]>, given: &[f64]) -> Option<On> {
         let from_given = || {
             let factors = if self.solved.contains(&GYRATION) { &GYRATIONS[..] } else { &GYRATIONS[..1] };
@@ -142,7 +142,7 @@ impl Floor<'_> {
         Some((x, if off.is_empty() { vec![0.0] } else { off }))
     }
 
-    /// Newton's method from unknowns near by.
+    /// Solves by Newton's method from unknowns near by.
     fn meet(&self, mut x: Vec<f64>) -> Option<Vec<f64>> {
         let count = self.solved.len();
         let bounds = self.drop.bounds();
@@ -181,12 +181,12 @@ impl Floor<'_> {
         None
     }
 
-    /// How far strikes after the first are off from it, over the mean time between strikes; none where one does not happen.
+    /// Returns how far strikes after the first are off from it, over the mean time between strikes; none where one does not happen.
     fn off(&self, drop: &Drop<'_>, x: &[f64]) -> Option<Vec<f64>> {
         self.each_off(drop, x)?.into_iter().collect()
     }
 
-    /// The same of each that happens.
+    /// Returns the same of each that happens.
     fn each_off(&self, drop: &Drop<'_>, x: &[f64]) -> Option<Vec<Option<f64>>> {
         let path = drop.path(x)?;
         let Set::Strikes { strikes, index, .. } = &drop.sets[0] else { return None };
@@ -203,7 +203,7 @@ impl Floor<'_> {
 }
 
 impl Drop<'_> {
-    /// The same with so many of the first strikes that are used.
+    /// Returns the same with so many of the first strikes that are used.
     pub(super) fn first(&self, count: usize) -> Self {
         let mut first = self.clone();
         if let Set::Strikes { index, .. } = &mut first.sets[0] {

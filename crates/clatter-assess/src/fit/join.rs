@@ -1,10 +1,10 @@
-//! Explanations that are about as good, beside the best one.
+//! This module joins explanations that are about as good to the best one.
 
 use clatter::End;
 
 use super::{Estimate, Explanation, Fit, Quantity, RecordFit};
 
-/// Whether two fits take the strikes for the same and tell the same: the search of one ended a little aside.
+/// Returns whether two fits take the strikes for the same and give the same values: the search of one ended a little aside.
 pub(super) fn is_same(fit: &Fit, other: &Fit) -> bool {
     let numbers = |fit: &Fit| -> Vec<Option<usize>> {
         fit.records.iter().flat_map(|record| record.strikes.iter().map(|strike| strike.number)).collect()
@@ -99,7 +99,7 @@ mod tests {
             let [mut fit, mut beside] = [found(), found()];
             fit.estimates[0].interval = Some(own);
             beside.estimates[0].interval = Some(other);
-            // Of one end alone it is the restitution too, of another quantity it is not.
+            // The restitution of one end alone counts as the restitution too, another quantity does not.
             beside.estimates[0].quantity = Quantity::RestitutionB;
             let height = fit.estimates[1].interval;
             join(&mut fit, vec![beside]);

@@ -1,4 +1,4 @@
-//! Which computed strikes the measured ones are.
+//! This module finds which computed strikes the measured ones are.
 //!
 //! The plain explanation comes first: every measured strike is a computed one, and none is missing. Only where that is no explanation are
 //! others tried, and these pay for every strike that they drop or invent ([`Score`]).
@@ -26,18 +26,18 @@ const QUICK_PRECISION: f64 = 1e-4;
 /// So many of the first strikes are looked at over a grid, and of a rough and of a fine one so many drops go on.
 const GRIDDED: usize = 8;
 const OF_GRID: [usize; 2] = [160, 320];
-/// Of the flights that are left that search takes this part.
+/// That search takes this part of the flights that are left.
 const WIDE_SHARE: usize = 3;
 /// The first strikes are met there as they were measured and as they may be: by two standard deviations or, where none is given, a
 /// hundredth of the time between them, which is as well as clatter is timed at least.
 const DEVIATIONS: f64 = 2.0;
 const UNTOLD: f64 = 0.01;
-/// Data that scatter by more than this share of the mean time between strikes are not explained: with so much, nothing is told.
+/// Data that scatter by more than this share of the mean time between strikes are not explained: with so much, nothing is determined.
 pub(super) const SUSPECT: f64 = 0.05;
 /// Nor are data that scatter by more than is given, or of which one is further off than the others explain, where chance does that
 /// less often: so many sound records are taken for odd ones.
 pub(super) const CHANCE: f64 = 1e-4;
-/// What is left where chance leaves that much so seldom asks for another search.
+/// A remainder that chance leaves more seldom than this calls for another search.
 const UNLIKELY: f64 = 0.02;
 /// Half a range of the speed, as a share, from which on searches begin at its ends too.
 const WIDE: f64 = 0.02;
@@ -68,24 +68,24 @@ impl Candidate {
     fn order(&self, other: &Self) -> Ordering {
         self.wrong.cmp(&other.wrong).then(self.minimum.sum().total_cmp(&other.minimum.sum()))
     }
-    /// Whether it is the same minimum, found from another start.
+    /// Returns whether it is the same minimum, found from another start.
     fn is_same(&self, other: &Self) -> bool {
         let is_near = |unknown: &usize| (self.minimum.x[*unknown] - other.minimum.x[*unknown]).abs() < SAME;
         self.free.iter().all(is_near)
     }
 }
 
-/// What the strikes of a record are taken to be.
+/// The assignment of the strikes of a record to computed ones.
 #[derive(Debug, Clone)]
 pub(super) struct Matched {
     pub(super) index: Vec<Option<Which>>,
     /// Unknowns that explain it.
     pub(super) x: Vec<f64>,
-    /// What is dropped and invented.
+    /// The strikes that are dropped and invented.
     pub(super) faults: Faults,
-    /// What is free beside the unknowns that such records tell at least.
+    /// The unknown that is free in addition to those that such records determine at least.
     pub(super) freed: Option<usize>,
-    /// Whether nothing is odd.
+    /// True where nothing is odd.
     pub(super) is_plain: bool,
 }
 
@@ -99,7 +99,7 @@ pub(super) fn find(drop: &Drop<'_>, set: usize, known: bool, hints: &[Vec<f64>])
     Search { drop: alone, strikes, known, ranged, reach: 0, begins: Vec::new() }.found(hints)
 }
 
-/// What the drops that meet the first strikes depend on: which strikes these are, what is free, and the speed.
+/// The data on which the drops that meet the first strikes depend: which strikes these are, what is free, and the speed.
 #[derive(PartialEq)]
 struct Of {
     first: Vec<(usize, Option<Which>)>,
@@ -177,7 +177,7 @@ impl<'d> Search<'d> {
                 }
             }
         }
-        // What does not explain the record is no explanation beside one that does.
+        // A drop that does not explain the record does not count next to one that does.
         if is_plain {
             all.extend(plain);
         } else if all.is_empty() || self.is_met(&plain[0]) {
@@ -196,7 +196,7 @@ impl<'d> Search<'d> {
             let is_within = self.is_met(other) && self.drop.beyond(&other.minimum.x) < beyond;
             other.score.above(&best) <= SIMILAR || self.is_within(&least, other) || is_within
         });
-        // Of those that are about as good the one comes first that drops and invents least.
+        // Of those that are about as good, the one comes first that drops and invents least.
         all.sort_by_key(|other| other.premise.faults().count);
         let matched = |of: Candidate| Matched {
             index: of.index,
@@ -208,7 +208,8 @@ impl<'d> Search<'d> {
         Ok(all.into_iter().map(matched).collect())
     }
 
-    /// The minima next to the best drops of a grid over the ranges, of strikes with instant impacts: of those that explain the first strikes.
+    /// Finds the minima next to the best drops of a grid over the ranges, of strikes with instant impacts: of those that explain the first
+    /// strikes.
     fn gridded(&mut self, premise: &Premise, grid: [u32; 3], taken: usize) -> Vec<Candidate> {
         if !self.drop.is_quick() {
             return Vec::new();
@@ -233,7 +234,7 @@ impl<'d> Search<'d> {
         self.from(premise, &begins)
     }
 
-    /// The explanations that meet the record, of those that are supported.
+    /// Finds the explanations that meet the record, of those that are supported.
     fn met(&mut self, premises: &[Premise]) -> Vec<Candidate> {
         let mut met = Vec::new();
         for premise in premises {
@@ -245,7 +246,7 @@ impl<'d> Search<'d> {
         met
     }
 
-    /// So many unknowns, the first that strikes tell.
+    /// Returns so many unknowns, the first that strikes determine.
     fn free(&self, premise: &Premise, used: usize) -> Vec<usize> {
         let all =
             [Some(OFFSET), Some(GAP_TIME), Some(RESTITUTION), (!self.drop.known.gyration_known).then_some(GYRATION)];
@@ -262,7 +263,7 @@ impl<'d> Search<'d> {
         }
     }
 
-    /// By how much later the second and third of the strikes may have been than they were measured.
+    /// Returns by how much later the second and third of the strikes may have been than they were measured.
     fn late_s(&self) -> [[f64; 2]; 4] {
         let used: Vec<f64> = self.drop.sets[0].measured();
         let late = |k: usize| match (&self.drop.sets[0], used.get(k).zip(used.get(k + 1))) {
@@ -344,7 +345,7 @@ impl<'d> Search<'d> {
         found
     }
 
-    /// Drops that meet the first strikes. Premises that are odd after these have the same ones.
+    /// Finds drops that meet the first strikes. Premises that are odd after these have the same ones.
     fn meeting(&mut self, free: &[usize], ln_speed: f64, late_s: [f64; 2], wide: bool) -> Vec<Vec<f64>> {
         let Set::Strikes { index, .. } = &self.drop.sets[0] else { return Vec::new() };
         let used = index.iter().enumerate().filter(|(_, which)| which.is_some());
@@ -361,7 +362,7 @@ impl<'d> Search<'d> {
         found
     }
 
-    /// The same from these.
+    /// Finds the same from these unknowns.
     fn from(&mut self, premise: &Premise, begins: &[Vec<f64>]) -> Vec<Candidate> {
         let (free, all) = self.assume(premise);
         let index = premise.index(self.strikes);
@@ -384,7 +385,7 @@ impl<'d> Search<'d> {
         found
     }
 
-    /// The drop with its first strikes alone, as many as unknowns and then a third more each time, up to all that are used.
+    /// Returns the drop with its first strikes alone, as many as unknowns and then a third more each time, up to all that are used.
     fn stages(&self, used: usize, free: usize) -> Vec<(usize, Drop<'d>)> {
         let mut stages = Vec::new();
         let mut count = free;
@@ -413,7 +414,7 @@ impl<'d> Search<'d> {
         at
     }
 
-    /// A minimum and what it is worth.
+    /// Returns a minimum and its score.
     fn rated(&self, premise: &Premise, index: &[Option<Which>], free: &[usize], minimum: Minimum) -> Candidate {
         let path = self.drop.path(&minimum.x);
         let computed = path.as_ref().map_or(&[][..], |path| &path.motion.strikes[..]);
@@ -449,12 +450,12 @@ impl<'d> Search<'d> {
         *fit = self.rated(&fit.premise, &fit.index, &fit.free, minimum);
     }
 
-    /// Whether no more is left than clatter data have, and ends are right.
+    /// Returns whether no more is left than clatter data have, and ends are right.
     fn is_met(&self, fit: &Candidate) -> bool {
         fit.wrong == 0 && self.explains(fit.minimum.sum(), fit.degrees)
     }
 
-    /// Whether another minimum of the same premise is within the interval of the best one.
+    /// Returns whether another minimum of the same premise is within the interval of the best one.
     fn is_within(&self, (premise, sum, degrees): &(Premise, f64, usize), other: &Candidate) -> bool {
         #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]
         let degrees = *degrees as f64;
@@ -463,13 +464,13 @@ impl<'d> Search<'d> {
         other.premise == *premise && degrees > 0.0 && other.minimum.sum() - sum <= variance * t * t
     }
 
-    /// The same where less is left than chance leaves in one of many records: else there may be a better minimum.
+    /// Returns the same where less is left than chance leaves in one of many records: else there may be a better minimum.
     fn is_likely(&self, fit: &Candidate) -> bool {
         let is_known = self.known && !self.drop.contacts;
         self.is_met(fit) && !(is_known && fit.degrees > 0 && fit.minimum.sum() > chi_square(UNLIKELY, fit.degrees))
     }
 
-    /// Whether a sum of squares is no more than clatter data leave.
+    /// Returns whether a sum of squares is no more than clatter data leave.
     fn explains(&self, sum: f64, degrees: usize) -> bool {
         if degrees == 0 {
             return true;
@@ -482,14 +483,14 @@ impl<'d> Search<'d> {
         scatter <= SUSPECT * self.drop.sets[0].variation(self.drop.unit_s)
     }
 
-    /// Whether there are data enough for a premise: with as many unknowns as data anything is explained.
+    /// Returns whether there are data enough for a premise: with as many unknowns as data anything is explained.
     fn is_supported(&self, premise: &Premise) -> bool {
         let used = self.strikes.len() - usize::from(premise.left_out.is_some());
         let free = self.free(premise, used).len();
         free < used && Score::new(1.0, self.strikes.len(), free, premise.faults(), self.known).is_supported()
     }
 
-    /// A time that is further off than chance explains: the externally studentized residual t_i = r_i/(s_(i) √(1 − h_i)) with the
+    /// Finds a time that is further off than chance explains: the externally studentized residual t_i = r_i/(s_(i) √(1 − h_i)) with the
     /// leverage h_i, the scatter s_(i) without it, and all strikes tried.
     fn outlier(&mut self, fit: &Candidate) -> Option<usize> {
         let spare = fit.degrees.checked_sub(usize::from(!self.known)).filter(|spare| *spare > 0)?;

@@ -1,4 +1,4 @@
-//! What may be taken for granted of a record of strikes: which of them are none, or missing.
+//! This module lists the assumptions about a record of strikes: which of them are none, or missing.
 
 use clatter::End;
 
@@ -11,7 +11,7 @@ const ENOUGH_FOR_BOTH: usize = 6;
 /// Strikes may be missing before so many of the first measured ones.
 const PLACES: usize = 16;
 
-/// What is taken for granted of a drop and its record.
+/// The assumptions about a drop and its record.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Premise {
     /// Measured strikes, from 0, before each of which a computed one is missing.
@@ -20,7 +20,7 @@ pub(super) struct Premise {
     pub(super) left_out: Option<(usize, bool)>,
     /// An unknown that is free although the product file or a simpler product has it otherwise.
     pub(super) freed: Option<usize>,
-    /// In how many ways that many strikes may be dropped or invented.
+    /// The number of ways in which that many strikes may be dropped or invented.
     ways: usize,
 }
 
@@ -31,7 +31,7 @@ impl Premise {
         Faults { count: self.missing.len() + usize::from(self.left_out.is_some()), ln_ways }
     }
 
-    /// Of each measured strike the computed one that it is: in the order of its end where all ends are known, else in that of all.
+    /// Returns for each measured strike the computed one that it is: in the order of its end where all ends are known, else in that of all.
     pub(super) fn index(&self, strikes: &[MeasuredStrike]) -> Vec<Option<Which>> {
         let ends_known = strikes.iter().all(|strike| strike.end.is_some());
         let mut next = [0; 2];
@@ -47,14 +47,14 @@ impl Premise {
         strikes.iter().enumerate().map(one).collect()
     }
 
-    /// All strikes of so many, with more freedom.
+    /// Returns the premises with all of so many strikes and one more free unknown.
     pub(super) fn freed(count: usize) -> Vec<Self> {
         let freed = [SPEED, DIFFERENCE].into_iter().filter(|&unknown| unknown != DIFFERENCE || count > ENOUGH_FOR_BOTH);
         freed.map(|unknown| Self { freed: Some(unknown), ..Self::default() }).collect()
     }
 
-    /// What else may be of so many strikes, in the order in which it is tried: one that is missing or wrong, then two that are missing.
-    /// What is odd is among the first `reach`, which do not go together, or it is the single time that is off, `outlier`.
+    /// Returns the other premises for so many strikes, in the order in which they are tried: one strike missing or wrong, then two missing.
+    /// The odd strike is among the first `reach`, which do not go together, or it is the single time that is off, `outlier`.
     pub(super) fn rounds(count: usize, reach: usize, outlier: Option<usize>) -> [Vec<Self>; 2] {
         let all = count.min(PLACES);
         let places = all.min(reach.max(1));
@@ -71,7 +71,7 @@ impl Premise {
         [wrong.chain(one).collect(), two.collect()]
     }
 
-    /// One time is wrong, of so many strikes.
+    /// Returns the premise that one time is wrong, of so many strikes.
     pub(super) fn wrong(count: usize, outlier: usize) -> Self {
         Self { left_out: Some((outlier, true)), ways: count, ..Self::default() }
     }
@@ -81,7 +81,7 @@ impl Premise {
 mod tests {
     use super::*;
 
-    /// What is chosen among many ways pays for at least as many.
+    /// A choice among many ways pays for at least as many.
     #[test]
     fn as_many_ways_are_paid_for_as_there_are() {
         for count in [3, 8, 40] {

@@ -1,4 +1,4 @@
-//! Records beside the computed drop.
+//! This module compares records with the computed drop.
 
 use clatter::End;
 
@@ -8,7 +8,7 @@ use super::{MeasuredHeights, MeasuredStrike, RecordFit, Set, StrikeFit, Which};
 /// Strikes shown beyond the last measured one.
 const MORE: usize = 3;
 
-/// Each record.
+/// Returns the fit of each record.
 pub(super) fn records(drop: &Drop<'_>, x: &[f64]) -> Vec<RecordFit> {
     let Some(path) = drop.path(x) else { return Vec::new() };
     let one = |(k, set): (usize, &Set<'_>)| {
@@ -71,7 +71,7 @@ pub(super) fn missing(places: &[Option<usize>]) -> Vec<usize> {
     missing.into_iter().map(|n| n + 1).collect()
 }
 
-/// The computed strikes that are shown.
+/// Returns the computed strikes that are shown.
 pub(super) fn computed(drop: &Drop<'_>, x: &[f64]) -> Vec<(f64, End)> {
     let Some(path) = drop.path(x) else { return Vec::new() };
     let needed = path.motion.strikes.len();

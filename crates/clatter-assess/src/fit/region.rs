@@ -1,4 +1,4 @@
-//! How far a fit may be off: all unknowns with which the computed drop is nearly as near to the data as the nearest one.
+//! This module finds how far a fit may be off: all unknowns with which the computed drop is nearly as near to the data as the nearest one.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,7 +7,7 @@ use super::solve::{Minimum, Problem};
 /// A function of the unknowns.
 pub(super) type Function<'a> = dyn Fn(&[f64]) -> f64 + 'a;
 
-/// A value that is asked for counts so many times as much as the data: the search then ends within a percent of it.
+/// A requested value counts so many times as much as the data: the search then ends within a percent of it.
 const STRICT: f64 = 10.0;
 /// The root of the rise is nearly a straight line: within this share of where it is to be, the line gives the rest.
 const NEAR: f64 = 0.02;
@@ -24,13 +24,13 @@ pub(super) struct Region<'a> {
     minimum: &'a Minimum,
     free: &'a [usize],
     rise: f64,
-    /// Over all unknowns: g·covariance·g is the square of how far a function with the gradient g goes in the region, as the derivatives
-    /// at the minimum have it.
+    /// The covariance over all unknowns: g·covariance·g is the square of how far a function with the gradient g goes in the region, as the
+    /// derivatives at the minimum have it.
     covariance: DMatrix<f64>,
 }
 
 impl<'a> Region<'a> {
-    /// About a minimum over free unknowns.
+    /// Returns the region about a minimum over free unknowns.
     pub(super) fn new(problem: &'a Problem<'a>, minimum: &'a Minimum, free: &'a [usize], rise: f64) -> Option<Self> {
         let count = minimum.x.len();
         let jacobian = problem.jacobian(&minimum.x, free);
@@ -85,7 +85,7 @@ impl<'a> Region<'a> {
         (0..gradients.len()).map(|i| (0..gradients.len()).map(|j| correlation(i, j)).collect()).collect()
     }
 
-    /// Where a function is least and largest in the region, as the derivatives at the minimum have it.
+    /// Finds where a function is least and largest in the region, as the derivatives at the minimum have it.
     pub(super) fn straight_ends(&self, of: &Function<'_>) -> [Vec<f64>; 2] {
         let g = self.gradient(of);
         let toward = &self.covariance * &g;
@@ -96,13 +96,13 @@ impl<'a> Region<'a> {
         })
     }
 
-    /// Where a function is least and largest in the region: its profile.
+    /// Finds where a function is least and largest in the region: its profile.
     pub(super) fn ends(&self, of: &Function<'_>) -> [Vec<f64>; 2] {
         let [below, above] = self.straight_ends(of);
         [self.end(of, -1.0, below), self.end(of, 1.0, above)]
     }
 
-    /// The end on one side; `straight` is where the derivatives have it.
+    /// Returns the end on one side; `straight` is where the derivatives have it.
     fn end(&self, of: &Function<'_>, side: f64, straight: Vec<f64>) -> Vec<f64> {
         let (least, middle) = (self.minimum.sum(), of(&self.minimum.x));
         let mut asked = side * (of(&straight) - middle);
@@ -114,7 +114,7 @@ impl<'a> Region<'a> {
         let (mut inside, mut outside) = ((self.minimum.x.clone(), 0.0, 0.0), None::<(Vec<f64>, f64, f64)>);
         for _ in 0..SEARCHES {
             // The least sum of squares with the function near a value. Where the search ends, it is the least one with the value
-            // that the function has there, whether that is the one that was asked for or not.
+            // that the function has there, whether that is the requested one or not.
             let residuals = move |x: &[f64]| {
                 let mut all = (self.problem.residuals)(x);
                 all.push(weight * (side * (of(x) - middle) - asked));
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
     use crate::fit::solve::PRECISION;
 
-    /// An unknown that changes no datum has no end, and nothing is told of the others beside it.
+    /// An unknown that changes no datum has no end, and nothing is reported of the others.
     #[test]
     fn a_singular_jacobian_gives_no_region() {
         let problem = Problem {
@@ -194,7 +194,7 @@ mod tests {
             assert!((straight[0] + 0.5).abs() < 1e-6 && (straight[1] - 0.5).abs() < 1e-6, "{straight:?}");
             region.ends(&|x| x[0]).map(|end| end[0])
         };
-        // As near as `NEAR` lets them be.
+        // The ends are as near as `NEAR` lets them be.
         let [least, most] = ends(&problem(-10.0));
         assert!(
             (least / 0.5_f64.ln() - 1.0).abs() < 0.01 && (most / 1.5_f64.ln() - 1.0).abs() < 0.01,

@@ -1,4 +1,4 @@
-//! What is told of a fit.
+//! This module reports a fit.
 
 use clatter_flight::Body;
 
@@ -12,7 +12,7 @@ use crate::Model;
 
 const WITH_SPEED: &str = "with the speed of the product file";
 
-/// All that is told.
+/// Reports all results of a fit.
 pub(super) fn report(drop: &Drop<'_>, told: &DeterminedFit) -> Fit {
     let x = &told.minimum.x;
     let is_free = |unknown: usize| told.free.contains(&unknown);
@@ -79,7 +79,7 @@ pub(super) fn report(drop: &Drop<'_>, told: &DeterminedFit) -> Fit {
     }
 }
 
-/// How far each quantity may be off.
+/// Returns how far each quantity may be off.
 fn intervals(drop: &Drop<'_>, region: &Region<'_>, quantities: &[Quantity], speed_moves: bool) -> Vec<[f64; 2]> {
     // A search that was cut short has no flights left.
     let by_profile = drop.is_quick() && drop.left.get() > 0;
@@ -101,7 +101,7 @@ fn intervals(drop: &Drop<'_>, region: &Region<'_>, quantities: &[Quantity], spee
 }
 
 impl Quantity {
-    /// Of these unknowns.
+    /// Returns the value of the quantity for these unknowns.
     fn of(self, drop: &Drop<'_>, x: &[f64]) -> f64 {
         let [a, b] = drop.known.body.arms_m();
         let gyration = 0.5 * (a + b) * libm::exp(x[GYRATION]);
@@ -123,16 +123,16 @@ impl Quantity {
             Self::ContactTime => libm::exp(x[CONTACT]),
         }
     }
-    /// Whether it is positive, so that its logarithm is what scatters evenly.
+    /// Returns whether it is positive, so that its logarithm is the number that scatters evenly.
     fn is_positive(self) -> bool {
         !matches!(self, Self::Restitution | Self::RestitutionA | Self::RestitutionB | Self::InertiaRatio | Self::Spin)
     }
-    /// The number that scatters evenly.
+    /// Returns the number that scatters evenly.
     fn even(self, drop: &Drop<'_>, x: &[f64]) -> f64 {
         let value = self.of(drop, x);
         if self.is_positive() { libm::log(value) } else { value }
     }
-    /// Of two numbers that scatter evenly, within what there is.
+    /// Returns the interval of two numbers that scatter evenly, within the possible values.
     fn interval(self, lo: f64, hi: f64) -> [f64; 2] {
         match self {
             Self::Restitution | Self::RestitutionA | Self::RestitutionB => [lo.max(0.0), hi.min(1.0)],
@@ -141,7 +141,7 @@ impl Quantity {
             _ => [lo, hi].map(libm::exp),
         }
     }
-    /// The quantity that it is least and largest with: of the same unknown alone.
+    /// Returns the quantity that it is least and largest with: of the same unknown alone.
     fn leader(self, speed_moves: bool) -> Self {
         match self {
             Self::InertiaRatio => Self::RadiusOfGyration,

@@ -12,14 +12,15 @@ const MOST_VALUES: usize = 2048;
 /// A computed strike, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Which {
-    /// So many strikes come before it.
+    /// The number of strikes that come before it.
     Of(usize),
-    /// So many strikes of its end come before it: two of both ends close together are the same whichever is measured first.
+    /// The end, and the number of strikes of that end that come before it: two of both ends close together are the same whichever is
+    /// measured first.
     OfEnd(End, usize),
 }
 
 impl Which {
-    /// The place of the strike among all that were computed.
+    /// Returns the place of the strike among all that were computed.
     pub(super) fn find(self, drop: &Drop<'_>, strikes: &[Strike]) -> Option<usize> {
         match self {
             Self::Of(n) => (n < strikes.len()).then_some(n),
@@ -36,7 +37,7 @@ impl Which {
 pub(super) enum Set<'a> {
     Strikes {
         strikes: &'a [MeasuredStrike],
-        /// Of each the computed strike that it is; none of one that is left out.
+        /// The computed strike that each one is; none of one that is left out.
         index: Vec<Option<Which>>,
         deviation: f64,
     },
@@ -45,7 +46,7 @@ pub(super) enum Set<'a> {
         deviation: f64,
     },
     Acceleration {
-        /// From the middle towards end b, in half-lengths.
+        /// The place from the middle towards end b, in half-lengths.
         place: f64,
         start_s: f64,
         step_s: f64,
@@ -55,7 +56,7 @@ pub(super) enum Set<'a> {
 }
 
 impl Set<'_> {
-    /// How many strikes are asked for: of all, and of ends a and b.
+    /// Returns how many strikes are requested: of all, and of ends a and b.
     pub(super) fn needed(&self) -> [usize; 3] {
         let Self::Strikes { index, .. } = self else { return [0; 3] };
         let most = |end: Option<End>| {
@@ -68,16 +69,16 @@ impl Set<'_> {
         let [all, a, b] = [None, Some(End::A), Some(End::B)].map(most);
         [all.max(a + b), a, b]
     }
-    /// So many computed strikes have those that are asked for among them, unless one end strikes several times in a row more.
+    /// Returns a number of computed strikes that has all requested ones among them, unless one end strikes several times in a row more.
     pub(super) fn strikes(&self) -> usize {
         self.needed()[0] + 2
     }
-    /// Time from the first to the last measured strike.
+    /// Returns the time from the first to the last measured strike.
     pub(super) fn span_s(&self) -> Option<f64> {
         let Self::Strikes { strikes, .. } = self else { return None };
         strikes.last().zip(strikes.first()).map(|(last, first)| last.time_s - first.time_s)
     }
-    /// Until when the motion is asked for, on the time axis of the record; strikes ask for their number alone.
+    /// Returns until when the motion is requested, on the time axis of the record; strikes need their number alone.
     pub(super) fn end_s(&self) -> Option<f64> {
         match self {
             Self::Strikes { .. } => None,
@@ -93,7 +94,7 @@ impl Set<'_> {
             | Self::Acceleration { deviation, .. } => deviation,
         }
     }
-    /// What its data vary by, over their deviation: the time between strikes, the largest height or acceleration.
+    /// Returns the variation of its data, over their deviation: the time between strikes, the largest height or acceleration.
     pub(super) fn variation(&self, unit_s: f64) -> f64 {
         match self {
             Self::Strikes { deviation, .. } => unit_s / deviation,
@@ -108,11 +109,11 @@ impl Set<'_> {
     pub(super) fn is_strikes(&self) -> bool {
         matches!(self, Self::Strikes { .. })
     }
-    /// Measured strikes that are left out.
+    /// Counts the measured strikes that are left out.
     pub(super) fn left_out(&self) -> usize {
         if let Self::Strikes { index, .. } = self { index.iter().filter(|index| index.is_none()).count() } else { 0 }
     }
-    /// Number of residuals.
+    /// Returns the number of residuals.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Strikes { index, .. } => index.iter().flatten().count(),
@@ -120,7 +121,7 @@ impl Set<'_> {
             Self::Acceleration { values, .. } => values.len(),
         }
     }
-    /// Computed values as the record has them: times, heights of ends a and b in turn, accelerations.
+    /// Returns the computed values as the record has them: times, heights of ends a and b in turn, accelerations.
     pub(super) fn computed(&self, drop: &Drop<'_>, path: &Path, offset_s: f64) -> Vec<f64> {
         match self {
             Self::Strikes { index, .. } => {
@@ -163,7 +164,7 @@ impl Set<'_> {
             }
         }
     }
-    /// Measured values in the same order.
+    /// Returns the measured values in the same order.
     pub(super) fn measured(&self) -> Vec<f64> {
         match self {
             Self::Strikes { strikes, index, .. } => strikes
@@ -232,7 +233,7 @@ fn set<'a>(known: &Known, measured: &'a Measured, record: usize) -> Result<Set<'
             positive("time from the first to the last strike in s", span)?;
             deviation_s.map_or(Ok(()), |s| positive("standard deviation in s", s))?;
             let index = (0..strikes.len()).map(|n| Some(Which::Of(n))).collect();
-            // Where none is given, one as good as any: it cancels out.
+            // Where none is given, any deviation serves: it cancels out.
             Set::Strikes { strikes, index, deviation: deviation_s.unwrap_or(1e-3 * span) }
         }
         Measured::Heights { samples, deviation_m } => {
@@ -271,7 +272,7 @@ fn set<'a>(known: &Known, measured: &'a Measured, record: usize) -> Result<Set<'
     })
 }
 
-/// A time of the drop: the mean one between strikes, or a share of a record.
+/// Returns a time of the drop: the mean one between strikes, or a share of a record.
 pub(super) fn unit_s(sets: &[Set<'_>]) -> f64 {
     let of = |set: &Set<'_>| match set {
         #[expect(clippy::cast_precision_loss, reason = "at most 4096")]

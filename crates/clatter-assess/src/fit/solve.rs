@@ -10,12 +10,12 @@ type Residuals<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 
 /// Residuals as a function of all unknowns, and where these may lie.
 pub(super) struct Problem<'a> {
-    /// As many for any unknowns within the bounds.
+    /// The residuals, as many for any unknowns within the bounds.
     pub(super) residuals: Residuals<'a>,
     pub(super) bounds: Vec<[f64; 2]>,
     /// Half the step of a central difference.
     pub(super) step: f64,
-    /// Whether a search takes differences to one side, which cost half as much.
+    /// True where a search takes differences to one side, which cost half as much.
     pub(super) one_sided: bool,
     /// Residuals are computed so many times, at most, for each free unknown and one more.
     pub(super) patience: usize,
@@ -23,7 +23,7 @@ pub(super) struct Problem<'a> {
     pub(super) precision: f64,
 }
 
-/// Where a minimization ends.
+/// The point at which a minimization ends.
 #[derive(Debug, Clone)]
 pub(super) struct Minimum {
     pub(super) x: Vec<f64>,
@@ -31,7 +31,7 @@ pub(super) struct Minimum {
 }
 
 impl Minimum {
-    /// Sum of the squares of the residuals.
+    /// Returns the sum of the squares of the residuals.
     pub(super) fn sum(&self) -> f64 {
         self.residuals.iter().map(|r| r * r).sum()
     }
@@ -44,7 +44,7 @@ const GAIN: f64 = 0.01;
 pub(super) const PRECISION: f64 = 1e-9;
 
 impl Problem<'_> {
-    /// The minimum next to `x` over the free unknowns. Where one comes to lie on its bound the others go on, and then all again: it
+    /// Finds the minimum next to `x` over the free unknowns. Where one comes to lie on its bound the others go on, and then all again: it
     /// may be let go there.
     pub(super) fn minimize(&self, x: &[f64], free: &[usize]) -> Minimum {
         let mut x: Vec<f64> = x.iter().zip(&self.bounds).map(|(x, [lo, hi])| x.clamp(*lo, *hi)).collect();
@@ -68,8 +68,8 @@ impl Problem<'_> {
         Minimum { residuals: (self.residuals)(&x), x }
     }
 
-    /// As far down as searches one after the other lead: in a narrow valley one ends early, and a new one goes on with steps of another
-    /// size.
+    /// Goes as far down as searches one after the other lead: in a narrow valley one ends early, and a new one goes on with steps of
+    /// another size.
     pub(super) fn descend(&self, x: Vec<f64>, free: &[usize]) -> (Vec<f64>, f64) {
         let mut at = At { problem: self, x, free: free.to_vec(), residuals: OnceCell::new() };
         let mut before = f64::INFINITY;
@@ -115,7 +115,7 @@ struct At<'p, 'a> {
     problem: &'p Problem<'a>,
     x: Vec<f64>,
     free: Vec<usize>,
-    /// Those at these unknowns, once they are computed.
+    /// The residuals at these unknowns, once they are computed.
     residuals: OnceCell<Vec<f64>>,
 }
 

@@ -1,4 +1,4 @@
-//! Where searches begin: unknowns that explain the data roughly.
+//! This module finds where searches begin: unknowns that explain the data roughly.
 
 use clatter::{Bar, End, Start};
 
@@ -9,14 +9,14 @@ use super::{MeasuredHeights, MeasuredStrike, Set, Which};
 const RESTITUTIONS: [f64; 12] = [0.02, 0.08, 0.15, 0.22, 0.3, 0.38, 0.46, 0.55, 0.65, 0.75, 0.85, 0.95];
 /// Radii of gyration that are tried, over that of the product file.
 const GYRATIONS: [f64; 7] = [1.0, 0.7, 0.8, 0.9, 1.1, 1.25, 1.5];
-/// So many of the best go on.
+/// The number of the best starts that go on.
 pub(super) const TAKEN: usize = 8;
 /// Strikes and pulses that a start is found from, at most.
 const MOST: usize = 32;
-/// Of the first few, which gravity and contacts hardly change, and of all.
+/// The numbers of strikes that a start uses: the first few, which gravity and contacts hardly change, or all.
 const EARLY: [usize; 3] = [2, 3, MOST];
 
-/// The best of a grid of unknowns, so many, the best first.
+/// Finds the best of a grid of unknowns, so many, the best first.
 pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
     let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
     let given = drop.given();
@@ -34,8 +34,8 @@ pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
     found.into_iter().take(taken).map(|(_, x)| x).collect()
 }
 
-/// Steps of a grid over the restitution, over the radius of gyration and over a range of the speed: of one that looks for other explanations,
-/// and of one that looks for any.
+/// Steps of a grid over the restitution, over the radius of gyration and over a range of the speed: of one that looks for other
+/// explanations, and of one that looks for any.
 pub(super) const ROUGH_GRID: [u32; 3] = [60, 48, 4];
 pub(super) const FINE_GRID: [u32; 3] = [72, 60, 8];
 /// Half a range of the speed, as a share, over which three of them are enough.
@@ -45,8 +45,8 @@ const RADII: [f64; 2] = [0.15, 0.98];
 /// Flights that bring the second strike to its time, which is nearly proportional to the gap.
 const TO_SECOND: usize = 3;
 
-/// The best drops of a grid over the restitution, the radius of gyration and the range of the speed, so many, the best first: each with
-/// the gap that the second strike tells. Where ends are told, drops come first whose ends strike in the order that was measured.
+/// Finds the best drops of a grid over the restitution, the radius of gyration and the range of the speed, so many, the best first: each
+/// with the gap that the second strike gives. Where ends are known, drops come first whose ends strike in the order that was measured.
 pub(super) fn on_grid(drop: &Drop<'_>, free: &[usize], grid: [u32; 3], taken: usize) -> Vec<Vec<f64>> {
     let Set::Strikes { strikes, .. } = &drop.sets[0] else { return Vec::new() };
     let along = |[lo, hi]: [f64; 2], k: u32, of: u32| lo + (hi - lo) * f64::from(k) / f64::from(of.max(1));
@@ -99,7 +99,7 @@ fn meets_second(drop: &Drop<'_>, strikes: &[MeasuredStrike], x: &mut [f64]) -> O
     Some((wrong, pairs().map(|pair| off(pair).powi(2)).sum()))
 }
 
-/// How far a start is off: of each datum the logarithm, so that a start counts for what it explains, not for what it does not.
+/// Returns how far a start is off: of each datum the logarithm, so that a start counts for what it explains, not for what it does not.
 pub(super) fn misfit(drop: &Drop<'_>, x: &[f64]) -> f64 {
     let residuals = drop.residuals(x);
     let mut from = 0;
@@ -118,7 +118,7 @@ fn is_acceleration(set: &Set<'_>) -> bool {
     matches!(set, Set::Acceleration { .. })
 }
 
-/// How the product fell, by each record that can tell, for a restitution and a radius of gyration.
+/// Returns how the product fell, by each record that can tell, for a restitution and a radius of gyration.
 fn at(drop: &Drop<'_>, x: &[f64]) -> Vec<Vec<f64>> {
     let mut all = vec![x.to_vec()];
     // Heights tell most of how it fell, strikes when.
@@ -144,7 +144,7 @@ fn at(drop: &Drop<'_>, x: &[f64]) -> Vec<Vec<f64>> {
     all
 }
 
-/// Gap over speed and first touch by linear regression on the train without gravity, over so many strikes.
+/// Finds gap over speed and first touch by linear regression on the train without gravity, over so many strikes.
 pub(super) fn by_strikes(
     drop: &Drop<'_>,
     set: usize,
@@ -185,7 +185,7 @@ pub(super) fn by_strikes(
     x
 }
 
-/// The fall before the first touch, which is where the lower end first turns upward near the ground.
+/// Sets the fall before the first touch, which is where the lower end first turns upward near the ground.
 fn by_heights(drop: &Drop<'_>, set: usize, samples: &[MeasuredHeights], x: &mut [f64]) {
     let first = usize::from(drop.first == End::B);
     let low = |sample: &MeasuredHeights| sample.height_m[first];
@@ -218,7 +218,7 @@ const GAPS: u32 = 16;
 /// Share of the largest value at which a pulse begins.
 pub(super) const ONSET: f64 = 0.05;
 
-/// When pulses begin and how long the first takes; the gap from the time between the first two where nothing else tells it.
+/// Finds when pulses begin and how long the first takes; the gap from the time between the first two where nothing else tells it.
 fn by_acceleration(
     drop: &Drop<'_>,
     set: usize,
@@ -255,8 +255,8 @@ fn by_acceleration(
     let mut all = measured_width;
     all.extend(drop.known.contact_time_s.is_some().then_some(x));
     if alone {
-        // The next pulses, one of which is the other end's, gaps over all of the record, as where pulses overlap, and the tilt of the product
-        // file.
+        // The next pulses, one of which is the other end's, gaps over all of the record, as where pulses overlap, and the tilt of the
+        // product file.
         let next = pulses.iter().skip(1).take(3).map(|(next, _)| time(next - from));
         let whole = time(values.len().saturating_sub(from)).max(2.0 * width);
         let apart = |k: u32| 0.25 * width * libm::pow(4.0 * whole / width, f64::from(k) / f64::from(GAPS));

@@ -2,7 +2,7 @@
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-/// The value that |t| passes with probability `alpha`, for so many degrees of freedom; none: the scatter is known, and t
+/// Returns the value that |t| passes with probability `alpha`, for so many degrees of freedom; none: the scatter is known, and t
 /// is normal.
 pub(super) fn two_sided(alpha: f64, degrees: Option<f64>) -> f64 {
     let Some(degrees) = degrees else { return -Normal::standard().inverse_cdf(0.5 * alpha) };

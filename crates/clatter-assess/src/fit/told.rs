@@ -1,4 +1,4 @@
-//! What the data tell: which unknowns are left free, and how far they may be off.
+//! This module finds what the data determine: which unknowns are left free, and how far they may be off.
 
 use super::criterion::{ALPHA, Faults, SIMILAR, Score, chi_square};
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
@@ -9,8 +9,8 @@ use super::starts::{TAKEN, starts};
 use super::student;
 use super::{Error, Set};
 
-/// A direction is told where the interval of 95 % along it is within these half-widths: a restitution to a quarter of all there is, both
-/// ends apart to 0.02, a length or a time to a factor of √2, the speed to a fifth. More would not be of use in a product file.
+/// The data determine a direction where the interval of 95 % along it is within these half-widths: a restitution to a quarter of all there
+/// is, both ends apart to 0.02, a length or a time to a factor of √2, the speed to a fifth. More would not be of use in a product file.
 fn half_width(unknown: usize) -> f64 {
     match unknown {
         RESTITUTION => 0.25,
@@ -21,7 +21,7 @@ fn half_width(unknown: usize) -> f64 {
     }
 }
 
-/// How unknowns are called.
+/// Returns the name of an unknown.
 fn name(unknown: usize) -> &'static str {
     match unknown {
         GYRATION => "the radius of gyration",
@@ -54,14 +54,14 @@ pub(super) struct DeterminedFit {
     pub(super) scatter: Option<(f64, Option<f64>)>,
     /// Residuals scatter more than the deviations given, by this factor: the drop does not explain the data.
     pub(super) excess: Option<f64>,
-    /// What it is worth among others.
+    /// The score by which it is compared with others.
     pub(super) score: Score,
     /// Strikes that are dropped or invented.
     pub(super) faults: usize,
 }
 
 /// Finds it. `known`: whether the deviations of all records are given; `begin`: unknowns that explain the data already, and the one that
-/// is free beside those that such records tell at least; `faults`: what strikes were dropped or invented.
+/// is free in addition to those that such records determine at least; `faults`: the strikes that were dropped or invented.
 pub(super) fn find(
     drop: &mut Drop<'_>,
     known: bool,
@@ -72,7 +72,7 @@ pub(super) fn find(
     let (begins, freed) = if let Some((x, freed)) = begin {
         (vec![x], freed)
     } else {
-        // What a start asks for is no search.
+        // The flights for a start do not count as a search.
         let left = drop.left.get();
         let begins = starts(drop, TAKEN);
         drop.left.set(left);
@@ -101,7 +101,7 @@ pub(super) fn find(
 const EARLY: [f64; 3] = [0.15, 0.3, 0.6];
 
 impl Drop<'_> {
-    /// The same with what was measured up to a share of the time after the first touch; none of strikes alone.
+    /// Returns the same drop with the data measured up to a share of the time after the first touch; none of strikes alone.
     fn early(&self, x: &[f64], share: f64) -> Option<Self> {
         let mut early = self.clone();
         let mut cut = false;
@@ -138,7 +138,7 @@ impl Drop<'_> {
             from += own.len();
             #[expect(clippy::cast_precision_loss, reason = "a count of data")]
             let mean = own.iter().map(|r| r * r).sum::<f64>() / own.len() as f64;
-            // Of a record that is met exactly nothing is known but that.
+            // A record that is met exactly shows nothing but that.
             if mean > 0.0 && mean.is_finite() {
                 *set.deviation() *= mean.sqrt();
             }
@@ -154,7 +154,7 @@ struct Search<'s, 'd> {
 }
 
 impl Search<'_, '_> {
-    /// From the best of the starts, with the unknowns that such records tell at least.
+    /// Fits from the best of the starts, with the unknowns that such records tell at least.
     fn base(&mut self, starts: &[Vec<f64>], freed: Option<usize>) -> Result<DeterminedFit, Error> {
         let has = |is: fn(&Set<'_>) -> bool| self.drop.sets.iter().any(is);
         let heights = has(|set| matches!(set, Set::Heights { .. }));
@@ -254,7 +254,7 @@ impl Search<'_, '_> {
         let ranged = self.drop.ranged.clone();
         self.drop.ranged.retain(|other| *other != unknown);
         let mut minimum = self.drop.problem().minimize(&told.minimum.x, &self.drop.with_ranged(&more));
-        // At the new minimum it may be told less than at the old one. At the old one the scatter is not that of chance alone if
+        // The data may determine it less at the new minimum than at the old one. At the old one the scatter is not that of chance alone if
         // the value that is held is wrong.
         let untold = || {
             let before = self.untold(&told.minimum, &more, Some(unknown));
@@ -276,7 +276,7 @@ impl Search<'_, '_> {
         Ok(())
     }
 
-    /// Holds what turns out not to be told after all, unless the data contradict the product file.
+    /// Holds the unknowns that turn out not to be determined after all, unless the data contradict the product file.
     fn hold_untold(&mut self, told: &mut DeterminedFit) {
         while let Some((unknown, reason)) = self.untold(&told.minimum, &told.free, None) {
             // The file has no range of the radius of gyration that the others could be widened by: where the intervals can be as
@@ -299,14 +299,15 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Whether the data contradict the value at which an unknown is held: so much larger than with all of `free` the
+    /// Returns whether the data contradict the value at which an unknown is held: so much larger than with all of `free` the
     /// sum of squares is by chance less often than `alpha` (the F test of one unknown, where F is the square of Student's t).
     fn contradicts(&self, held: &Minimum, minimum: &Minimum, free: &[usize], alpha: f64) -> bool {
         let Some((scatter, degrees)) = self.scatter(minimum, free) else { return false };
         held.sum() - minimum.sum() > (student::two_sided(alpha, degrees) * scatter).powi(2)
     }
 
-    /// Standard deviation of a residual, and the degrees of freedom that tell it where it is not given; none where nothing tells it.
+    /// Returns the standard deviation of a residual, and the degrees of freedom that tell it where it is not given; none where nothing
+    /// tells it.
     fn scatter(&self, minimum: &Minimum, free: &[usize]) -> Option<(f64, Option<f64>)> {
         if self.known {
             return Some((1.0, None));
@@ -314,7 +315,7 @@ impl Search<'_, '_> {
         self.drop.scattered(minimum, free).map(|(scatter, degrees)| (scatter, Some(degrees)))
     }
 
-    /// An unknown that the data do not tell beside the others, and why; `last` is the one to name if it is part of it.
+    /// Returns an unknown that the data do not determine next to the others, and why; `last` is the one to name if it is part of it.
     fn untold(&self, minimum: &Minimum, free: &[usize], last: Option<usize>) -> Option<(usize, String)> {
         let (scatter, degrees) = self.scatter(minimum, free)?;
         let t = student::two_sided(ALPHA, degrees);
@@ -329,9 +330,9 @@ impl Search<'_, '_> {
             return None;
         }
         let part = |k: usize| directions[(least, k)].abs();
-        // When it happened and how long it took is told by any record, or else nothing is.
+        // Any record determines the time and the duration, or else it determines nothing.
         let can_be_held = |k: &usize| free[*k] < OFFSET && free[*k] != GAP_TIME;
-        // Of those that undo each other the one that was left free last.
+        // Of those that undo each other, the one that was left free last is held.
         let largest = (0..free.len()).filter(can_be_held).rfind(|&k| part(k) > PART)?;
         let k = last.and_then(|last| free.iter().position(|f| *f == last)).unwrap_or(largest);
         let others: Vec<&str> = (0..free.len()).filter(|&i| i != k && part(i) > PART).map(|i| name(free[i])).collect();
@@ -339,14 +340,14 @@ impl Search<'_, '_> {
         Some((free[k], self.reason(free[k], &others, little)))
     }
 
-    /// How well an unknown has to be known to be of use: strikes are to tell it better than the product file.
+    /// Returns how well an unknown has to be known to be of use: strikes are to tell it better than the product file.
     fn half_width(&self, unknown: usize) -> f64 {
         let is_given = matches!(unknown, SPEED | CONTACT) && self.drop.sets.iter().all(Set::is_strikes);
         let given = if is_given { self.drop.range(unknown).map_or(0.0, |[_, half]| half) } else { f64::INFINITY };
         half_width(unknown).min(given)
     }
 
-    /// Why an unknown is not told: what undoes it, or else what is given.
+    /// Returns the reason why an unknown is not determined: the unknowns that undo it, or else the given text.
     fn reason(&self, unknown: usize, others: &[&str], alone: String) -> String {
         let strikes = self.drop.sets.iter().all(Set::is_strikes);
         match (unknown, others) {
@@ -362,7 +363,8 @@ impl Search<'_, '_> {
 }
 
 impl DeterminedFit {
-    /// Whether it is about as good as the best one: by the criterion, or within its interval where the strikes are taken for the same.
+    /// Returns whether it is about as good as the best one: by the criterion, or within its interval where the strikes are taken for the
+    /// same.
     pub(super) fn is_about_as_good(&self, best: &Self) -> bool {
         let (scatter, degrees) = best.scatter.unwrap_or((1.0, None));
         let rise = (scatter * student::two_sided(ALPHA, degrees)).powi(2);
@@ -370,7 +372,7 @@ impl DeterminedFit {
         self.excess.is_none() && (is_within || self.score.above(&best.score) <= SIMILAR)
     }
 
-    /// How far the unknowns, `all` that are free or within a range, may be off together; none where nothing tells the scatter, or
+    /// Returns how far the unknowns, `all` that are free or within a range, may be off together; none where nothing tells the scatter, or
     /// where the drop does not explain the data.
     pub(super) fn region<'a>(&'a self, problem: &'a Problem<'a>, all: &'a [usize]) -> Option<Region<'a>> {
         if self.excess.is_some() {

@@ -14,7 +14,7 @@ const MOST_TILT_DEG: f64 = 30.0;
 pub struct Written {
     /// The text of the file; all that the fit does not tell stands as it was.
     pub text: String,
-    /// What was found and is not in it, and why.
+    /// The results that are not in it, and why.
     pub notes: Vec<String>,
 }
 
@@ -22,7 +22,7 @@ pub struct Written {
 /// radius of gyration within what a file takes. All else stays as it is, comments and order too.
 ///
 /// # Errors
-/// What is wrong with the text, or why it cannot take what was found.
+/// Returns the fault of the text, or the reason why it cannot take the results.
 ///
 /// # Examples
 /// ```
@@ -97,7 +97,7 @@ pub fn written(text: &str, fit: &Fit) -> Result<Written, String> {
     Ok(Written { text, notes })
 }
 
-/// The restitution of the end, or of both.
+/// Returns the restitution of the end, or of both.
 fn restitution(fit: &Fit) -> Option<[f64; 2]> {
     let is_one = |estimate: &&Estimate| {
         matches!(estimate.quantity, Quantity::Restitution | Quantity::RestitutionA | Quantity::RestitutionB)
@@ -109,13 +109,13 @@ fn range(estimate: &Estimate) -> [f64; 2] {
     estimate.interval.unwrap_or([estimate.value; 2])
 }
 
-/// A range outward to four digits, without a unit.
+/// Writes a range outward to four digits, without a unit.
 fn plain([lo, hi]: [f64; 2]) -> String {
     let (lo, hi) = (four(lo, Round::Down), four(hi, Round::Up));
     if lo == hi { lo } else { format!("[{lo}, {hi}]") }
 }
 
-/// The same with a unit.
+/// Writes the same with a unit.
 fn quantity([lo, hi]: [f64; 2], unit: &str) -> String {
     let (lo, hi) = (four(lo, Round::Down), four(hi, Round::Up));
     if lo == hi { format!("\"{lo} {unit}\"") } else { format!("[\"{lo} {unit}\", \"{hi} {unit}\"]") }
@@ -128,7 +128,7 @@ enum Round {
     Nearest,
 }
 
-/// Four significant digits of a number that is not negative.
+/// Writes four significant digits of a number that is not negative.
 fn four(x: f64, round: Round) -> String {
     if x <= 0.0 {
         return "0".to_owned();
@@ -136,7 +136,7 @@ fn four(x: f64, round: Round) -> String {
     #[expect(clippy::cast_possible_truncation, reason = "the exponent of a float")]
     let place = 3 - libm::floor(libm::log10(x)) as i32;
     let (scale, digits) = (10f64.powi(place), usize::try_from(place).unwrap_or(0));
-    // What is a whole number but for roundings is one.
+    // A value that is a whole number but for roundings counts as one.
     let near = (x * scale).round();
     let whole = if (x * scale - near).abs() < 1e-6 {
         near

@@ -11,29 +11,29 @@ use crate::model::follow;
 use crate::{Assessment, DropName, Error, LandingLimit, Limit, ProductFile};
 use clatter_flight::{Axis, Body, Drop, Place, Side, Until};
 
-/// One drop of a box: how late its last corner may come, beside a contact, and what it leaves least room.
+/// One drop of a box: how late its last corner may come, compared with a contact, and the limit with least room.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LandingLadder {
-    /// What it lands on.
+    /// The name of the drop, by the face, edge or corner on which the box lands.
     pub landing: DropName,
-    /// How many corners that has.
+    /// The number of corners of that face, edge or corner.
     pub corners: usize,
-    /// By how much it may be turned off that.
+    /// The angle by which it may be turned off that.
     pub tolerance_deg: f64,
-    /// How much later than the first of these corners the last one comes down, if the first did nothing, at least and at most over the
+    /// The time by which the last of these corners comes down later than the first, if the first did nothing, at least and at most over the
     /// tolerance, the speeds and the spins: the gap over the speed of that corner.
     pub last_corner_s: [f64; 2],
-    /// How long a lone contact of any corner takes, at least and at most.
+    /// The time of a lone contact of any corner, at least and at most.
     pub contact_time_s: [f64; 2],
-    /// So far it may be turned off, whatever the direction, that the last corner comes within the shortest contact; none where the
-    /// tolerance allows no more, so that it always lands as one.
+    /// The angle by which it may be turned off, whatever the direction, so that the last corner comes within the shortest contact; none
+    /// where the tolerance allows no more, so that it always lands as one.
     pub as_one_to_deg: Option<f64>,
     /// The limit with the smallest margin.
     pub tightest: Option<LandingLimit>,
 }
 
 impl LandingLadder {
-    /// Whether the last of its corners may come when the contact of the first is over, so that the box clatters.
+    /// Returns whether the last of its corners may come when the contact of the first is over, so that the box clatters.
     #[must_use]
     pub fn may_clatter(&self) -> bool {
         self.as_one_to_deg.is_some()
@@ -41,7 +41,7 @@ impl LandingLadder {
 }
 
 impl ProductFile {
-    /// What the tolerance leaves open of each drop of a box.
+    /// Returns the range of motions that the tolerance leaves open for each drop of a box.
     pub(super) fn landing_ladders(&self, assessment: &Assessment) -> Vec<LandingLadder> {
         let Some((faces_m, [shortest, longest])) = self.product.body.faces_m().zip(self.product.contact_times_s())
         else {
@@ -75,8 +75,8 @@ impl ProductFile {
     }
 }
 
-/// The same drop as one of the plate that the face of a box is, with its part; none of an edge, of a corner, of a part that does not
-/// move across the face, and of a spin about another axis than that of the tilt.
+/// Returns the same drop as one of the plate that the face of a box is, with its part; none of an edge, of a corner, of a part that does
+/// not move across the face, and of a spin about another axis than that of the tilt.
 fn as_plate(drop: &Drop, part: &Part) -> Option<(Drop, Part)> {
     let [length, width, thickness] = [Some(drop.body.length), drop.body.width, drop.body.thickness];
     let sides = [length?, width?, thickness?];
@@ -108,12 +108,12 @@ fn as_plate(drop: &Drop, part: &Part) -> Option<(Drop, Part)> {
     Some((plate, Part::at(Place::flat([at_m[x], at_m[y]]), part.suspension)))
 }
 
-/// How fast the vertical moves in axes of a box that turns: n × ω.
+/// Returns how fast the vertical moves in axes of a box that turns: n × ω.
 fn rising([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {
     [y * c - z * b, z * a - x * c, x * b - y * a]
 }
 
-/// What the plate that a face of a box is lacks: turned off it, the center of mass leaves the middle of the face by its height.
+/// Returns the effect that the plate of a box face lacks: turned off it, the center of mass leaves the middle of the face by its height.
 fn leans(plate: &Drop) -> String {
     let [height_m, half_m] =
         [plate.body.thickness().m(), plate.body.width_m().min(plate.body.length_m())].map(|m| 0.5 * m);
@@ -121,7 +121,7 @@ fn leans(plate: &Drop) -> String {
 }
 
 impl Ladder {
-    /// Of a box: itself, and where it lands on a face the plate that this is and the bar along it.
+    /// Compares, of a box, the box itself, and where it lands on a face the plate that this is and the bar along it.
     pub(super) fn of_box(drop: &Drop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
         let exact = answer(drop, part, limit, Model::Compliant, tolerance)?;
         let until_s = (BEYOND_PEAK * exact.time_s).max(drop.clatter_s());
@@ -130,7 +130,7 @@ impl Ladder {
         let mut models = Vec::new();
         if let Some((plate, part)) = &plate {
             let bar = (plate.along_length(), along_length(part));
-            // What a body refuses is left out.
+            // A body that refuses the drop is left out.
             models.extend(measured(Rung::Bar, &|| until(&bar.0), &bar.1, limit, &exact));
             models.extend(measured(Rung::Plate, &|| until(plate), part, limit, &exact));
         }

@@ -7,7 +7,7 @@ use crate::model::follow;
 use crate::{Error, Limit};
 use clatter_flight::{Drop, Followed, Until};
 
-/// Until so long a box is followed, over the time of the peak that the plate of small tilt has.
+/// The time until which a box is followed, over the time of the peak that the plate of small tilt has.
 pub(super) const BEYOND_PEAK: f64 = 1.5;
 /// A box is left where later presses do less than this share of the largest.
 pub(super) const BLOCK: f64 = 1e-3;
@@ -43,12 +43,12 @@ impl Ladder {
     }
 }
 
-/// The part in the bar along the length.
+/// Returns the part in the bar along the length.
 pub(super) fn along_length(part: &Part) -> Part {
     Part::new(part.place.at_m[0], part.suspension)
 }
 
-/// A body on the drop, beside the exact answer.
+/// Measures a body on the drop, next to the exact answer.
 pub(super) fn measured(
     model: Rung,
     follow: &dyn Fn() -> Result<Followed, Error>,
@@ -62,7 +62,7 @@ pub(super) fn measured(
     Ok(Measured { model, value: found.value, error, seconds, strikes })
 }
 
-/// What the next cheaper body lacks; of the plate that is told.
+/// Returns the physics that the next cheaper body lacks; of the plate the given text.
 pub(super) fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups, of_plate: String) -> String {
     let Some(coarser) = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance) else {
         let off = models.iter().find(|m| m.model == cheapest).map_or(f64::INFINITY, |m| m.error);

@@ -1,4 +1,4 @@
-//! What a run costs, on this machine.
+//! This module measures the time of a run, on this machine.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::Error;
 
-/// Where times were taken.
+/// The machine on which times were taken.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Machine {
     /// The processor, as the system names it.
@@ -16,12 +16,12 @@ pub struct Machine {
     pub processors: usize,
     /// The operating system.
     pub system: &'static str,
-    /// Whether the program was built with optimization: without, times say nothing.
+    /// True where the program was built with optimization: without, times say nothing.
     pub optimized: bool,
 }
 
 impl Machine {
-    /// The one that this runs on.
+    /// Returns the machine that this runs on.
     #[must_use]
     pub fn here() -> Self {
         // Linux says it here; elsewhere the architecture has to do.
@@ -44,7 +44,7 @@ const TOTAL: Duration = Duration::from_millis(3);
 /// Batches at least, of which the median is taken.
 const LEAST: usize = 5;
 
-/// An answer, and the time of one run: the median over batches of runs, after one that fills the caches.
+/// Returns an answer, and the time of one run: the median over batches of runs, after one that fills the caches.
 pub(super) fn measured<T>(mut run: impl FnMut() -> Result<T, Error>) -> Result<(T, f64), Error> {
     let (answer, first) = once(&mut run)?;
     let (batch, samples) = sizes(first);
@@ -71,7 +71,7 @@ fn sizes(first_s: f64) -> (u32, usize) {
     (batch, samples.max(LEAST) | 1)
 }
 
-/// An answer and the time of its one run.
+/// Returns an answer and the time of its one run.
 pub(super) fn once<T>(run: impl FnOnce() -> Result<T, Error>) -> Result<(T, f64), Error> {
     let start = Instant::now();
     let answer = run()?;

@@ -1,4 +1,4 @@
-//! What a limit is asked over the tilt.
+//! This module computes the demand of a limit over the tilt.
 
 use clatter::End;
 
@@ -8,9 +8,9 @@ use crate::search::Ranges;
 use crate::{Component, Limit, LimitAssessment, WorstCase};
 use clatter_flight::Until;
 
-/// A curve for each end that may touch first: at each tilt the drop that asks most of those followed. These are the `shared` ones, at
-/// the ends of the ranges, and those with the speed, spin, restitution and contact time of the worst case; the worst case is one of the
-/// points.
+/// Returns a curve for each end that may touch first: at each tilt the drop with the largest demand of those followed. These are the
+/// `shared` ones, at the ends of the ranges, and those with the speed, spin, restitution and contact time of the worst case; the worst case
+/// is one of the points.
 pub(super) fn over_tilt(
     ranges: &Ranges<'_>,
     shared: &Drops,
@@ -22,7 +22,7 @@ pub(super) fn over_tilt(
     let Some(worst) = &limit.worst_case else { return Vec::new() };
     let corners = corners(ranges);
     let own = with(ranges, held().filter_map(|row| Some((row, row.input.value(&worst.drop)?))));
-    // At the tilt of the worst case all of them, at the others what is not shared.
+    // All of them are followed at the tilt of the worst case, only those that are not shared at the others.
     let here = if worst.drop.is_flat { Vec::new() } else { vec![(worst.drop.tilt_rad, true)] };
     let at_worst = Drops::new(ranges, &here, &corners, until);
     let of_worst = Drops::new(ranges, if corners.contains(&own) { &[] } else { tilts }, &[own], until);
@@ -49,7 +49,7 @@ pub(super) fn over_tilt(
     ranges.drop.first_ends().iter().map(|&first| (first, curve(first))).collect()
 }
 
-/// The worst case, as it is told; a flat one has no tilt of its own.
+/// Returns the worst case, as it is reported; a flat one has no tilt of its own.
 fn of_worst_case(limit: &LimitAssessment) -> Option<Point> {
     let (WorstCase { drop, part, .. }, demand) = limit.worst_case.zip(limit.demand)?;
     (!drop.is_flat).then_some(Point { tilt_rad: drop.tilt_rad, drop, part, share: demand / limit.allowed })

@@ -19,7 +19,7 @@ const STEPS: u32 = 40;
 /// neighbors the curves show as well, itself.
 pub(super) type Tilt = (f64, bool);
 
-/// Drops, followed as they are asked for.
+/// Drops, each followed when it is first requested.
 pub(super) struct Drops {
     model: Model,
     tolerance: f64,
@@ -29,9 +29,9 @@ pub(super) struct Drops {
 
 struct Kept {
     drop: Drop,
-    /// Of which drop of the file.
+    /// The number of the drop in the file.
     listed: usize,
-    /// Whether that of a symmetric product stands for the one that is turned around as well.
+    /// True where the drop of a symmetric product stands for the one that is turned around as well.
     turns: bool,
     tilt: Tilt,
     followed: OnceLock<Option<Followed>>,
@@ -45,7 +45,7 @@ pub(super) struct View {
 }
 
 impl Drops {
-    /// Drops at these tilts with either end first, of each of these inputs, by the contact law of the ranges.
+    /// Returns drops at these tilts with either end first, of each of these inputs, by the contact law of the ranges.
     pub(super) fn new(ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Drop], until: Until) -> Self {
         let Ranges { model, tolerance, .. } = *ranges;
         let mut drops = Self { model, tolerance: tolerance.max(0.02), until, all: Vec::new() };
@@ -53,7 +53,7 @@ impl Drops {
         drops
     }
 
-    /// The same of all drops of a file, at the ends of their ranges.
+    /// Returns the same of all drops of a file, at the ends of their ranges.
     pub(super) fn of_all<'r>(
         ranges: impl Iterator<Item = Ranges<'r>>,
         tilts: &[Vec<Tilt>],
@@ -79,7 +79,7 @@ impl Drops {
         }
     }
 
-    /// All of them.
+    /// Returns all views.
     pub(super) fn views(&self) -> Vec<View> {
         let of = |(index, kept): (usize, &Kept)| {
             let turned: &[bool] = if kept.turns { &[false, true] } else { &[false] };
@@ -88,7 +88,7 @@ impl Drops {
         self.all.iter().enumerate().flat_map(of).collect()
     }
 
-    /// Those that places count with.
+    /// Returns the views that places count with.
     pub(super) fn counted(&self) -> Vec<View> {
         self.views().into_iter().filter(|view| self.tilt(*view).1).collect()
     }
@@ -101,7 +101,7 @@ impl Drops {
         self.all[view.index].tilt
     }
 
-    /// Of which drop of the file.
+    /// Returns which drop of the file it is.
     pub(super) fn listed(&self, view: View) -> usize {
         self.all[view.index].listed
     }
@@ -112,7 +112,7 @@ impl Drops {
         Drop { direction_rad: Drop::towards(first), ..drop }
     }
 
-    /// What a place feels in a drop, for parts up to a natural frequency; none where the drop is not answered.
+    /// Returns the history at a place in a drop, for parts up to a natural frequency; none where the drop is not answered.
     fn felt(&self, view: View, position_m: f64, fastest_rad_s: f64) -> Option<PlaceHistory<'_>> {
         let kept = &self.all[view.index];
         let follow = || follow(&kept.drop, self.model, self.tolerance, self.until).ok();
@@ -122,7 +122,7 @@ impl Drops {
     }
 }
 
-/// What places feel in the drops, made as it is asked for.
+/// The histories at places in the drops, each made when it is first requested.
 pub(super) struct Places<'d> {
     pub(super) drops: &'d Drops,
     pub(super) positions_m: Vec<f64>,
@@ -131,15 +131,15 @@ pub(super) struct Places<'d> {
 }
 
 impl<'d> Places<'d> {
-    /// Of these places, for parts up to a natural frequency.
+    /// Returns the histories of these places, for parts up to a natural frequency.
     pub(super) fn new(drops: &'d Drops, positions_m: Vec<f64>, fastest_rad_s: f64) -> Self {
         let count = 2 * drops.all.len() * positions_m.len();
         let cells = std::iter::repeat_with(OnceLock::new).take(count).collect();
         Self { drops, positions_m, fastest_rad_s, cells }
     }
 
-    /// What one drop asks of a limit at place number `at`, as a share of what is allowed, where that passes `above`: the most of
-    /// these parts, and which of them.
+    /// Returns the demand of one drop for a limit at place number `at`, as a share of the allowed value, where that passes `above`: the
+    /// most of these parts, and which of them.
     pub(super) fn share(
         &self,
         view: View,
@@ -160,7 +160,7 @@ impl<'d> Places<'d> {
         most
     }
 
-    /// The most that these drops ask at some of the places.
+    /// Returns the largest demand of these drops at some of the places.
     pub(super) fn most(&self, views: &[View], at: &[usize], limit: &Limit, parts: &[Option<Suspension>]) -> f64 {
         let mut most = 0.0;
         for &view in views {
@@ -171,8 +171,8 @@ impl<'d> Places<'d> {
         most
     }
 
-    /// Whether one of these drops asks for more than a share at some of the places. The one that does comes to the front: it is likely
-    /// to do so again.
+    /// Returns whether the demand of one of these drops is more than a share at some of the places. That drop comes to the front: it is
+    /// likely to do so again.
     pub(super) fn exceeds(
         &self,
         views: &mut [View],
@@ -217,12 +217,12 @@ pub(super) fn tilts(ranges: &Ranges<'_>) -> Vec<Tilt> {
     tilts.into_iter().enumerate().map(|(i, tilt)| (tilt, counts(i, tilt))).collect()
 }
 
-/// The places of a part along a bar.
+/// Returns the places of a part along a bar.
 pub(super) fn along(component: &Component) -> Vec<f64> {
     component.places_m().into_iter().map(|[x, _]| x).collect()
 }
 
-/// A drop of the ranges with these inputs, lying, of the product's own body.
+/// Returns a drop of the ranges with these inputs, lying, of the product's own body.
 pub(super) fn with(ranges: &Ranges<'_>, inputs: impl IntoIterator<Item = (&'static Row, f64)>) -> Drop {
     let mut drop = Drop {
         gravity_m_s2: ranges.drop.gravity_m_s2,
@@ -243,7 +243,7 @@ pub(super) fn held() -> impl Iterator<Item = &'static Row> {
     searched().map(|(row, _)| row).filter(|row| !matches!(row.input, Input::Tilt | Input::Gyration))
 }
 
-/// The highest speed with the ends of the ranges of all that lines of drops go through.
+/// Returns the highest speed with the ends of the ranges of all that lines of drops go through.
 pub(super) fn corners(ranges: &Ranges<'_>) -> Vec<Drop> {
     let [_, fast] = ranges.drop.speeds_m_s();
     let mut all = vec![vec![(Input::Speed.row(), fast)]];
@@ -259,8 +259,8 @@ pub(super) fn corners(ranges: &Ranges<'_>) -> Vec<Drop> {
     all.into_iter().map(|inputs| with(ranges, inputs)).collect()
 }
 
-/// The parts that a limit is asked of: of a response those at the ends of the range of natural frequencies with the least damping, and
-/// that of the worst case.
+/// Returns the parts for which a limit is answered: of a response those at the ends of the range of natural frequencies with the least
+/// damping, and that of the worst case.
 pub(super) fn parts(component: &Component, limit: &Limit, worst: Option<&WorstCase>) -> Vec<Option<Suspension>> {
     let Mount::Suspended { frequency_hz, damping } = component.mount else { return vec![None] };
     if !limit.is_response() {

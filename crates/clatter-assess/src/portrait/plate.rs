@@ -1,4 +1,5 @@
-//! What a page shows of a part of a plate: the corners of its worst drop, what it is asked by direction, and anywhere on the plate.
+//! This module draws a part of a plate for a page: the corners of its worst drop, its demand over the direction, and its demand anywhere
+//! on the plate.
 
 use std::f64::consts::TAU;
 
@@ -18,23 +19,23 @@ const OF_MAP: u32 = 3;
 /// Places of the map, about.
 const PLACES: f64 = 150.0;
 
-/// What is drawn of a part of a plate.
+/// The picture of a part of a plate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlatePortrait {
     /// The strikes of the worst drop, in order of time.
     pub strikes: Vec<CornerStrike>,
-    /// What the part of the worst drop is asked where the plate rises to other directions, in order of direction from 0 to 2π: all
-    /// else is as in the worst drop, which is one of the points.
+    /// The demand on the part of the worst drop where the plate rises to other directions, in order of direction from 0 to 2π: all else is
+    /// as in the worst drop, which is one of the points.
     pub over_direction: Vec<Point>,
     /// The directions that the file gives, from and to, in rad; any if none.
     pub given_rad: Option<[f64; 2]>,
-    /// What each of its limits would be asked anywhere, around its own worst drop, the tightest first; none of those that ask the same
+    /// The demand for each of its limits at any place, around its own worst drop, the tightest first; none of those with the same demand
     /// everywhere.
     pub maps: Vec<(LimitKind, PlaceMap)>,
 }
 
 impl PlatePortrait {
-    /// Whether the file gives a direction in rad.
+    /// Returns whether the file gives a direction in rad.
     #[must_use]
     pub fn is_given(&self, direction_rad: f64) -> bool {
         is_given(self.given_rad, direction_rad)
@@ -46,13 +47,13 @@ impl PlatePortrait {
 pub struct CornerStrike {
     /// 0 for a (−, −), 1 for b (+, −), 2 for c (+, +), 3 for d (−, +), along and across the product.
     pub corner: usize,
-    /// When it touches, since the first touch.
+    /// The time of the touch, since the first touch.
     pub time_s: f64,
-    /// What its force does to the velocity of the corner.
+    /// The velocity change that its force gives to the corner.
     pub delta_v_m_s: f64,
 }
 
-/// What one point of a part would be asked over the plan of a plate.
+/// The demand on one point of a part over the plan of a plate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaceMap {
     /// Columns, from the middle along the product; that of the part's worst place is one of them.
@@ -61,12 +62,12 @@ pub struct PlaceMap {
     pub across_m: Vec<f64>,
     /// The demand as a share of what is allowed, row by row: the most of the drops.
     pub shares: Vec<f64>,
-    /// How many drops: the worst one, and those of the curve with every third direction that the file gives.
+    /// The number of drops: the worst one, and those of the curve with every third direction that the file gives.
     pub drops: usize,
 }
 
 impl PlaceMap {
-    /// The share of a column and a row.
+    /// Returns the share of a column and a row.
     #[must_use]
     pub fn share(&self, column: usize, row: usize) -> f64 {
         self.shares[row * self.along_m.len() + column]
@@ -74,7 +75,7 @@ impl PlaceMap {
 }
 
 impl Product {
-    /// The plate as flights take it, corner a at (−, −); none of a bar.
+    /// Returns the plate as flights take it, corner a at (−, −); none of a bar.
     #[must_use]
     pub fn plate(&self) -> Option<clatter_flight::Plate> {
         let (width, [left, right]) = (self.body.width.as_ref()?, self.body.arms_m());
@@ -85,17 +86,17 @@ impl Product {
     }
 }
 
-/// What is asked of one limit of a part around its worst drop.
+/// The data of one limit of a part around its worst drop.
 struct OneLimit<'a> {
     limit: Limit,
     suspension: Option<Suspension>,
-    /// Up to which natural frequency histories may be rough.
+    /// The natural frequency up to which histories may be rough.
     rough_to_rad_s: f64,
     worst: &'a WorstCase,
 }
 
 impl<'a> OneLimit<'a> {
-    /// None of one that no drop is answered for.
+    /// Returns the data of a limit; none of one for which no drop is answered.
     fn of(component: &Component, limit: &'a LimitAssessment) -> Option<Self> {
         let worst = limit.worst_case.as_ref()?;
         let asked = Limit::of(component).into_iter().find(|asked| asked.kind == limit.limit)?;
@@ -106,22 +107,22 @@ impl<'a> OneLimit<'a> {
     fn has_directions(&self) -> bool {
         self.worst.drop.body.is_wide() && self.worst.drop.is_level
     }
-    /// Whether it asks for more in one place than in another.
+    /// Returns whether the demand differs from place to place.
     fn has_map(&self) -> bool {
         self.limit.kind.source() != Source::Turn
     }
-    /// The worst drop with other directions all around, every so many of them, with their numbers.
+    /// Returns the worst drop with other directions all around, every so many of them, with their numbers.
     fn around(&self, every: u32) -> impl Iterator<Item = (u32, Drop)> {
         let turned = |k: u32| (k, self.rising_to(TAU * f64::from(k) / f64::from(DIRECTIONS)));
         let all: Vec<_> = (0..=DIRECTIONS).filter(|k| k.is_multiple_of(every)).map(turned).collect();
         all.into_iter()
     }
-    /// The share that a followed drop asks at a place, where it passes `above`.
+    /// Returns the demand of a followed drop at a place, as a share, where it passes `above`.
     fn share(&self, followed: &Followed, at_m: [f64; 2], above: f64) -> Option<f64> {
         let felt = PlaceHistory::rough(followed, Place::flat(at_m), self.rough_to_rad_s).ok()?;
         felt.answer(&self.limit, self.suspension.as_ref(), above).ok()?.map(|answer| answer.utilization())
     }
-    /// The most at some places, and which of them.
+    /// Returns the largest share at some places, and the part there.
     fn most(&self, followed: &Followed, places: &[[f64; 2]]) -> Option<(f64, Part)> {
         let mut most: Option<(f64, Part)> = None;
         for &at_m in places {
@@ -131,14 +132,14 @@ impl<'a> OneLimit<'a> {
         }
         most
     }
-    /// The worst drop with another direction.
+    /// Returns the worst drop with another direction.
     fn rising_to(&self, direction_rad: f64) -> Drop {
         Drop { direction_rad, ..self.worst.drop }
     }
 }
 
-/// The portrait of a part; none where no drop is answered, and of a box that lands on a face, an edge or a corner. `given`: the directions
-/// that the file gives for the drop of a worst case.
+/// Returns the portrait of a part; none where no drop is answered, and of a box that lands on a face, an edge or a corner. `given`: the
+/// directions that the file gives for the drop of a worst case.
 pub(super) fn portrait(
     component: &Component,
     assessed: &ComponentAssessment,
@@ -189,13 +190,13 @@ pub(super) fn portrait(
     })
 }
 
-/// Drops by what they ask, the most demanding ones first, so that the others are soon known to ask for less.
+/// Sorts drops by their demand, the most demanding ones first, so that the others are soon known to have less.
 fn in_order(mut counted: Vec<(f64, Followed)>) -> Vec<Followed> {
     counted.sort_by(|a, b| b.0.total_cmp(&a.0));
     counted.into_iter().map(|(_, followed)| followed).collect()
 }
 
-/// Whether the file gives a direction, in whatever turn; its ends are allowed to be off by roundings.
+/// Returns whether the file gives a direction, in whatever turn; its ends are allowed to be off by roundings.
 fn is_given(given_rad: Option<[f64; 2]>, direction_rad: f64) -> bool {
     given_rad.is_none_or(|[lo, hi]| (direction_rad - lo + 1e-9).rem_euclid(TAU) <= hi - lo + 2e-9)
 }
@@ -204,11 +205,11 @@ fn strike((corner, time_s, delta_v_m_s): (usize, f64, f64)) -> CornerStrike {
     CornerStrike { corner, time_s, delta_v_m_s }
 }
 
-/// The map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.
+/// Returns the map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.
 fn map_of(asked: &OneLimit<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
     let [length, width] = own.drop.sides_m();
     let [x, y] = asked.worst.part.at_m();
-    // The least is asked near the center of mass.
+    // The demand is least near the center of mass.
     let center = own.drop.body.from_center([0.0; 3]).map(|from| 0.0 - from);
     let columns = (PLACES * length / width).sqrt().clamp(7.0, 24.0).round();
     let rows = (PLACES / columns).max(7.0).round();

@@ -1,20 +1,20 @@
-//! What the assessment says of a limit beside the drops of the pictures.
+//! This module compares the result of the assessment for a limit with the drops of the pictures.
 
 use crate::{ComponentAssessment, LimitAssessment, LimitKind, Verdict};
 
-/// How much more the assessment counts with than the most that the drops of the pictures ask at the part's own place: its search
-/// climbs to the worst drop, and it adds what that may miss, what rebounds may ask and what another contact law asks. Other places are
+/// The factor between the demand of the assessment and the largest demand of the drops of the pictures at the part's own place: its search
+/// climbs to the worst drop, and it adds what that may miss, and the demand of rebounds and of another contact law. Other places are
 /// held to the same.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
     /// The share that counts for the verdict.
     counted: f64,
-    /// The most that the drops ask at the part's own place.
+    /// The largest demand of the drops at the part's own place.
     here: f64,
 }
 
 impl Scale {
-    /// Of a limit of which the drops of each contact law ask `here`; none where the assessment does not know how much may be asked.
+    /// Returns the scales of a limit for which the drops of each contact law demand `here`; none where the possible demand is not known.
     pub(super) fn of(assessed: &ComponentAssessment, limit: &LimitAssessment, here: &[f64]) -> Option<Vec<Self>> {
         let demands = [limit.demand, limit.other_law];
         let mut scales = Vec::with_capacity(here.len());
@@ -24,10 +24,10 @@ impl Scale {
             let known = counted.is_finite() && (*here > 0.0 || demand == 0.0);
             scales.push(known.then_some(Self { counted, here: *here })?);
         }
-        // What a part that hits its stop does besides is undecided by its rattle space.
+        // The rattle space leaves undecided how a part moves otherwise that hits its stop.
         let stops = |l: &LimitAssessment| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe;
         let by_stop = limit.limit.is_changed_by_stop() && assessed.limits.iter().any(stops);
-        // What the verdict says, the picture says as well.
+        // The picture agrees with the verdict.
         match limit.verdict {
             Verdict::Safe => scales.iter_mut().for_each(|scale| scale.counted = scale.counted.min(1.0)),
             Verdict::Undecided | Verdict::Unsafe => {
@@ -40,7 +40,7 @@ impl Scale {
         Some(scales)
     }
 
-    /// The most that a drop of the pictures may ask where the limit holds.
+    /// Returns the largest demand that a drop of the pictures may have where the limit holds.
     pub(super) fn most(&self) -> f64 {
         // A demand of nothing holds anywhere.
         if self.counted == 0.0 { f64::INFINITY } else { self.here / self.counted }

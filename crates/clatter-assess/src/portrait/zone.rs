@@ -1,4 +1,4 @@
-//! Where along the product a part holds.
+//! This module finds where along the product a part holds.
 
 use super::drops::{Places, View, parts};
 use super::scale::Scale;
@@ -7,15 +7,15 @@ use crate::{Component, ComponentAssessment, Limit, LimitAssessment};
 /// Places along the product, from end to end.
 pub(super) const PLACES: u32 = 33;
 
-/// The places of the grid, in m from the middle.
+/// Returns the places of the grid, in m from the middle.
 pub(super) fn grid(length_m: f64) -> Vec<f64> {
     (0..PLACES).map(|i| length_m * (f64::from(i) / f64::from(PLACES - 1) - 0.5)).collect()
 }
 
-/// Where the middle of a part may be, so that no drop asks more than what any limit allows.
+/// Finds where the middle of a part may be, so that no drop demands more than any limit allows.
 ///
-/// What a drop asks is convex along the product, the largest absolute value of functions linear in the place. So the places that
-/// hold are one stretch, what lies between two of them holds, and the edges taken from straight lines lie within it.
+/// The demand of a drop is convex along the product, the largest absolute value of functions linear in the place. So the places that
+/// hold are one stretch, any place between two of them holds, and the edges taken from straight lines lie within it.
 pub(super) fn zone(
     grids: &[Places<'_>],
     component: &Component,
@@ -34,7 +34,7 @@ pub(super) fn zone(
     (lo + half <= hi - half).then_some([lo + half, hi - half])
 }
 
-/// Where no drop asks for more than a share of one limit.
+/// Finds where no drop demands more than a share of one limit.
 fn stretch(
     grid: &Places<'_>,
     component: &Component,

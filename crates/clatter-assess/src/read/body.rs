@@ -1,4 +1,4 @@
-//! What falls: a bar or a plate, and its masses.
+//! This module reads the product that falls: a bar or a plate, and its masses.
 
 use std::ops::Range;
 
@@ -54,7 +54,7 @@ impl Reader {
             let sides = [0, 1, 2].map(|side| center_and_gyration(&masses.value.iter().map(|piece| piece[side])));
             let product = |one, other| product_of_inertia(&masses.value, [one, other], [sides[one].0, sides[other].0]);
             products_m2[0] = product(0, 1);
-            // Where none has a height, all are spread evenly.
+            // Where no mass has a height, all are spread evenly.
             if masses.value.iter().any(|[.., height]| matches!(height, Mass::Point { .. })) {
                 depth = Some(sides[2]);
                 products_m2 = [products_m2[0], product(0, 2), product(1, 2)];
@@ -173,7 +173,7 @@ impl Reader {
         Some(Some(Feet { inset_m: inset.value, height_m: height.value }))
     }
 
-    /// The side across, with what it asks told in the file's terms.
+    /// Returns the side across; faults of its data are reported in the terms of the file.
     fn width(&mut self, width_m: f64, inset_m: f64, center: Option<At<f64>>, gyration: &At<Spread>) -> Option<Side> {
         if !gyration.value.is_value() {
             let message = "the radius of gyration of the mass along the width has a range";
@@ -194,7 +194,7 @@ impl Reader {
             .ok()
     }
 
-    /// The body, with what it asks of center of mass and radius of gyration told in the file's terms.
+    /// Returns the body; faults of its center of mass and radius of gyration are reported in the terms of the file.
     fn body(&mut self, length_m: f64, inset_m: f64, center: Option<At<f64>>, gyration: &At<f64>) -> Option<Body> {
         let center_m = center.as_ref().map_or(0.0, |c| c.value);
         body_of(length_m, inset_m, center_m, gyration.value)
@@ -216,7 +216,7 @@ impl Reader {
         (count > 0 && masses.len() == count).then_some(At { value: masses, span })
     }
 
-    /// A mass along the length, the width and the thickness.
+    /// Reads a mass along the length, the width and the thickness.
     fn mass(&mut self, section: &Section<'_>, sides_m: [Option<f64>; 3]) -> Option<[Mass; 3]> {
         self.text(section, "name");
         let mass = self.quantity(section, "mass");
@@ -265,7 +265,7 @@ impl Reader {
     }
 }
 
-/// Radii of gyration that were worked out; none where one is no number, which is told otherwise.
+/// Returns radii of gyration that were worked out; none where one is no number, which is reported elsewhere.
 fn of_values(values: [f64; 2], span: Range<usize>) -> Option<At<[Spread; 2]>> {
     let [along, across] = values.map(|value| Spread::value(value).ok());
     Some(At { value: [along?, across?], span })
@@ -277,7 +277,7 @@ fn mass_of(piece: &Mass) -> f64 {
     }
 }
 
-/// Center of mass from the middle, and radius of gyration about it.
+/// Returns the center of mass from the middle, and the radius of gyration about it.
 ///
 /// A slab is a point mass at its middle plus its own moment m w²/12. A center of mass within roundings of the middle is
 /// the middle.
@@ -294,8 +294,8 @@ fn center_and_gyration(masses: &(impl Iterator<Item = Mass> + Clone)) -> (f64, f
     (center, (second / total).sqrt())
 }
 
-/// ∫x y dm over the mass along two sides, about the center of mass: slabs along the edges have none of their own. 0 where it is no more
-/// than roundings.
+/// Returns ∫x y dm over the mass along two sides, about the center of mass: slabs along the edges have none of their own. 0 where it is no
+/// more than roundings.
 fn product_of_inertia(masses: &[[Mass; 3]], sides: [usize; 2], center: [f64; 2]) -> f64 {
     let middle = |piece: &Mass| match *piece {
         Mass::Point { position_m, .. } => position_m,

@@ -1,4 +1,4 @@
-//! How it falls, and what a box lands on.
+//! This module reads how a product falls, and the faces, edges and corners on which a box lands.
 
 use clatter::End;
 use clatter_flight::Feet;
@@ -17,22 +17,22 @@ const LANDS_ON: [&str; 3] = ["face", "edge", "corner"];
 /// Drops of a file that are listed by hand: each takes a tenth of a second.
 pub(super) const MOST_DROPS: usize = 100;
 
-/// What a box lands on in one drop.
+/// The face, edge or corner on which a box lands in one drop.
 struct LandsOn {
     attitude: Attitude,
-    /// Where a standard asks for it.
+    /// The drop height, where a standard demands it.
     height_m: f64,
     tolerance_rad: f64,
     source: Option<&'static str>,
 }
 
-/// Any angle up to this one.
+/// Returns the range of any angle up to this one.
 fn up_to(angle_rad: f64) -> Spread {
     Spread::new(0.0, angle_rad, Law::Range).unwrap_or(Spread::finite(0.0))
 }
 
 impl Reader {
-    /// How it falls, and what a box lands on in one drop after the other.
+    /// Reads how it falls, and the faces, edges and corners on which a box lands in one drop after the other.
     pub(super) fn drops(
         &mut self,
         root: &Section<'_>,
@@ -55,7 +55,7 @@ impl Reader {
             if let (Some(product), Some(drop)) = (product, &drop) {
                 self.spins(section, drop, product);
             }
-            // What is at fault is compared with nothing.
+            // A faulty drop is compared with nothing.
             let Some(drop) = drop.filter(|_| self.faults.len() == faults) else { continue };
             let own = if several && !self.is_box { vec![Landing::tilted(drop)] } else { Vec::new() };
             let is_listed = section.table.contains_key("standard");
@@ -86,7 +86,7 @@ impl Reader {
         if let Some(n) = drops.windows(2).position(|two| gravity(&two[0]) != gravity(&two[1])) {
             self.data(sections[n + 1].span.clone(), &DataFault::Gravity, "in this drop");
         }
-        // What is common to all.
+        // The first drop, with the fall of the first landing, holds the data common to all.
         let drop = drops.into_iter().next();
         let drop = drop.map(|drop| DropRanges { fall: all.first().map_or(drop.fall, |first| first.drop.fall), ..drop });
         // One alone is no list.
@@ -96,7 +96,7 @@ impl Reader {
         (drop, all)
     }
 
-    /// Whether what touches first comes down.
+    /// Checks that the place that touches first comes down.
     fn spins(&mut self, section: &Section<'_>, drop: &DropRanges, product: &Product) {
         let Some(spin) = section.table.get("spin") else { return };
         if let Err(fault) = spin_down(product, drop, self.is_box) {
@@ -104,7 +104,7 @@ impl Reader {
         }
     }
 
-    /// Whether feet touch first.
+    /// Checks that feet touch first.
     fn on_feet(&mut self, section: &Section<'_>, drop: &DropRanges, feet: &Feet) {
         let (tilt_rad, most_rad) =
             (drop.tilt_rad.hi(), feet.steepest_rad(drop.direction_rad.map(|given| [given.lo(), given.hi()])));
@@ -116,7 +116,7 @@ impl Reader {
         }
     }
 
-    /// Of a box whose bottom is off level by an angle, to one direction.
+    /// Reads the attitude of a box whose bottom is off level by an angle, to one direction.
     fn tilted(&mut self, section: &Section<'_>) -> Option<Attitude> {
         let [tilt, direction] = ["tilt", "direction"].map(|name| self.spread(section, name));
         for (key, help) in [
@@ -126,7 +126,7 @@ impl Reader {
                 "add attitude_tolerance = \"2 deg\": beside what a box lands on it is the tilt of one",
             ),
         ] {
-            // What is no plate is told to be no box.
+            // A product that is no plate has a message of its own that it is no box.
             if self.is_plate && !section.table.contains_key(key) {
                 self.fault(section.span.clone(), format!("{} has no `{key}`", section.title), "in this table", help);
             }
@@ -138,7 +138,7 @@ impl Reader {
         Attitude::tilted(tilt?.value.hi(), direction?.value.hi())
     }
 
-    /// What a box lands on; none where a fault was told.
+    /// Returns the faces, edges and corners on which a box lands; none where a fault was reported.
     fn lands_on(&mut self, section: &Section<'_>, product: Option<&Product>) -> Vec<LandsOn> {
         if !self.is_box {
             return Vec::new();
@@ -155,7 +155,7 @@ impl Reader {
                 landings.extend(these.into_iter().map(|attitude| (attitude, 1.0, None)));
             }
         }
-        // Beside a standard it is told as one too many.
+        // A tilt together with a standard is reported as one too many.
         if section.table.contains_key("tilt") && !section.table.contains_key("standard") {
             landings.extend(self.tilted(section).map(|attitude| (attitude, 1.0, None)));
         }
@@ -180,7 +180,7 @@ impl Reader {
     fn drop(&mut self, section: &Section<'_>) -> Option<DropRanges> {
         let height = self.spread(section, "height");
         let speed = self.spread(section, "speed");
-        // Those of a box are what it lands on.
+        // The drops of a box are given by its faces, edges and corners.
         let [tilt, direction] =
             ["tilt", "direction"].map(|name| if self.is_box { None } else { self.spread(section, name) });
         if let Some(tilt) = tilt.as_ref().filter(|tilt| tilt.value.hi() > STEEPEST_RAD) {

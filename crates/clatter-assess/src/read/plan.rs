@@ -22,9 +22,9 @@ pub struct Plan {
     pub samples: u64,
     /// Another seed, other drops.
     pub seed: u64,
-    /// Whether the worst drop of each product is searched, and none are drawn.
+    /// True where the worst drop of each product is searched, and none are drawn.
     pub search: bool,
-    /// What varies, in the order of the file; the last one runs fastest.
+    /// The quantities that vary, in the order of the file; the last one runs fastest.
     pub grid: Vec<Axis>,
     text: String,
     origin: String,
@@ -41,7 +41,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Table and key with dots between.
+    /// Returns table and key with dots between.
     #[must_use]
     pub fn name(&self) -> String {
         self.path.join(".")
@@ -74,16 +74,16 @@ impl Plan {
         }
     }
 
-    /// The text that was read.
+    /// Returns the text that was read.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The products of the plan, of the text of its product file; `origin` is the name of that in messages.
+    /// Returns the products of the plan, of the text of its product file; `origin` is the name of that in messages.
     ///
     /// # Errors
-    /// What is wrong with the product file, with the grid, or with the first of the products of the grid.
+    /// Returns the faults of the product file, of the grid, or of the first of the products of the grid.
     pub fn family(&self, product: &str, origin: &str) -> Result<Family, Faults> {
         ProductFile::read(product, origin)?;
         let root = DeTable::parse_recoverable(product).0;
@@ -106,24 +106,24 @@ impl Plan {
 pub struct Family {
     product: String,
     origin: String,
-    /// Where the values of each axis stand in the product file.
+    /// The axes, and the places of their values in the product file.
     axes: Vec<(Axis, Range<usize>)>,
 }
 
 impl Family {
-    /// How many there are.
+    /// Returns the number of products.
     #[must_use]
     pub fn members(&self) -> u64 {
         self.axes.iter().map(|(axis, _)| axis.values.len() as u64).product()
     }
 
-    /// The text of the product file.
+    /// Returns the text of the product file.
     #[must_use]
     pub fn product(&self) -> &str {
         &self.product
     }
 
-    /// The values of the grid for product `i`, counted from 0; the last one runs fastest.
+    /// Returns the values of the grid for product `i`, counted from 0; the last one runs fastest.
     #[must_use]
     pub fn values(&self, i: u64) -> Vec<&str> {
         let mut rest = i;
@@ -137,10 +137,10 @@ impl Family {
         values
     }
 
-    /// Product `i`, counted from 0: the product file with the values of the grid in their places.
+    /// Returns product `i`, counted from 0: the product file with the values of the grid in their places.
     ///
     /// # Errors
-    /// What is wrong with it; what was read once is read again without.
+    /// Returns the faults of that product file; a file that was read once is read again without any.
     pub fn member(&self, i: u64) -> Result<ProductFile, Faults> {
         let values = self.values(i);
         let mut places: Vec<_> = self.axes.iter().map(|(_, place)| place.clone()).zip(&values).collect();
@@ -157,7 +157,7 @@ impl Family {
 }
 
 impl Reader {
-    /// The tables of a text; none, with the faults, where it is none.
+    /// Returns the tables of a text; none, with the faults, where it is none.
     fn parsed<'a>(&mut self, text: &'a str) -> Option<Spanned<DeTable<'a>>> {
         if text.len() > LARGEST_FILE {
             let message = format!("the file has {} bytes", text.len());
@@ -215,7 +215,7 @@ impl Reader {
         Some(Plan { product: product?, samples, seed, search, grid, text: text.to_owned(), origin: origin.to_owned() })
     }
 
-    /// A whole number.
+    /// Reads a whole number.
     fn whole(&mut self, section: &Section<'_>, name: &str) -> Option<u64> {
         let number = self.quantity(section, name)?;
         if number.value.fract() != 0.0 {
@@ -232,7 +232,7 @@ impl Reader {
         Some(whole)
     }
 
-    /// What varies in a table of the grid and in those within it.
+    /// Collects the quantities that vary in a table of the grid and in those within it.
     fn axes(&mut self, table: &Spanned<DeValue<'_>>, text: &str, path: &mut Vec<String>, axes: &mut Vec<Axis>) {
         for (key, value) in table.get_ref().as_table().into_iter().flatten() {
             path.push(key.get_ref().to_string());
@@ -264,7 +264,7 @@ impl Reader {
         }
     }
 
-    /// Where the quantity of an axis stands in the product file.
+    /// Finds where the quantity of an axis stands in the product file.
     fn place(&mut self, axis: &Axis, root: &DeTable<'_>) -> Option<Range<usize>> {
         let name = axis.name();
         let (mut keys, mut table) = (keys::FILE, root);
@@ -331,7 +331,7 @@ impl Reader {
     }
 }
 
-/// What tells a table from others; a contact has its place.
+/// Returns the name that distinguishes a table from others; a contact has its place.
 fn name_in<'a>(table: &'a DeTable<'_>) -> Option<&'a str> {
     table.get("name").or(table.get("at")).and_then(|name| name.get_ref().as_str())
 }
@@ -340,7 +340,7 @@ fn is_quantity(kind: &Kind) -> bool {
     matches!(kind.of_side(), Kind::Quantity(..) | Kind::Spread(..))
 }
 
-/// Values from the first to the second, evenly, as a product file has them: of "80 Hz:120 Hz:5".
+/// Returns values from the first to the second, evenly, as a product file has them: of "80 Hz:120 Hz:5".
 fn steps_of(text: &str) -> Option<Vec<String>> {
     let parts: Vec<&str> = text.split(':').map(str::trim).collect();
     let [lo, hi, count] = parts[..] else { return None };
@@ -352,7 +352,7 @@ fn steps_of(text: &str) -> Option<Vec<String>> {
     let value = |i: u32| {
         let share = f64::from(i) / f64::from(count - 1);
         let value = lo * (1.0 - share) + hi * share;
-        // What nobody wrote has no digits of rounding.
+        // A value that nobody wrote gets no digits of rounding.
         let value = format!("{value:.13e}").parse().unwrap_or(value);
         if unit.is_empty() { format!("{value:?}") } else { format!("\"{value} {unit}\"") }
     };

@@ -26,12 +26,12 @@ impl Reader {
         Some(At { value: quantity.si, span: value.span() })
     }
 
-    /// Of a plate the quantities along its length and across it; of a bar none across.
+    /// Reads, of a plate, the quantities along its length and across it; of a bar none across.
     pub(super) fn quantity_of_sides(&mut self, section: &Section<'_>, name: &str) -> Option<At<[f64; 2]>> {
         self.sides(section, name, Self::quantity_in, 0.0)
     }
 
-    /// The same of ranges and distributions.
+    /// Reads the same of ranges and distributions.
     pub(super) fn spread_of_sides(&mut self, section: &Section<'_>, name: &str) -> Option<At<[Spread; 2]>> {
         self.sides(section, name, Self::spread_in, Spread::finite(0.0))
     }
@@ -61,7 +61,7 @@ impl Reader {
         Some(At { value: [along?.value, across?.value], span })
     }
 
-    /// One number with its unit, within bounds.
+    /// Reads one number with its unit, within bounds.
     fn number(
         &mut self,
         value: &Spanned<DeValue<'_>>,
@@ -78,7 +78,7 @@ impl Reader {
         let read = match (&digits, value.get_ref()) {
             (Some(digits), _) if dimension.plain => dimension.read(digits),
             (Some(digits), _) => Err(format!("`{name}` = {} has no unit", shown(digits))),
-            // What needs no unit needs no quotes.
+            // A value that needs no unit needs no quotes.
             (None, DeValue::String(text))
                 if !(dimension.units.is_empty() || dimension.plain && text.parse::<f64>().is_ok()) =>
             {
@@ -110,7 +110,7 @@ impl Reader {
         None
     }
 
-    /// A value, `[lo, hi]`, or a table with a distribution.
+    /// Reads a value, `[lo, hi]`, or a table with a distribution.
     pub(super) fn spread(&mut self, section: &Section<'_>, name: &str) -> Option<At<Spread>> {
         let (key, value) = Self::get(section, name)?;
         self.spread_in(value, key)
@@ -213,7 +213,7 @@ impl Reader {
             .ok()
     }
 
-    /// An array of so many numbers.
+    /// Reads an array of so many numbers.
     fn numbers<const N: usize>(
         &mut self,
         value: &Spanned<DeValue<'_>>,
@@ -231,12 +231,12 @@ impl Reader {
     }
 }
 
-/// How a quantity is written in the file.
+/// Returns how a quantity is written in the file.
 pub(super) fn written(dimension: &Dimension) -> String {
     if dimension.plain { dimension.example.to_owned() } else { format!("{:?}", dimension.example) }
 }
 
-/// "a length such as …".
+/// Returns "a length such as …".
 pub(super) fn one(dimension: &Dimension) -> String {
     format!("{} such as {}", dimension.one(), written(dimension))
 }

@@ -1,4 +1,4 @@
-//! How sure a share of a sample makes us of the share of all: the exact interval of Clopper and Pearson.
+//! This module bounds the share of all by the share of a sample: the exact interval of Clopper and Pearson.
 
 /// A probability, the interval that holds it with the stated confidence, and one-sided bounds of the same confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,11 +9,11 @@ pub struct Probability {
     pub lo: f64,
     /// Upper bound of the interval.
     pub hi: f64,
-    /// What it is at least: all the doubt spent on this side.
+    /// The lower bound with all the doubt spent on this side.
     pub at_least: f64,
 }
 
-/// The interval of Clopper and Pearson for the probability of an event seen `successes` times in `samples` draws.
+/// Returns the interval of Clopper and Pearson for the probability of an event seen `successes` times in `samples` draws.
 ///
 /// # Formula
 /// With α = 1 − confidence, `lo` is the p at which so many successes or more have probability α/2, `hi` that at which
@@ -59,7 +59,7 @@ pub fn clopper_pearson(successes: u64, samples: u64, confidence: f64) -> Probabi
     Probability { estimate: Some(k / n), lo: lower(0.5 * alpha), hi, at_least: lower(alpha) }
 }
 
-/// x and 1 − x with I_x(a, b) = `share`, for whole a, b ≥ 1: bisection in ln(x/(1 − x)), which keeps the digits of
+/// Returns x and 1 − x with I_x(a, b) = `share`, for whole a, b ≥ 1: bisection in ln(x/(1 − x)), which keeps the digits of
 /// both.
 fn beta_quantile(a: f64, b: f64, share: f64) -> [f64; 2] {
     let point = |t: f64| [1.0 / (1.0 + libm::exp(-t)), 1.0 / (1.0 + libm::exp(t))];
@@ -72,7 +72,7 @@ fn beta_quantile(a: f64, b: f64, share: f64) -> [f64; 2] {
     point(0.5 * (lo + hi))
 }
 
-/// Regularized incomplete beta function I_x(a, b) for whole a, b ≥ 1 and y = 1 − x.
+/// Returns the regularized incomplete beta function I_x(a, b) for whole a, b ≥ 1 and y = 1 − x.
 ///
 /// The continued fraction (DLMF 8.17.22) by Lentz's method, on the side where it converges, about √(a + b) terms; its
 /// factor x^a y^b/(a B(a, b)) is a binomial probability.
@@ -108,7 +108,7 @@ fn incomplete_beta_below(a: f64, b: f64, x: f64, y: f64) -> f64 {
     }
 }
 
-/// Probability of k successes in n draws, each with probability p = 1 − q, 0 < k ≤ n.
+/// Returns the probability of k successes in n draws, each with probability p = 1 − q, 0 < k ≤ n.
 ///
 /// Source: C. Loader, “Fast and accurate computation of binomial probabilities” (2000): deviances, so that nothing
 /// large cancels.
@@ -122,7 +122,7 @@ fn binomial(k: f64, n: f64, p: f64, q: f64) -> f64 {
     libm::exp(exponent) * libm::sqrt(n / (std::f64::consts::TAU * k * rest))
 }
 
-/// ln n! less Stirling's formula √(2πn) (n/e)ⁿ.
+/// Returns ln n! less Stirling's formula √(2πn) (n/e)ⁿ.
 fn stirling_rest(n: f64) -> f64 {
     if n < 16.0 {
         let half_log_tau = 0.918_938_533_204_672_8;
@@ -132,7 +132,7 @@ fn stirling_rest(n: f64) -> f64 {
     (1.0 / 12.0 - r * (1.0 / 360.0 - r * (1.0 / 1260.0 - r * (1.0 / 1680.0 - r / 1188.0)))) / n
 }
 
-/// k ln(k/m) + m − k, which is small where k and m are close.
+/// Returns k ln(k/m) + m − k, which is small where k and m are close.
 fn deviance(k: f64, m: f64) -> f64 {
     let v = (k - m) / (k + m);
     if v.abs() >= 0.1 {

@@ -1,7 +1,7 @@
 //! A drop in closed form: the bar without gravity at small tilt, whose strikes are velocity shocks.
 //!
 //! The train is that of `clatter`, the response that of `clatter-shock`. Of a contact time only the acceleration of a part mounted
-//! rigidly comes, as the half-sine of the shock. What that gets wrong is measured ([`super::extremes`]), so that a train may be left
+//! rigidly comes, as the half-sine of the shock. The error of that is measured ([`super::extremes`]), so that a train may be left
 //! where little comes.
 
 use std::f64::consts::FRAC_PI_2;
@@ -17,7 +17,7 @@ use crate::{Drop, Error};
 const SMALL: f64 = 1e-3;
 const MOST_STRIKES: usize = 256;
 
-/// The utilization of every part; 0 where the train has no answer.
+/// Writes the utilization of every part; 0 where the train has no answer.
 pub(super) fn answer(sample: &Sample, asked: &mut Vec<f64>) {
     let drop = &sample.drops[0];
     let train = strikes(drop).unwrap_or_default();
@@ -25,7 +25,7 @@ pub(super) fn answer(sample: &Sample, asked: &mut Vec<f64>) {
     asked.extend(sample.parts.iter().map(|part| of_part(drop, &train, part).unwrap_or_default()));
 }
 
-/// The strikes of a drop; end a of the train is the one that touches first.
+/// Returns the strikes of a drop; end a of the train is the one that touches first.
 fn strikes(drop: &Drop) -> Result<Vec<Impact>, Error> {
     if drop.is_flat {
         let (approach, delta_v) = (-drop.speed_m_s, [(1.0 + drop.restitution) * drop.speed_m_s; 2]);
@@ -40,14 +40,14 @@ fn strikes(drop: &Drop) -> Result<Vec<Impact>, Error> {
 
 fn of_part(drop: &Drop, train: &[Impact], part: &PartSample) -> Result<f64, Error> {
     let mut asked = 0.0_f64;
-    // Of instant impacts all is linear in the place.
+    // For instant impacts all is linear in the place.
     for place in part.ends() {
         let s = drop.relative(*place);
         let shock = |strike: &Impact| VelocityShock { time: strike.time, delta_v: strike.delta_v_at(s) };
         let shocks = VelocityShocks::new(train.iter().map(shock).collect())?;
         let half_sine = shocks.largest() * FRAC_PI_2 / drop.contact_time_s.unwrap_or(f64::INFINITY);
         for limit in &part.limits {
-            // What is below is not the largest.
+            // A value below this is not the largest.
             let above = asked * limit.allowed;
             let value = match (limit.kind.source(), &part.suspension) {
                 (Source::Response(of), Some(part)) => {

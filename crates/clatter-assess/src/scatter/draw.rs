@@ -27,7 +27,7 @@ enum Kind {
 const LEAST_MASS: f64 = 1e-200;
 
 impl Quantile {
-    /// `None` for a normal distribution that has no values to speak of in its range.
+    /// Returns the drawing of a range; `None` for a normal distribution that has no values to speak of in its range.
     pub(super) fn new(spread: &Spread) -> Option<Self> {
         let (lo, hi) = (spread.lo(), spread.hi());
         let kind = match spread.law() {
@@ -46,7 +46,7 @@ impl Quantile {
         Some(Self { lo, hi, kind })
     }
 
-    /// The value, u in [0, 1].
+    /// Returns the value, u in [0, 1].
     pub(super) fn at(&self, u: f64) -> f64 {
         let (lo, hi) = (self.lo, self.hi);
         let x = match self.kind {
@@ -66,12 +66,12 @@ impl Quantile {
     }
 }
 
-/// Φ(z), the share of a standard normal distribution below z.
+/// Returns Φ(z), the share of a standard normal distribution below z.
 fn below(z: f64) -> f64 {
     0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// Φ⁻¹(p) for p in (0, 1).
+/// Returns Φ⁻¹(p) for p in (0, 1).
 ///
 /// Source: M. J. Wichura, “Algorithm AS 241: the percentage points of the normal distribution”, Applied Statistics 37
 /// (1988), routine PPND16; relative error about 1e−16 from p = 1e−316 to 1 − 1e−16.

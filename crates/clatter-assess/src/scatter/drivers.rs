@@ -1,4 +1,4 @@
-//! What drives a result: how much of its variance each input explains alone.
+//! This module finds the inputs that drive a result: how much of its variance each input explains alone.
 //!
 //! The first-order index of Sobol, S = Var(E[y | input])/Var(y), estimated from the very samples that were drawn: each
 //! input's values are sorted into equally likely bins by their rank, which is the uniform number they came from, and
@@ -12,7 +12,7 @@
 /// Equally likely bins of an input. The variance within a bin is lost to the index: 1/32² of it where y is linear.
 const BINS: usize = 32;
 
-/// What one input does to a result.
+/// The effect of one input on a result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
     /// Share of the variance that the input explains alone, 0 to 1; noise of about √(2·31)/samples.
@@ -84,21 +84,21 @@ impl Sums {
         self.from + self.sum / self.count
     }
 
-    /// Standard deviation.
+    /// Returns the standard deviation.
     pub(super) fn deviation(&self) -> f64 {
         (self.spread() / self.count).max(0.0).sqrt()
     }
 
-    /// Sum of squares about the mean.
+    /// Returns the sum of squares about the mean.
     fn spread(&self) -> f64 {
         self.square - self.sum * self.sum / self.count
     }
 
-    /// The share of each input; `None` where the result does not vary, is infinite, or there are too few samples to
+    /// Returns the share of each input; `None` where the result does not vary, is infinite, or there are too few samples to
     /// tell.
     pub(super) fn shares(&self) -> Option<Vec<Share>> {
         let total = self.spread();
-        // What is left of a constant is rounding.
+        // The remainder of a constant is rounding.
         let varies = total > 1e-20 * self.count * self.from * self.from && total.is_finite();
         #[expect(clippy::cast_precision_loss, reason = "a small count")]
         let enough = self.count > 10.0 * BINS as f64;

@@ -27,14 +27,14 @@ pub struct Extremes {
     pub worst: Vec<Vec<Option<f64>>>,
 }
 
-/// Tilts by the closed form and by the model with the most physics, which asks for more time.
+/// Tilts by the closed form and by the model with the most physics, which takes more time.
 const TILTS: [u32; 2] = [33, 9];
 /// Drops that are answered by both models.
 const TRIED: u64 = 400;
-/// Up to this error the closed form is taken.
+/// The error up to which the closed form is taken.
 const LARGEST_ERROR: f64 = 0.05;
 
-/// The largest utilization of each component over all ranges of a product but that of its restitution, for other bodies and
+/// Returns the largest utilization of each component over all ranges of a product but that of its restitution, for other bodies and
 /// restitutions. Limits are at their least values, as in an assessment.
 ///
 /// Drops: tilts all over their range, 33 by the closed form, else 9; the ends of the ranges of contact time, spin and speed, by the closed
@@ -57,7 +57,7 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
     for component in &file.components {
         parts.push(variants(component)?);
     }
-    // Of a symmetric body one end first is the other one turned around.
+    // For a symmetric body one end first is the other one turned around.
     let symmetric = points.iter().all(|(body, _)| body.arms_m()[0].to_bits() == body.arms_m()[1].to_bits());
     let turns = symmetric && file.drops().iter().all(|drop| drop.first_ends().len() > 1);
     let corners = |tilts, slow| Corners::new(file, &parts, turns, tilts, slow);
@@ -89,7 +89,8 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
     Ok(Extremes { model: if closed { Model::Map } else { fullest }, closed_form_error, worst: worst.collect() })
 }
 
-/// The largest factor, less 1, between what both models ask of the parts of a drop; infinite where the fuller one has no answer.
+/// Returns the largest factor, less 1, between the demands of both models on the parts of a drop; infinite where the fuller one has no
+/// answer.
 fn error(cheap: &[f64], full: &[Result<SampleDemand, crate::Error>]) -> f64 {
     let of = |(cheap, full): (&f64, &Result<SampleDemand, crate::Error>)| {
         let Ok(full) = full else { return f64::INFINITY };
@@ -106,13 +107,13 @@ fn error(cheap: &[f64], full: &[Result<SampleDemand, crate::Error>]) -> f64 {
 /// The drops of the search and the parts in them.
 struct Corners {
     drops: Vec<Drop>,
-    /// Of each component, in one row.
+    /// The parts of each component, in one row.
     parts: Vec<PartSample>,
-    /// How many of each component.
+    /// The number of parts of each component.
     counts: Vec<usize>,
 }
 
-/// The ends and the middle of a range.
+/// Returns the ends and the middle of a range.
 fn three(spread: &Spread) -> Vec<f64> {
     if spread.is_value() { vec![spread.lo()] } else { vec![spread.lo(), spread.at(0.5), spread.hi()] }
 }
@@ -121,7 +122,7 @@ fn two(spread: &Spread) -> Vec<f64> {
     if spread.is_value() { vec![spread.lo()] } else { vec![spread.lo(), spread.hi()] }
 }
 
-/// A component at the ends of its ranges.
+/// Returns a component at the ends of its ranges.
 fn variants(component: &Component) -> Result<Vec<PartSample>, crate::Error> {
     let mut suspensions = vec![None];
     if let Mount::Suspended { frequency_hz, damping } = &component.mount {
@@ -201,7 +202,7 @@ impl Corners {
         Self { drops, counts: of_each.iter().map(Vec::len).collect(), parts: of_each.concat() }
     }
 
-    /// One of the drops, of another body and restitution.
+    /// Returns one of the drops, of another body and restitution.
     fn sample(&self, body: &Body, e: f64, drop: usize) -> Sample {
         let drop = Drop { body: *body, restitution: e, ..self.drops[drop] };
         Sample { uniforms: Vec::new(), drops: vec![drop], parts: self.parts.clone() }
@@ -244,7 +245,7 @@ impl<'a> Worst<'a> {
     fn new(counts: &'a [usize]) -> Self {
         Self { counts, utilization: vec![LEAST; counts.len()], unanswered: vec![false; counts.len()] }
     }
-    /// Takes in what a drop asks: of each part, the larger of that and of the worst so far.
+    /// Takes in the demand of a drop: for each part, the larger of that and of the worst so far.
     fn raise<T>(&mut self, parts: &[T], mut larger: impl FnMut(&T, f64) -> Option<f64>) {
         let mut parts = parts.iter();
         for (i, count) in self.counts.iter().enumerate() {
@@ -256,7 +257,7 @@ impl<'a> Worst<'a> {
             }
         }
     }
-    /// A limit that is passed is passed, whatever other drops ask.
+    /// A limit that is passed is passed, whatever the demand of other drops.
     fn verdicts(self) -> Vec<Option<f64>> {
         let each = self.utilization.into_iter().zip(self.unanswered);
         each.map(|(used, unanswered)| (!unanswered || used > 1.0).then_some(used)).collect()

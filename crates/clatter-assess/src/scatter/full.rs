@@ -10,21 +10,21 @@ use crate::quantity::Source;
 use crate::{Drop, Error, Limit, LimitKind};
 use clatter_flight::{Followed, Until};
 
-/// How exactly a sample is answered. A coarser answer costs no less: more samples are left open and followed once more.
+/// The tolerance to which a sample is answered. A coarser answer costs no less: more samples are left open and followed once more.
 const TOLERANCE: f64 = 0.005;
-/// How exactly one is answered whose error leaves open whether a limit holds, one after the other.
+/// The tolerances to which a sample is answered whose error leaves open whether a limit holds, one after the other.
 const FINER: [f64; 2] = [5e-4, 5e-5];
-/// How exactly a drop is answered of which only the largest of many counts.
+/// The tolerance to which a drop is answered of which only the largest of many counts.
 const COARSE: f64 = 0.02;
-/// What the steps of a box, and the straight lines between them, may get wrong of a demand.
+/// The error of a demand from the steps of a box, and the straight lines between them, at most.
 const STEPS: f64 = 1e-3;
 /// So many times v/g a box is followed on: through its bounces up to a restitution of 0.6, through the first two of any.
 const BOUNCES: f64 = 4.0;
 
-/// One drop, followed as far as its parts ask for it.
+/// One drop, followed as far as its parts need it.
 ///
-/// First until its energy allows no shock as large as the largest, then on where what comes later could still pass what a part was
-/// asked. Where the error told leaves open whether a limit holds, it is followed again, finer.
+/// The drop is followed first until its energy allows no shock as large as the largest, then on where later strikes could still pass the
+/// demand on a part so far. Where the error bound leaves open whether a limit holds, it is followed again, finer.
 #[derive(Debug)]
 pub(super) struct FollowedDrops<'a> {
     drop: &'a Drop,
@@ -37,7 +37,7 @@ pub(super) struct FollowedDrops<'a> {
     finer: [LazyDrop; 2],
 }
 
-/// A drop that is followed when a part first asks for it.
+/// A drop that is followed when a part first needs it.
 type LazyDrop = Option<Result<Followed, Error>>;
 
 impl<'a> FollowedDrops<'a> {
@@ -47,7 +47,7 @@ impl<'a> FollowedDrops<'a> {
         Self { drop, boxed: drop.boxed(), swing_s, early: None, whole: None, finer: [None, None] }
     }
 
-    /// What the drop asks of a part; why, where it is not answered.
+    /// Returns the demand of the drop on a part, or the reason why it is not answered.
     pub(super) fn answer(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
         if self.drop.is_solid() || self.boxed.is_some() {
             return self.of_box(part);
@@ -67,8 +67,8 @@ impl<'a> FollowedDrops<'a> {
         Ok(asked)
     }
 
-    /// The same of a box: by its first landing and the first swing of its parts, and by what follows where its energy may decide whether
-    /// a limit holds. Where what is left of it in the end still may, the sample is open.
+    /// Returns the demand of a box: by its first landing and the first swing of its parts, and by what follows where its energy may decide
+    /// whether a limit holds. Where what is left of it in the end still may, the sample is open.
     ///
     /// A plate whose contacts are too soft for so thin a box lands on the corners of its bottom, however far they sink in.
     fn of_box(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
@@ -94,12 +94,12 @@ impl<'a> FollowedDrops<'a> {
         Ok(asked)
     }
 
-    /// The larger of a utilization and what the drop asks of a part.
+    /// Returns the larger of a utilization and the demand of the drop on a part.
     pub(super) fn larger(&mut self, part: &PartSample, utilization: f64) -> Result<f64, Error> {
         Ok(self.passing(part, COARSE, utilization)?.utilization.max(utilization))
     }
 
-    /// What the drop asks of a part where that passes a utilization.
+    /// Returns the demand of the drop on a part where that passes a utilization.
     fn passing(&mut self, part: &PartSample, tolerance: f64, above: f64) -> Result<SampleDemand, Error> {
         let (drop, model) = (self.drop, Model::fullest(self.drop));
         let followed = |following: &mut LazyDrop, follow: &dyn Fn() -> Result<Followed, Error>| {
@@ -119,17 +119,17 @@ impl<'a> FollowedDrops<'a> {
     }
 }
 
-/// What a drop asks of every part; why, of those that it does not answer.
+/// Writes the demand of a drop on every part; of those that it does not answer, the reason.
 pub(super) fn answer(drop: &Drop, parts: &[PartSample], asked: &mut Vec<Result<SampleDemand, Error>>) {
     let mut followings = FollowedDrops::of(drop, parts);
     asked.clear();
     asked.extend(parts.iter().map(|part| followings.answer(part)));
 }
 
-/// Below every utilization: what a drop asks passes it, 0 too, unless it is no number.
+/// A value below every utilization: the demand of a drop passes it, 0 too, unless it is no number.
 pub(super) const LEAST: f64 = -1.0;
 
-/// What a followed drop asks of a part where that passes a utilization, and whether what comes later may ask more.
+/// Returns the demand of a followed drop on a part where that passes a utilization, and whether later strikes may have a larger one.
 fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(SampleDemand, bool), Error> {
     let mut asked = SampleDemand::default();
     let mut goes_on = false;
@@ -156,7 +156,7 @@ fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Sample
     Ok((asked, goes_on))
 }
 
-/// What a followed drop of a box asks of a part, and what it may ask by the energy that is left.
+/// Returns the demand of a followed drop of a box on a part, and the demand that it may have by the energy that is left.
 fn of_part_of_box(followed: &Followed, part: &PartSample) -> Result<SampleDemand, Error> {
     let mut asked = SampleDemand::default();
     for spot in part.spots() {
@@ -176,7 +176,7 @@ fn of_part_of_box(followed: &Followed, part: &PartSample) -> Result<SampleDemand
     Ok(asked)
 }
 
-/// Returns what a drop of a box asks of a part at most, with what friction may add.
+/// Returns the largest demand of a drop of a box on a part, with the demand that friction may add.
 fn with_friction(followed: &Followed, part: &PartSample) -> Result<f64, Error> {
     let mut most = 0.0_f64;
     for spot in part.spots() {
@@ -191,22 +191,22 @@ fn with_friction(followed: &Followed, part: &PartSample) -> Result<f64, Error> {
     Ok(most)
 }
 
-/// The acceleration that a damage boundary asks for besides its velocity change, as a limit of its own; without a contact time no
+/// Returns the acceleration that a damage boundary has together with its velocity change, as a limit of its own; without a contact time no
 /// acceleration is known, and the velocity change alone counts.
 fn critical_acceleration(limit: &Limit, drop: &Drop) -> Option<Limit> {
     let of_boundary = limit.kind.source() == Source::Boundary && drop.contact_time_s.is_some();
     of_boundary.then(|| Limit::new(LimitKind::Acceleration, limit.critical_acceleration_m_s2))
 }
 
-/// Whether a limit may pass a utilization. A damage boundary does not unless the largest velocity change and the largest acceleration
-/// of all shocks both do, which is found sooner than shock by shock.
+/// Returns whether a limit may pass a utilization. A damage boundary does not unless the largest velocity change and the largest
+/// acceleration of all shocks both do, which is found sooner than shock by shock.
 fn may_pass(felt: &PlaceHistory<'_>, limit: &Limit, drop: &Drop, above: f64) -> Result<bool, Error> {
     let Some(acceleration) = critical_acceleration(limit, drop) else { return Ok(true) };
     let change = Limit::new(LimitKind::VelocityChange, limit.allowed);
     Ok(felt.answer(&change, None, above)?.is_some() && felt.answer(&acceleration, None, above)?.is_some())
 }
 
-/// Whether what comes later may pass a utilization; a damage boundary only by both of its quantities.
+/// Returns whether later strikes may pass a utilization; a damage boundary only by both of its quantities.
 fn may_pass_later(felt: &PlaceHistory<'_>, limit: &Limit, part: &PartSample, drop: &Drop, above: f64) -> bool {
     let parts = part.suspension.as_slice();
     let acceleration = critical_acceleration(limit, drop);

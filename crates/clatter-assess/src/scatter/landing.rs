@@ -4,19 +4,19 @@ use super::tally::Count;
 use super::{OfPart, Probability, SampleDemand};
 use crate::DropName;
 
-/// What came of one of several drops.
+/// The result of one of several drops.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LandingScatter {
-    /// What it is called.
+    /// The name of the drop.
     pub landing: DropName,
     /// Probability that every component survives this drop alone.
     pub survival: Probability,
-    /// In the order of the file.
+    /// The components, in the order of the file.
     pub components: Vec<LandingComponent>,
 }
 
-/// What one of several drops does to a component, as of [`ComponentScatter`](super::ComponentScatter).
+/// The result of one of several drops for a component, as of [`ComponentScatter`](super::ComponentScatter).
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LandingComponent {
@@ -32,8 +32,8 @@ pub struct LandingComponent {
     pub largest_utilization: Option<f64>,
 }
 
-/// What a sequence of drops asks of a part, and a drop of all parts together: as much as the one that asks most. Where one of them is not
-/// answered, neither are all, unless another has failed for sure.
+/// Returns the demand of a sequence of drops on a part, and of a drop on all parts together: as much as the largest one. Where one of them
+/// is not answered, neither are all, unless another has failed for sure.
 pub(super) fn sequence<'a>(each: impl IntoIterator<Item = &'a OfPart>) -> OfPart {
     let (mut most, mut error) = (SampleDemand::default(), None);
     for one in each {
@@ -45,7 +45,7 @@ pub(super) fn sequence<'a>(each: impl IntoIterator<Item = &'a OfPart>) -> OfPart
     error.filter(|_| most.within[0] <= 1.0).map_or(Ok(most), |error| Err(error.clone()))
 }
 
-/// What came of one of several drops, so far: of all parts, and of each with the largest utilization.
+/// The result of one of several drops, so far: of all parts, and of each with the largest utilization.
 #[derive(Debug, Clone)]
 pub(super) struct LandingTally {
     all: Count,

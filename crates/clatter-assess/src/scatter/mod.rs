@@ -7,10 +7,10 @@
 //! # Intervals
 //! All numbers are counted on the same samples, so that all parts together survive no more often than each, and a sequence of drops no
 //! more often than each of them. An interval holds the probability with the stated confidence: that of Clopper and Pearson. A sample
-//! whose utilization is so near 1 that the error told by the model decides it counts as a failure for the lower end and as none for the
+//! whose utilization is so near 1 that the error bound of the model decides it counts as a failure for the lower end and as none for the
 //! upper. A sample that is not answered is treated alike.
 //!
-//! Where a body lands after it has bounced clear is sensitive to every input. What such a landing asks in one sample may differ from
+//! Where a body lands after it has bounced clear is sensitive to every input. The demand of such a landing in one sample may differ from
 //! one tolerance to another; how many samples fail does not.
 //!
 //! # Plates
@@ -20,13 +20,13 @@
 //! # Boxes
 //! A sample of a box is one product that goes through all of its drops, and survives if it survives each. What \[product\] and
 //! \[\[component\]\] give is drawn once for it and is the same in all drops: masses, restitution and contact time, places, frequencies,
-//! limits. What belongs to a drop is drawn for each: its height or speed, and its attitude, of which all within the tolerance are equally
+//! limits. The inputs of a drop are drawn for each: its height or speed, and its attitude, of which all within the tolerance are equally
 //! likely. No drop wears a part: each is held against the same limits.
 //!
 //! A drop of a box is followed through its first landing, and on through what follows, for 4 v/g at most, where the energy left may decide
 //! whether a limit holds. Where in the end it still may, the sample counts as a failure for the lower end and as none for the upper:
-//! it is open, too, and so it is where friction of the ground up to 0.6, which no drop is followed with, may decide. Utilizations are those of
-//! what was followed.
+//! it is open, too, and so it is where friction of the ground up to 0.6, which no drop is followed with, may decide. Utilizations are those
+//! of what was followed.
 //!
 //! # Samples
 //! Input i of sample k is the counter (k, i) of Philox4x32-10 under the seed: it is the same alone, in any run, on any number of
@@ -59,7 +59,7 @@ pub use landing::{LandingComponent, LandingScatter};
 pub use rows::{PartRow, Recount};
 pub use sample::Varied;
 
-/// Why nothing can be drawn.
+/// The reason why nothing can be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -69,11 +69,11 @@ pub enum Error {
     /// A number of samples or a confidence that makes no sense.
     #[error("{name} = {value} is not {allowed}")]
     Setting {
-        /// Which.
+        /// The name of the setting.
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed.
+        /// The allowed values.
         allowed: &'static str,
     },
     /// A normal distribution whose range lies where it has no values.
@@ -86,14 +86,14 @@ pub enum Error {
     },
 }
 
-/// How to draw.
+/// The settings of the draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How many drops; where several are listed how many products, each of which goes through all of them.
+    /// The number of drops; where several are listed the number of products, each of which goes through all of them.
     pub samples: u64,
     /// Another seed, other drops.
     pub seed: u64,
-    /// Of all intervals, in (0, 1).
+    /// The confidence of all intervals, in (0, 1).
     pub confidence: f64,
     /// Instant impacts that are closer than this are one, as of an [assessment](crate::Accuracy): a sample whose ends land so closely
     /// lands flat.
@@ -101,23 +101,23 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Samples unless said otherwise: 100 000 drops; where several are listed 1000 products: of a box 26 drops of each take from some 6 s to three
-    /// minutes, by how often more than the first landing decides.
+    /// Samples unless said otherwise: 100 000 drops; where several are listed 1000 products: of a box 26 drops of each take from some 6 s
+    /// to three minutes, by how often more than the first landing decides.
     #[must_use]
     pub fn samples_of(file: &ProductFile) -> u64 {
         if file.landings.is_empty() { 100_000 } else { 1000 }
     }
 }
 
-/// What came of all samples.
+/// The result of all samples.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Scatter {
-    /// How they were drawn; where that was stopped before the end, as many samples as were drawn.
+    /// The settings by which they were drawn; where that was stopped before the end, as many samples as were drawn.
     pub settings: Settings,
     /// The model with the most physics, which the probabilities are those of.
     pub model: Model,
-    /// How a plate is followed; none of a bar, and of a box that lands on anything.
+    /// The way in which a plate is followed; none of a bar, and of a box that lands on anything.
     pub plate: Option<PlateAs>,
     /// The inputs that vary; without any, all samples are one.
     pub inputs: Vec<Varied>,
@@ -127,31 +127,31 @@ pub struct Scatter {
     pub survival: Probability,
     /// Samples in which a component was not answered. They count as failures, except for the upper ends of intervals.
     pub unanswered: u64,
-    /// Why the first of them was not.
+    /// The reason why the first of them was not.
     pub reason: Option<crate::Error>,
     /// Samples in which what an answer may be off by decides whether all survive, as of [`ComponentScatter`].
     pub open: u64,
-    /// In the order of the file.
+    /// The components, in the order of the file.
     pub components: Vec<ComponentScatter>,
-    /// What came of each of several drops, in the order of the file; else empty.
+    /// The result of each of several drops, in the order of the file; else empty.
     pub landings: Vec<LandingScatter>,
 }
 
-/// How drops of a plate are followed.
+/// The way in which drops of a plate are followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PlateAs {
     /// As the box that it is, with full rotation.
     Box {
         /// Its thickness.
         thickness_m: f64,
-        /// Whether that is taken as a twentieth of the length, as the file tells none.
+        /// True where that is taken as a twentieth of the length, because the file does not give it.
         assumed: bool,
     },
     /// At small tilt: one on feet is not followed as a box, and what real tilt does is left out.
     Level,
 }
 
-/// What came of one component.
+/// The result of one component.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ComponentScatter {
@@ -175,7 +175,7 @@ pub struct ComponentScatter {
     pub largest_utilization: f64,
     /// The sample it was seen in, from 0; none where none was answered.
     pub worst_sample: Option<u64>,
-    /// What drives the utilization, the strongest first; empty where it does not vary or too few samples were drawn to
+    /// The inputs that drive the utilization, the strongest first; empty where it does not vary or too few samples were drawn to
     /// tell.
     pub drivers: Vec<Driver>,
 }
@@ -183,7 +183,7 @@ pub struct ComponentScatter {
 /// An input and what it does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Driver {
-    /// Which.
+    /// The input.
     pub input: Varied,
     /// Its share of the variance and its trend.
     pub share: Share,
@@ -192,13 +192,13 @@ pub struct Driver {
 /// Values of some samples, and how far the sampling has come.
 #[derive(Debug)]
 pub struct Progress<'a> {
-    /// Samples drawn so far, as a part of those asked for.
+    /// Samples drawn so far, as a part of those requested.
     pub done: u64,
     /// One after the other, those since the last call: for each, the values of [`Sampler::columns`].
     pub values: &'a [f64],
 }
 
-/// What a column of [`Progress::values`] holds; parts by their index in the file.
+/// The quantity in a column of [`Progress::values`]; parts are given by their index in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Column {
@@ -209,9 +209,9 @@ pub enum Column {
     FrequencyHz(usize),
     /// Damping ratio of a part, where it varies.
     DampingRatio(usize),
-    /// Where the middle of a part is, in m, where it varies.
+    /// The place of the middle of a part, in m, where it varies.
     PositionM(usize),
-    /// Where it is across a plate, in m, where it varies.
+    /// The place of the middle of a part across a plate, in m, where it varies.
     AcrossM(usize),
     /// A limit of a part in the unit of its kind, where it varies.
     Limit(usize, LimitKind),
@@ -219,29 +219,29 @@ pub enum Column {
     CriticalAccelerationMS2(usize),
     /// Utilization of a part: the largest demand over allowed. It survives up to 1. NaN where the model has no answer.
     Utilization(usize),
-    /// In one of several drops, the utilization of a part.
+    /// The utilization of a part in one of several drops.
     LandingUtilization(usize, usize),
 }
 
-/// What a sample asks of a part.
+/// The demand of a sample on a part.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct SampleDemand {
     /// The largest demand over allowed of its limits.
     utilization: f64,
-    /// What that is at least and at most, by what it may be off by.
+    /// The least and the largest value that the demand may have, by its error bound.
     within: [f64; 2],
-    /// Which of its limits do not hold.
+    /// The limits that do not hold.
     fails: [bool; LimitKind::ALL.len()],
 }
 
 impl SampleDemand {
-    /// Takes in what one limit is asked, and what that is at least and at most.
+    /// Takes in the demand of one limit, and its least and largest value.
     fn raise(&mut self, limit: usize, used: f64, within: [f64; 2]) {
         self.utilization = self.utilization.max(used);
         self.within = [0, 1].map(|end| self.within[end].max(within[end]));
         self.fails[limit] |= used > 1.0;
     }
-    /// The larger of both, limit by limit.
+    /// Returns the larger of both, limit by limit.
     fn largest(self, other: &Self) -> Self {
         Self {
             utilization: self.utilization.max(other.utilization),
@@ -249,22 +249,22 @@ impl SampleDemand {
             fails: std::array::from_fn(|limit| self.fails[limit] || other.fails[limit]),
         }
     }
-    /// Whether what it may be off by decides if it survives.
+    /// Returns whether the error bound decides if the part survives.
     fn is_open(&self) -> bool {
         self.within[0] <= 1.0 && self.within[1] > 1.0
     }
 }
 
-/// What a sample asks of every part.
+/// The demand of a sample on every part.
 #[derive(Debug, Default)]
 struct Answers {
-    /// In all drops.
+    /// The demands in all drops together.
     parts: Vec<OfPart>,
-    /// In each of several drops.
+    /// The demands in each of several drops.
     landings: Vec<Vec<OfPart>>,
 }
 
-/// What is asked of a part; why, where that is not answered.
+/// The demand on a part, or the reason why it is not answered.
 type OfPart = Result<SampleDemand, crate::Error>;
 
 /// Samples of one block; sums are made within blocks and then over blocks, in order.
@@ -280,7 +280,7 @@ pub struct Sampler {
     settings: Settings,
     inputs: Inputs,
     components: Vec<Component>,
-    /// Of several drops in sequence, what they are called.
+    /// The names of several drops in sequence.
     drop_names: Vec<DropName>,
     fullest: Model,
 }
@@ -305,14 +305,14 @@ impl Sampler {
         Ok(Self { settings, inputs, components: file.components.clone(), drop_names: file.drop_names(), fullest })
     }
 
-    /// What each sample of [`Progress::values`] consists of.
+    /// Returns the columns of each sample of [`Progress::values`].
     #[must_use]
     pub fn columns(&self) -> Vec<Column> {
         self.inputs.columns()
     }
 
     /// Draws all samples on the threads of the current pool. `watch` is called in order, on this thread, with all samples where `keep`
-    /// asks for them. Where `go_on`, which any thread may ask, says `false`, no more are drawn than the first: the answer is that of the
+    /// needs them. Where `go_on`, which any thread may call, says `false`, no more are drawn than the first: the answer is that of the
     /// samples so far, as many as its settings say.
     ///
     /// # Errors
@@ -353,13 +353,13 @@ impl Sampler {
         BLOCK_OF_LISTS.checked_div(self.inputs.landings() as u64).map_or(BLOCK, |samples| samples.max(1))
     }
 
-    /// What the drops of a sequence are called, in order; none of a product that falls once.
+    /// Returns the names of the drops of a sequence, in order; none of a product that falls once.
     #[must_use]
     pub fn drop_names(&self) -> &[DropName] {
         &self.drop_names
     }
 
-    /// What came of all blocks.
+    /// Returns the result of all blocks.
     fn summary(&self, total: Block) -> Scatter {
         let Block { tallies, landings, all, unanswered, reason, .. } = total;
         let settings = Settings { samples: all.samples, ..self.settings };
@@ -384,7 +384,7 @@ impl Sampler {
         }
     }
 
-    /// The utilizations of the first sample: sums count from there.
+    /// Returns the utilizations of the first sample: sums count from there.
     fn near(&self) -> Vec<f64> {
         let (mut sample, mut asked) = (self.inputs.blank(), Answers::default());
         self.answer(0, &mut sample, &mut asked);
@@ -392,7 +392,7 @@ impl Sampler {
         asked.parts.iter().map(utilization).map(|used| if used.is_finite() { used } else { 0.0 }).collect()
     }
 
-    /// Draws a sample, and what it asks.
+    /// Draws a sample, and finds its demand.
     fn answer(&self, k: u64, sample: &mut Sample, asked: &mut Answers) {
         let Answers { parts, landings } = asked;
         parts.clear();

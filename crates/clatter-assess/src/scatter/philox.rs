@@ -1,7 +1,7 @@
 //! Random numbers by their place: a counter-based generator, so that sample k is the same wherever and whenever it is
 //! drawn.
 
-/// Philox4x32 with ten rounds: 128 random bits for each counter, under a key of 64 bits.
+/// Computes Philox4x32 with ten rounds: 128 random bits for each counter, under a key of 64 bits.
 ///
 /// Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, “Parallel random numbers: as easy as 1, 2, 3”, SC 2011;
 /// the published known answers are its test.
@@ -17,7 +17,7 @@ fn philox4x32_10(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     counter
 }
 
-/// 32 bits of 64.
+/// Returns 32 bits of 64.
 #[expect(clippy::cast_possible_truncation, reason = "the upper half is another word")]
 fn word(wide: u64, shift: u32) -> u32 {
     (wide >> shift) as u32
@@ -37,7 +37,7 @@ impl Stream {
         Self { key: halves(seed), sample: halves(sample) }
     }
 
-    /// Input 0, 1, 2, …: the middle of one of 2⁵² equal steps of (0, 1), never 0 and never 1.
+    /// Returns input 0, 1, 2, …: the middle of one of 2⁵² equal steps of (0, 1), never 0 and never 1.
     pub(super) fn at(self, input: u32) -> f64 {
         let bits = philox4x32_10([self.sample[0], self.sample[1], input / 2, 0], self.key);
         let half = 2 * (input as usize % 2);
@@ -45,7 +45,7 @@ impl Stream {
     }
 }
 
-/// 52 bits as the middle of their step of (0, 1), without rounding.
+/// Returns 52 bits as the middle of their step of (0, 1), without rounding.
 fn unit(low: u32, high: u32) -> f64 {
     let bits = (u64::from(high) << 20) | u64::from(low >> 12);
     // 1.bits in [1, 2), less 1, plus half a step

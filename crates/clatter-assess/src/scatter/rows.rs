@@ -12,14 +12,14 @@ use super::tally::Block;
 use super::{Answers, Column, OfPart, SampleDemand, Sampler, Scatter};
 use crate::LimitKind;
 
-/// What a sample asks of a part.
+/// The demand of a sample on a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartRow {
     /// The largest demand over allowed of its limits.
     pub utilization: f64,
-    /// Whether what it may be off by decides if the part survives.
+    /// True where the error bound decides if the part survives.
     pub open: bool,
-    /// Which limits do not hold, in the order of its [limits](crate::Limits::kinds).
+    /// The limits that do not hold, in the order of its [limits](crate::Limits::kinds).
     pub exceeded: [bool; LimitKind::ALL.len()],
 }
 
@@ -28,7 +28,7 @@ impl PartRow {
         Self { utilization: asked.utilization, open: asked.is_open(), exceeded: asked.fails }
     }
 
-    /// What a count needs of it: on which side of 1 the utilization and its ends are.
+    /// Returns the data that a count needs: on which side of 1 the utilization and its ends are.
     fn demand(&self) -> SampleDemand {
         let within = if self.open { [0.0, f64::INFINITY] } else { [self.utilization; 2] };
         SampleDemand { utilization: self.utilization, within, fails: self.exceeded }
@@ -39,19 +39,19 @@ impl PartRow {
 const PIECE: u64 = 256;
 
 impl Sampler {
-    /// What a sample of the product may be described by: all that the product has, whether it varies or not.
+    /// Returns the quantities that may describe a sample of the product: all that the product has, whether it varies or not.
     #[must_use]
     pub fn quantities(&self) -> Vec<Column> {
         self.inputs.quantities()
     }
 
-    /// Whether it differs from sample to sample.
+    /// Returns whether it differs from sample to sample.
     #[must_use]
     pub fn varies(&self, column: Column) -> bool {
         self.inputs.varied.iter().any(|input| input.column() == column)
     }
 
-    /// These quantities of a sample in SI, angles in rad too.
+    /// Returns these quantities of a sample in SI, angles in rad too.
     #[must_use]
     pub fn drawn(&self, sample: u64, columns: &[Column]) -> Vec<f64> {
         let mut drawn = self.inputs.blank();
@@ -60,8 +60,8 @@ impl Sampler {
     }
 
     /// Draws samples on the threads of the current pool, and gives these quantities of each in SI, angles in rad too,
-    /// and what it asks of each part, of a box through all of its drops and then of each part in each of them; none where it has no answer.
-    /// `done` is told of so many more, by any thread.
+    /// and its demand on each part, of a box through all of its drops and then of each part in each of them; none where it has no answer.
+    /// `done` is called with so many more, by any thread.
     #[must_use]
     pub fn rows(
         &self,
@@ -77,7 +77,7 @@ impl Sampler {
             let row = |k| {
                 self.answer(k, &mut sample, &mut answers);
                 if answers.parts.iter().all(Result::is_err) {
-                    // What could not be drawn is not to be that of the sample before.
+                    // A sample that could not be drawn must not keep the values of the sample before.
                     sample = self.inputs.blank();
                     let _ = self.inputs.draw(self.settings.seed, k, &mut sample);
                 }
@@ -105,7 +105,7 @@ pub struct Recount {
 }
 
 impl Recount {
-    /// Of samples of this sampler, from its first one on.
+    /// Returns the rows of samples of this sampler, from its first one on.
     #[must_use]
     pub fn new(sampler: Sampler) -> Self {
         let near = sampler.near();
@@ -113,14 +113,14 @@ impl Recount {
         Self { sample: sampler.inputs.blank(), total: block(), block: block(), near, next: 0, sampler }
     }
 
-    /// Takes in what the next sample asks of each part, of a box in each of its drops too, as [`Sampler::rows`] has it.
+    /// Takes in the demand of the next sample on each part, of a box in each of its drops too, as [`Sampler::rows`] has it.
     pub fn take(&mut self, asked: &[Option<PartRow>]) {
         let (sampler, k) = (&self.sampler, self.next);
         let _ = sampler.inputs.draw(sampler.settings.seed, k, &mut self.sample); // its numbers stand, whatever is refused
         let mut again = Answers::default();
         let known = self.total.reason.as_ref().or(self.block.reason.as_ref());
         if known.is_none() && asked.iter().any(Option::is_none) {
-            // Why it has no answer was not kept, and is found once more.
+            // The reason why it has no answer was not kept, and is found once more.
             sampler.answer(k, &mut self.sample, &mut again);
         }
         let count = sampler.components.len();
@@ -142,7 +142,7 @@ impl Recount {
         }
     }
 
-    /// What came of them.
+    /// Returns the result of the samples.
     #[must_use]
     pub fn finish(mut self) -> Scatter {
         self.total.merge(&self.block);

@@ -1,4 +1,4 @@
-//! What varies from sample to sample, and one sample.
+//! This module defines the inputs that vary from sample to sample, and one sample.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ use crate::inputs::INPUTS;
 use crate::quantity::Source;
 use crate::{Component, Damping, Input, Inside, Law, Limit, LimitKind, Mount, Product, ProductFile, Spread};
 
-/// What varies from sample to sample; parts by their index in the file.
+/// An input that varies from sample to sample; parts are given by their index in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Varied {
@@ -26,18 +26,18 @@ pub enum Varied {
     Frequency(usize),
     /// Damping ratio or quality factor of a part, whichever the file gives.
     Damping(usize),
-    /// Where a part is.
+    /// The place of a part.
     Position(usize),
-    /// Where a part is across a plate.
+    /// The place of a part across a plate.
     Across(usize),
-    /// What a part stands; of a damage boundary the critical velocity change.
+    /// The limit of a part; of a damage boundary the critical velocity change.
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part.
     CriticalAcceleration(usize),
 }
 
 impl Varied {
-    /// The name of the input of the drop, or `natural-frequency`, `damping`, `position`, `position-across`, `limit` or
+    /// Returns the name of the input of the drop, or `natural-frequency`, `damping`, `position`, `position-across`, `limit` or
     /// `critical-acceleration`.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -51,12 +51,12 @@ impl Varied {
             Self::CriticalAcceleration(_) => "critical-acceleration",
         }
     }
-    /// The drop of several that it belongs to, by its order in the file; none of what all drops share.
+    /// Returns the drop of several that it belongs to, by its order in the file; none of an input that all drops share.
     #[must_use]
     pub fn landing(&self) -> Option<usize> {
         if let Self::Drop(_, landing) = self { *landing } else { None }
     }
-    /// The part that it belongs to, by its index in the file; none of what all parts share.
+    /// Returns the part that it belongs to, by its index in the file; none of an input that all parts share.
     #[must_use]
     pub fn component(&self) -> Option<usize> {
         match self {
@@ -69,7 +69,7 @@ impl Varied {
             Self::Drop(..) => None,
         }
     }
-    /// The column that holds it.
+    /// Returns the column that holds it.
     pub(super) fn column(self) -> Column {
         match self {
             Self::Drop(input, landing) => Column::Drop(input.told(), landing),
@@ -81,8 +81,8 @@ impl Varied {
             Self::CriticalAcceleration(i) => Column::CriticalAccelerationMS2(i),
         }
     }
-    /// Which of the uniform numbers of a sample it is drawn from, whatever else is drawn. There is room for other inputs and kinds of
-    /// limits, so that they move no number of these.
+    /// Returns which of the uniform numbers of a sample it is drawn from, whatever else is drawn. There is room for other inputs and kinds
+    /// of limits, so that they move no number of these.
     fn number(self) -> u32 {
         const SHARED: u32 = 16;
         const OWN: u32 = 32;
@@ -123,17 +123,17 @@ impl Drawn {
 #[derive(Debug)]
 pub(super) struct Inputs {
     merge_s: f64,
-    /// Those that vary.
+    /// The inputs that vary.
     pub(super) varied: Vec<Varied>,
-    /// Those of them that are given as a range without a distribution.
+    /// The inputs among them that are given as a range without a distribution.
     pub(super) assumed_even: Vec<Varied>,
-    /// Of each part, which of those that vary act on it.
+    /// The varying inputs that act on each part.
     pub(super) of_part: Vec<Vec<usize>>,
-    /// How a plate is followed; none of a bar, and of a box that lands on anything.
+    /// The way in which a plate is followed; none of a bar, and of a box that lands on anything.
     pub(super) plate: Option<PlateAs>,
-    /// What is the same in all drops.
+    /// The drop data that are the same in all drops.
     drop: Drop,
-    /// Whether a sample goes through the drops of a list.
+    /// True where a sample goes through the drops of a list.
     has_list: bool,
     /// Inputs that all drops share.
     shared: Vec<(Input, Drawn)>,
@@ -142,17 +142,17 @@ pub(super) struct Inputs {
     parts: Vec<PartInputs>,
 }
 
-/// What one drop is drawn from.
+/// The inputs from which one drop is drawn.
 #[derive(Debug)]
 struct DropInputs {
-    /// How a box lies as it lands, but for its tolerance.
+    /// The posture of a box as it lands, but for its tolerance.
     base: Option<Base>,
     /// Ends that may be first, and what either of them is drawn from.
     firsts: &'static [End],
     first: Option<usize>,
     /// Its own inputs.
     own: Vec<(Input, Drawn)>,
-    /// Of a plate and of a box.
+    /// The direction of a plate and of a box.
     direction: Option<Drawn>,
 }
 
@@ -169,7 +169,7 @@ struct PartInputs {
 /// A product that is dropped, and the parts in it.
 #[derive(Debug)]
 pub(super) struct Sample {
-    /// Of each input that varies, the uniform number that it comes from.
+    /// The uniform number from which each varying input comes.
     pub(super) uniforms: Vec<f64>,
     /// One, or all that it goes through, one after the other.
     pub(super) drops: Vec<Drop>,
@@ -181,7 +181,7 @@ pub(super) struct Sample {
 pub(super) struct PartSample {
     /// Its middle, along the product and across it.
     pub(super) at_m: [f64; 2],
-    /// From where to where it reaches along the product and across it, the same for a point.
+    /// The range that it reaches along the product and across it, the same for a point.
     pub(super) reaches_m: [[f64; 2]; 2],
     pub(super) inside: Inside,
     pub(super) suspension: Option<Suspension>,
@@ -189,7 +189,7 @@ pub(super) struct PartSample {
 }
 
 impl DropInputs {
-    /// Whether it is tilted by a range of angles, or turns.
+    /// Returns whether it is tilted by a range of angles, or turns.
     fn turns(&self) -> bool {
         let varies = |(input, drawn): &(Input, Drawn)| match input {
             Input::Tilt => drawn.input.is_some(),
@@ -201,7 +201,7 @@ impl DropInputs {
 }
 
 impl PartSample {
-    /// Both ends along the product, or the point.
+    /// Returns both ends along the product, or the point.
     pub(super) fn ends(&self) -> &[f64] {
         let along = &self.reaches_m[0];
         if along[0] < along[1] { along } else { &along[..1] }
@@ -239,7 +239,7 @@ impl Finder {
         let mount = match component.mount {
             Mount::Hard => None,
             Mount::Suspended { frequency_hz, damping } => {
-                // What is sound at both ends of its range is sound between them.
+                // A suspension that is sound at both ends of its range is sound between them.
                 for (hz, given) in
                     [(frequency_hz.lo(), damping.spread().lo()), (frequency_hz.hi(), damping.spread().hi())]
                 {
@@ -264,7 +264,7 @@ impl Finder {
         Ok(PartInputs { position, extent_m, inside: component.inside, mount, limits })
     }
 
-    /// Which end is first, and the inputs of a drop; of one of several, which it is.
+    /// Collects which end is first, and the inputs of a drop; of one of several, which it is.
     fn drop(&mut self, product: &Product, listed: &Listed, landing: Option<usize>) -> Result<DropInputs, Error> {
         let Listed { drop, base } = listed;
         let (firsts, is_bar) = (drop.first_ends(), !product.body.is_wide());
@@ -290,7 +290,7 @@ impl Finder {
 }
 
 impl Inputs {
-    /// The inputs of a product, all checked.
+    /// Returns the inputs of a product, all checked.
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         file.check()?;
         crate::verdict::merge(merge_s)?;
@@ -346,7 +346,7 @@ impl Inputs {
         Ok(Self { merge_s, varied, assumed_even, of_part, plate, drop: same, has_list, shared, drops, parts })
     }
 
-    /// A sample to draw into.
+    /// Returns a sample to draw into.
     pub(super) fn blank(&self) -> Sample {
         let limit = |(kind, ..): &(LimitKind, _, _)| Limit::new(*kind, f64::INFINITY);
         let part = |part: &PartInputs| {
@@ -358,7 +358,7 @@ impl Inputs {
         Sample { uniforms: vec![0.0; self.varied.len()], drops: vec![self.drop; self.drops.len()], parts }
     }
 
-    /// Sample k of a seed.
+    /// Draws sample k of a seed.
     pub(super) fn draw(&self, seed: u64, k: u64, sample: &mut Sample) -> Result<(), crate::Error> {
         let stream = Stream::new(seed, k);
         for (uniform, input) in sample.uniforms.iter_mut().zip(&self.varied) {
@@ -384,7 +384,7 @@ impl Inputs {
         Ok(())
     }
 
-    /// The drops that these uniform numbers give, all of one product.
+    /// Sets the drops that these uniform numbers give, all of one product.
     fn product(&self, uniforms: &[f64], drops: &mut [Drop]) {
         for (inputs, drop) in self.drops.iter().zip(drops) {
             if let Some(base) = &inputs.base {
@@ -404,7 +404,7 @@ impl Inputs {
         }
     }
 
-    /// What a sample may be described by: all that the product has, whether it varies or not.
+    /// Returns the quantities that may describe a sample: all that the product has, whether it varies or not.
     pub(super) fn quantities(&self) -> Vec<Column> {
         let is_plate = self.drops[0].direction.is_some();
         let mut all = self.falls();
@@ -422,12 +422,12 @@ impl Inputs {
         }
         all
     }
-    /// How many drops of a list a sample goes through; none of a product that falls once.
+    /// Returns how many drops of a list a sample goes through; none of a product that falls once.
     pub(super) fn landings(&self) -> usize {
         if self.has_list { self.drops.len() } else { 0 }
     }
 
-    /// How a sample falls.
+    /// Returns how a sample falls.
     fn falls(&self) -> Vec<Column> {
         let is_wide = self.drop.body.is_wide();
         if self.has_list {
@@ -448,7 +448,7 @@ impl Inputs {
         [first].into_iter().chain(own).map(|input| Column::Drop(input, None)).collect()
     }
 
-    /// What a row of values holds.
+    /// Returns the columns of a row of values.
     pub(super) fn columns(&self) -> Vec<Column> {
         let mut columns = self.falls();
         columns.extend(self.shared.iter().map(|(input, _)| Column::Drop(*input, None)));
@@ -473,12 +473,12 @@ impl Inputs {
 }
 
 impl Sample {
-    /// The value of a column of what was drawn, in SI.
+    /// Returns the value of a column of the sample, in SI.
     pub(super) fn value(&self, column: Column) -> f64 {
         let suspension = |i: usize| self.parts[i].suspension.as_ref();
         let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
         let value = match column {
-            // What the product has is the same in all of its drops.
+            // A quantity of the product is the same in all of its drops.
             Column::Drop(input, landing) => input.value(&self.drops[landing.unwrap_or(0)]),
             Column::FrequencyHz(i) => suspension(i).map(|part| part.omega() / TAU),
             Column::DampingRatio(i) => suspension(i).map(|part| part.damping().get()),

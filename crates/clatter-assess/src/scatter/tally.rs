@@ -1,4 +1,4 @@
-//! What comes of many samples: counts of failures, what they are within, and what drives them.
+//! This module sums up many samples: counts of failures, the intervals that hold them, and the inputs that drive them.
 
 use super::drivers::Sums;
 use super::landing::{LandingTally, sequence};
@@ -9,14 +9,14 @@ use crate::{Component, Error, Limit};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Count {
     pub(super) samples: u64,
-    /// Those that fail: as answered, at least and at most, whatever the answers may be off by. What is not answered fails but for the
-    /// least.
+    /// The number of samples that fail: as answered, at least and at most, whatever the answers may be off by. A sample that is not
+    /// answered fails but for the least.
     fails: [u64; 3],
     unanswered: u64,
 }
 
 impl Count {
-    /// Takes in what a sample asks; none where that is not answered.
+    /// Takes in the demand of a sample; none where that is not answered.
     pub(super) fn take(&mut self, asked: Option<&SampleDemand>) {
         let verdicts =
             |asked: &SampleDemand| [asked.utilization, asked.within[0], asked.within[1]].map(|used| used > 1.0);
@@ -32,7 +32,7 @@ impl Count {
         self.unanswered += later.unanswered;
     }
 
-    /// The probability to survive. The lower end takes all that is open or not answered as failures, the upper end as none.
+    /// Returns the probability to survive. The lower end takes all that is open or not answered as failures, the upper end as none.
     pub(super) fn survival(&self, confidence: f64) -> Probability {
         let [told, most, least] =
             self.fails.map(|fails| clopper_pearson(self.samples - fails, self.samples, confidence));
@@ -40,20 +40,20 @@ impl Count {
         Probability { estimate, lo: least.lo, hi: most.hi, at_least: least.at_least }
     }
 
-    /// How many fail, are open and are not answered.
+    /// Returns how many fail, are open and are not answered.
     pub(super) fn counts(&self) -> [u64; 3] {
         let Self { fails: [told, least, most], unanswered, .. } = *self;
         [told - unanswered, most - least - unanswered, unanswered]
     }
 }
 
-/// What came of one block.
+/// The result of one block.
 #[derive(Debug)]
 pub(super) struct Block {
     pub(super) tallies: Vec<Tally>,
-    /// Of each drop of a box.
+    /// The results of each drop of a box.
     pub(super) landings: Vec<LandingTally>,
-    /// Of all parts together.
+    /// The count of all parts together.
     pub(super) all: Count,
     /// Samples in which a part is not answered, and why the first is not.
     pub(super) unanswered: u64,
@@ -95,7 +95,7 @@ impl Block {
     }
 }
 
-/// What came of one component, so far.
+/// The result of one component, so far.
 #[derive(Debug)]
 pub(super) struct Tally {
     pub(super) count: Count,

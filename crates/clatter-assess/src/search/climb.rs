@@ -1,4 +1,4 @@
-//! From drops that ask much to those that ask most.
+//! This module climbs from drops with a large demand to those with the largest.
 
 use super::grid::halton;
 use super::ranges::{AXES, Coordinates, DAMPING, DIRECTION, FREQUENCY, Ranges, TILT};
@@ -12,8 +12,8 @@ use clatter_flight::{Followed, Until};
 /// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
 pub(super) const NEAR: f64 = 0.8;
 pub(super) const CLIMBS: usize = 6;
-/// How far a climb after rebounds tries, and how often, with contacts that take time and by instant impacts; one of a part that feels the
-/// shape of pulses.
+/// The range and the number of the tries of a climb after rebounds, with contacts that take time and by instant impacts; one of a part that
+/// responds to the shape of pulses.
 const LATE_REACH: f64 = 0.5;
 const LATE_TRIES: [u32; 2] = [160, 480];
 const EDGES_REACH: f64 = 0.1;
@@ -22,9 +22,9 @@ const EDGES_TRIES: u32 = 96;
 const BOX_REACH: f64 = 0.3;
 const BOX_TRIES: u32 = 24;
 const FACE_TRIES: u32 = 72;
-/// How far beyond the time of its first peak a climb after rebounds follows.
+/// The time over that of its first peak to which a climb after rebounds follows.
 const LATER: f64 = 2.0;
-/// How close the last try of a climb is over the first.
+/// The range of the last try of a climb over that of the first.
 const CLOSER: f64 = 0.004;
 /// The first step of a climb in the direction, as a share of its range: beyond it another drop of the grid is close.
 const DIRECTION_STEP: f64 = 0.125;
@@ -36,14 +36,14 @@ const BEYOND_PEAK: f64 = 1.5;
 const HALVINGS: u32 = 6;
 
 impl Ranges<'_> {
-    /// Whether what is asked changes by edges or steps where contacts meet.
+    /// Returns whether the demand changes by edges or steps where contacts meet.
     pub(super) fn has_edges(&self, task: &Task<'_>) -> bool {
         let stiff = |longest_s: f64| fastest_rad_s(task.component) * longest_s > 1.0;
         let times = self.product.contact_times_s().filter(|_| self.base.is_none());
         times.is_some_and(|[_, longest_s]| task.component.mount == Mount::Hard || stiff(longest_s))
     }
 
-    /// Climbs from a place as its body and the time of its peak ask.
+    /// Climbs from a place as its body and the time of its peak require.
     pub(super) fn climb_from(&self, task: &Task<'_>, start: Candidate, tilt_step: f64, work: &Work<'_>) -> Candidate {
         if self.base.is_some() {
             let tries = if self.faces() < 3 && !start.late { FACE_TRIES } else { BOX_TRIES };
@@ -101,14 +101,14 @@ impl Ranges<'_> {
         best
     }
 
-    /// What the steps in the direction of a climb shrink by, so that the last moves the touch of no corner by more than a part of a contact:
-    /// next to a landing on an edge, and where two corners come down in turn, what is asked changes with that.
+    /// Returns the factor on the steps in the direction of a climb, so that the last moves the touch of no corner by more than a part
+    /// of a contact: next to a landing on an edge, and where two corners come down in turn, the demand changes with that.
     fn shrinking(&self, place: &Coordinates) -> f64 {
         libm::pow(self.turn_in_contact(place) / DIRECTION_STEP, f64::from(HALVINGS - 1).recip()).clamp(0.25, 0.5)
     }
 
-    /// The part at both ends of its natural frequencies in the same drop, where that asks more: strikes that come in step with it have their
-    /// crests far from one another, which no step of a climb goes over.
+    /// Returns the part at both ends of its natural frequencies in the same drop, where its demand is larger: strikes that come in step
+    /// with it have their crests far from one another, which no step of a climb goes over.
     fn at_ends_of_frequency(task: &Task<'_>, best: Candidate, here: &Followed, fastest_rad_s: f64) -> Candidate {
         let Ok(felt) = PlaceHistory::rough(here, task.place(best.place.at_m), fastest_rad_s) else { return best };
         [0.0, 1.0].into_iter().fold(best, |best, share| {
@@ -118,8 +118,8 @@ impl Ranges<'_> {
         })
     }
 
-    /// The same in all ranges at once. After rebounds all ranges together decide in which phase a part is struck again, and what stiff and
-    /// rigidly mounted parts feel has edges where contacts meet.
+    /// Climbs in all ranges at once. After rebounds all ranges together decide in which phase a part is struck again, and the demand on
+    /// stiff and rigidly mounted parts has edges where contacts meet.
     fn climb_around(&self, task: &Task<'_>, start: Candidate, how: (f64, u32), work: &Work<'_>) -> Candidate {
         let (free, fastest) = (self.free_at(task, &start.place), rough_to_rad_s(task.component));
         // A climb is after the peak that it began with, not after those that elastic products have for minutes.
@@ -135,7 +135,7 @@ impl Ranges<'_> {
         best
     }
 
-    /// A box next to one that leans so far which falls over an edge of what it landed on; none where none is found.
+    /// Finds a box next to one that leans so far which falls over an edge of what it landed on; none where none is found.
     pub(super) fn fallen_over(
         &self,
         task: &Task<'_>,
@@ -187,7 +187,7 @@ fn around(
 }
 
 impl Ranges<'_> {
-    /// The utilization that a box of this thickness with full rotation asks for at most: in the worst drop of a plate, in other drops
+    /// Returns the largest utilization of a box of this thickness with full rotation: in the worst drop of a plate, in other drops
     /// from which the search climbed, and in drops next to each, which real tilt shifts.
     ///
     /// # Errors
@@ -223,7 +223,7 @@ impl Ranges<'_> {
     }
 }
 
-/// Where to climb from: the highest, some way from one another.
+/// Returns the places to climb from: the highest, some way from one another.
 pub(super) fn starts(found: &mut [Candidate]) -> Vec<Candidate> {
     found.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
     let most = found.first().map_or(0.0, |asked| asked.answer.utilization());
@@ -262,8 +262,8 @@ mod tests {
     use crate::{Accuracy, Limit, ProductFile, Unit};
     use clatter::End;
 
-    /// Real tilt shifts what a plate is asked for: the box beside it is followed in drops next to the worst one too, and beside the other
-    /// drops from which the search climbed.
+    /// Real tilt shifts the demand on a plate: the box of the same product is followed in drops next to the worst one too, and next to the
+    /// other drops from which the search climbed.
     #[test]
     fn real_tilt_is_asked_next_to_the_worst_drop_and_to_the_others() {
         let text = r#"

@@ -1,4 +1,4 @@
-//! Where the order of touches and partings changes between neighboring tilts: what stiff parts feel jumps there.
+//! This module finds where the order of touches and partings changes between neighboring tilts: the demand on stiff parts jumps there.
 
 use rayon::prelude::*;
 
@@ -6,9 +6,9 @@ use super::Work;
 use super::ranges::{AXES, Coordinates, DIRECTION, Ranges, TILT};
 use clatter_flight::{Followed, Until};
 
-/// How often the space between two tilts of the grid is halved about such an edge.
+/// The number of times that the space between two tilts of the grid is halved about such an edge.
 const HALVINGS: u32 = 8;
-/// Touches and partings that are put in order. What comes later is small.
+/// Touches and partings that are put in order. Later ones are small.
 const EVENTS: usize = 6;
 
 /// The first touches and partings of a drop in their order: which end, and whether it parts.
@@ -16,7 +16,7 @@ const EVENTS: usize = 6;
 pub(super) struct Order(Vec<(usize, bool)>);
 
 impl Order {
-    /// Of a drop that was followed until it lands.
+    /// Returns the order of a drop that was followed until it lands.
     pub(super) fn of(followed: &Followed) -> Self {
         let pressed = followed.presses().into_iter();
         let mut events: Vec<(f64, usize, bool)> =
@@ -34,8 +34,8 @@ struct Edge {
 }
 
 impl Ranges<'_> {
-    /// Drops on both sides of each edge between neighbors of the grid, of which these are the orders, as close to it as the space between
-    /// them over 2⁸.
+    /// Returns drops on both sides of each edge between neighbors of the grid, of which these are the orders, as close to it as the space
+    /// between them over 2⁸.
     pub(super) fn edges(
         &self,
         grid: &[(u32, Coordinates)],
@@ -63,14 +63,14 @@ impl Ranges<'_> {
         [near, far]
     }
 
-    /// None of a drop that is not answered, or where no more are wanted.
+    /// Returns the order of a drop; none of one that is not answered, or where no more are wanted.
     fn order(&self, place: &Coordinates, work: &Work<'_>) -> Option<Order> {
         work.go_on(0).ok()?;
         self.follow(place, Until::Lands).ok().as_ref().map(Order::of)
     }
 }
 
-/// The axis of two drops of the grid that differ by their tilt or their direction alone.
+/// Returns the axis of two drops of the grid that differ by their tilt or their direction alone.
 fn differ_by(a: &Coordinates, b: &Coordinates) -> Option<usize> {
     let differs = |axis: &usize| a.shares[*axis].to_bits() != b.shares[*axis].to_bits();
     let mut axes = (0..AXES).filter(differs);

@@ -1,4 +1,4 @@
-//! What drops ask: of each, of all, and the worst of them.
+//! This module holds the demands of drops: of each, of all, and of the worst of them.
 
 use clatter_shock::Suspension;
 
@@ -6,48 +6,48 @@ use super::Coordinates;
 use crate::engine::{Answer, Part};
 use crate::{Component, Error};
 
-/// A drop and a part that ask for something.
+/// A drop and a part with a demand.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Candidate {
     pub(crate) place: Coordinates,
     /// The part, where the limit is on its response.
     pub(crate) part: Option<Suspension>,
     pub(crate) answer: Answer,
-    /// Whether it comes after the body has bounced clear once.
+    /// True where it comes after the body has bounced clear once.
     pub(crate) late: bool,
 }
 
 /// The worst that was found for one limit.
 #[derive(Debug, Clone)]
 pub(crate) struct Worst {
-    /// The drop that asks most; none where no drop of the ranges was answered.
+    /// The drop with the largest demand; none where no drop of the ranges was answered.
     pub(crate) asked: Option<Candidate>,
-    /// Drops some way from one another that ask for nearly as much, as they were found.
+    /// Drops some way from one another with nearly as large a demand, as they were found.
     pub(crate) near: Vec<Candidate>,
     /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
     pub(crate) later: f64,
     /// The utilization that a drop may reach with friction, of a part that moves along the ground; else 0.
     pub(crate) with_friction: f64,
-    /// The most that a drop was found to ask after it has bounced clear once, as a utilization.
+    /// The largest demand of a drop that was found after it has bounced clear once, as a utilization.
     pub(crate) late: f64,
     /// Drops that the model does not take, and why the first of them; of edges that touch, the one that does deepest.
     pub(crate) refused: Option<(usize, Error)>,
     /// Drops that were followed besides climbing.
     pub(crate) drops: usize,
-    /// Whether the search was told to stop before its end.
+    /// True where the search was stopped before its end.
     pub(crate) stopped: bool,
 }
 
-/// What one drop asks.
+/// The demands of one drop.
 #[derive(Default)]
 pub(super) struct OfDrop {
-    /// Of the tasks of these numbers.
+    /// The demands on the tasks of these numbers.
     pub(super) asked: Vec<(usize, Candidate)>,
-    /// Of tasks of which the energy allows more after the body has come down once, how much.
+    /// The demand that the energy allows after the body has come down once, on tasks where that is more.
     pub(super) later: Vec<(usize, f64)>,
-    /// Of tasks that friction adds to, what they ask with it at most.
+    /// The largest demand with friction, on tasks to which friction adds.
     pub(super) with_friction: Vec<(usize, f64)>,
-    /// Of a box that was followed on, how far it leaned from what it landed on.
+    /// The lean of a box that was followed on, from the posture in which it landed.
     pub(super) lean: f64,
 }
 
@@ -62,15 +62,15 @@ impl Worst {
     }
 }
 
-/// What all drops ask.
+/// The demands of all drops.
 pub(super) struct Candidates {
-    /// Of each task.
+    /// The drops found for each task.
     pub(super) found: Vec<Vec<Candidate>>,
-    /// How many are not answered, and why the first is not; of edges that touch, the one that does deepest.
+    /// The number of drops that are not answered, and the reason of the first; of edges that touch, the one that does deepest.
     pub(super) refused: Option<(usize, Error)>,
-    /// Of each task, what rebounds may ask by their energy; 0 where that is less than the worst.
+    /// The demand that rebounds may have by their energy, for each task; 0 where that is less than the worst.
     pub(super) later: Vec<f64>,
-    /// Of each task, the most that a drop may ask with friction; 0 where friction adds nothing.
+    /// The largest demand that a drop may have with friction, for each task; 0 where friction adds nothing.
     pub(super) with_friction: Vec<f64>,
     pub(super) drops: usize,
     /// The box that leaned most, and how far.
@@ -89,7 +89,7 @@ impl Candidates {
             leaning: None,
         }
     }
-    /// The largest utilization of each task so far.
+    /// Returns the largest utilization of each task so far.
     pub(super) fn best(&self) -> Vec<f64> {
         let most = |found: &Vec<Candidate>| found.iter().map(|asked| asked.answer.utilization()).fold(0.0, f64::max);
         self.found.iter().map(most).collect()
@@ -118,21 +118,21 @@ impl Candidates {
     }
 }
 
-/// A place with sides exchanged.
+/// Returns a place with sides exchanged.
 pub(super) fn image(at_m: [f64; 2], sides: [bool; 2]) -> [f64; 2] {
     [0, 1].map(|k| if sides[k] { -at_m[k] } else { at_m[k] })
 }
 
 impl Candidate {
-    /// The part where it is.
+    /// Returns the part where it is.
     pub(crate) fn part_there(&self, component: &Component) -> Part {
         Part::at(component.inside.place(self.place.at_m), self.part)
     }
-    /// Whether it asks for more of the limit than another drop.
+    /// Returns whether its demand for the limit is larger than that of another drop.
     pub(crate) fn exceeds(&self, other: &Self) -> bool {
         self.answer.utilization() > other.answer.utilization()
     }
-    /// The same of the product with sides exchanged.
+    /// Returns the same of the product with sides exchanged.
     pub(super) fn mirrored(self, sides: [bool; 2], is_plate: bool) -> Self {
         let Coordinates { first, mirrored, at_m, .. } = self.place;
         let place = if is_plate {
@@ -148,7 +148,7 @@ impl Candidate {
 mod tests {
     use super::*;
 
-    /// What rebounds may ask is the most of any drop, in whatever order they come.
+    /// The demand of rebounds is the largest of any drop, in whatever order they come.
     #[test]
     fn rebounds_of_all_drops_are_the_most_of_any() {
         for order in [[3.0, 1.0, 2.0], [1.0, 2.0, 3.0]] {

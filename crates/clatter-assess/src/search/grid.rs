@@ -1,4 +1,4 @@
-//! Which drops of the ranges are followed.
+//! This module chooses the drops of the ranges that are followed.
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
@@ -39,7 +39,7 @@ const LINES_A_QUARTER: u32 = 3;
 const DROPS_OF_PLATE: usize = 1024;
 /// Part of a contact by which the second corner comes later next to a landing on an edge.
 const PART_OF_CONTACT: f64 = 0.25;
-/// Where along a range the drops of the grid are.
+/// The places of the drops of the grid along a range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Level {
     At(f64),
@@ -50,7 +50,7 @@ enum Level {
 /// Levels along all axes.
 type Line = [Level; AXES];
 
-/// Where drop k of a line is along all axes.
+/// Finds where drop k of a line is along all axes.
 fn shares(line: &Line, k: usize) -> [f64; AXES] {
     line.map(|level| level.of(k))
 }
@@ -66,14 +66,14 @@ impl Level {
 }
 
 impl Ranges<'_> {
-    /// Steps of the tilt, and of the direction of a plate over all of its range: as many as the stiffest of the parts asks.
+    /// Steps of the tilt, and of the direction of a plate over all of its range: as many as the stiffest of the parts needs.
     pub(super) fn steps(&self, tasks: &[Task<'_>]) -> [f64; 2] {
         // A spin that opens the tilt leaves parts more time to swing.
         let [_, slowly] = self.closing_m_s();
         let [low, high] =
             [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()].map(|tilt| self.reach_m() * libm::sin(tilt));
         let highest = tasks.iter().filter_map(|task| match task.component.mount {
-            // Beyond some swings a contact, pulses are felt one by one.
+            // Beyond some swings a contact, pulses act one by one.
             Mount::Suspended { frequency_hz, .. } => Some(frequency_hz.hi()),
             // Its crest is where contacts meet.
             Mount::Hard => self.product.contact_times_s().map(|[shortest, _]| 0.5 / shortest),
@@ -93,7 +93,7 @@ impl Ranges<'_> {
         quarters
     }
 
-    /// The drops of the grid; places of parts are left open.
+    /// Returns the drops of the grid; places of parts are left open.
     pub(super) fn grid(&self, steps: f64, turn_steps: f64) -> Vec<Coordinates> {
         if self.base.is_some() {
             return self.around();
@@ -121,11 +121,11 @@ impl Ranges<'_> {
                 even(steps, tilted).for_each(|tilt| add(tilt, 1.0));
                 // Slower drops seldom do more; fewer of them are followed.
                 even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast).for_each(|tilt| add(tilt, 0.0));
-                // In which phase a soft part is struck again depends on the speed: at others too.
+                // The phase in which a soft part is struck again depends on the speed: other speeds are followed too.
                 let between = even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast);
                 (1_u32..).zip(between).for_each(|(k, tilt)| add(tilt, (SQRT_7 * f64::from(k)).fract()));
             }
-            // Next to a landing on an edge what is asked changes as fast as two contacts come apart.
+            // Next to a landing on an edge the demand changes as fast as two contacts come apart.
             for (line, direction) in self.lines().iter().take(self.on_edges().len()) {
                 for (tilt, side) in even((steps / 4.0).ceil(), tilted).flat_map(|tilt| [(tilt, -1.0), (tilt, 1.0)]) {
                     let on_edge = of(first, [tilt, 1.0], line, *direction, grid.len());
@@ -146,7 +146,7 @@ impl Ranges<'_> {
                 }
             }
         }
-        // Of a plate with soft parts the order in which its corners come down tells more than the phase of the parts.
+        // For a plate with soft parts the order in which its corners come down tells more than the phase of the parts.
         let of_plate = if self.quarters() > 0 { DROPS_OF_PLATE.saturating_sub(grid.len()) } else { 0 };
         let evenly = |k: u32| if tilted { self.spread_out(k).with(TILT, halton(TILT, k)) } else { self.spread_out(k) };
         grid.extend((1..).map(evenly).take(of_plate));
@@ -163,9 +163,9 @@ impl Ranges<'_> {
         grid
     }
 
-    /// Drops of a box all around its posture: as it should land, and turned off that by all of its tolerance and by less, the ends of the
-    /// other ranges in turn, all of it at each end of the range of the spin and over it. Off a face they are closer; off an edge along it, where
-    /// its corners land one after the other.
+    /// Returns drops of a box all around its posture: as it should land, and turned off that by all of its tolerance and by less, the ends
+    /// of the other ranges in turn, all of it at each end of the range of the spin and over it. Off a face they are closer; off an edge
+    /// along it, where its corners land one after the other.
     fn around(&self) -> Vec<Coordinates> {
         let (levels, spins) = (self.levels(), self.spins().len());
         let of_spin = levels.len() / spins;
@@ -190,7 +190,7 @@ impl Ranges<'_> {
             .collect()
     }
 
-    /// The ends of the range of the spin, the faster one first, and values all over it.
+    /// Returns the ends of the range of the spin, the faster one first, and values all over it.
     fn spins(&self) -> Vec<Level> {
         let spin = &self.drop.spin_rad_s;
         match spin.hi() > -spin.lo() {
@@ -226,7 +226,7 @@ impl Ranges<'_> {
         all
     }
 
-    /// The directions of a plate in which it lands on an edge, and the ends of those that it rises to.
+    /// Returns the directions of a plate in which it lands on an edge, and the ends of those that it rises to.
     fn on_edges(&self) -> Vec<f64> {
         if self.quarters() == 0 {
             return Vec::new();
@@ -239,7 +239,7 @@ impl Ranges<'_> {
         all
     }
 
-    /// How far a plate is turned, as a share of its directions, so that some corner comes later by a part of a contact.
+    /// Returns how far a plate is turned, as a share of its directions, so that some corner comes later by a part of a contact.
     pub(super) fn turn_in_contact(&self, place: &Coordinates) -> f64 {
         let (drop, [from, to]) = (self.single(place), self.directions());
         let turned_m = self.reach_m() * libm::sin(drop.tilt_rad) * (to - from);
@@ -262,7 +262,7 @@ impl Ranges<'_> {
         edges.chain(between).zip(lines.iter().cycle()).map(|(direction, line)| (**line, direction)).collect()
     }
 
-    /// Drops whose first two contacts overlap or nearly do.
+    /// Returns drops whose first two contacts overlap or nearly do.
     pub(super) fn overlaps(&self) -> Vec<(u32, Coordinates)> {
         let is_searched = !self.drop.tilt_rad.is_value() && self.base.is_none();
         let times = self.product.longest_contacts_s();
@@ -270,7 +270,7 @@ impl Ranges<'_> {
         one_by_one.collect()
     }
 
-    /// The same of contacts that last so long.
+    /// Returns the same of contacts that last so long.
     fn overlaps_within(&self, contact_s: f64) -> Vec<(u32, Coordinates)> {
         let [lo, hi] = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()];
         // A spin that closes the tilt lets contacts overlap at larger ones.
@@ -303,14 +303,15 @@ impl Ranges<'_> {
         (0..=count).flat_map(drops).collect()
     }
 
-    /// Drop k of a sequence that spreads evenly over the ranges (Halton's), half of it at an end of each, where worst cases lie as a rule.
+    /// Returns drop k of a sequence that spreads evenly over the ranges (Halton's), half of it at an end of each, where worst cases lie as
+    /// a rule.
     pub(super) fn spread_out(&self, k: u32) -> Coordinates {
         let firsts = self.firsts();
         // Not by its last digit, which tells the half of the tilts.
         let first = firsts[k.count_ones() as usize % firsts.len()];
         let mut shares = [0.0; AXES];
         let free = self.free_in_drops();
-        // Few digits for those over which what is asked changes most.
+        // Axes over which the demand changes most get few digits.
         let others = searched().map(|(_, search)| search.axis).filter(|axis| *axis != TILT && *axis != SPEED);
         let order = [TILT, DIRECTION, SPEED].into_iter().chain(others).chain([DAMPING, FREQUENCY]);
         for (n, axis) in order.filter(|axis| free[*axis]).enumerate() {
@@ -326,12 +327,12 @@ impl Ranges<'_> {
 /// Bases of Halton's sequence.
 const PRIMES: [u32; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
 
-/// Number k of Halton's sequence along an axis.
+/// Returns number k of Halton's sequence along an axis.
 pub(super) fn halton(axis: usize, k: u32) -> f64 {
     radical_inverse(PRIMES[axis], k)
 }
 
-/// The digits of k in a base, mirrored at the point.
+/// Returns the digits of k in a base, mirrored at the point.
 fn radical_inverse(base: u32, mut k: u32) -> f64 {
     let (mut share, mut digit) = (0.0, 1.0);
     while k > 0 {

@@ -11,26 +11,27 @@ use crate::search::{Candidate, Task};
 use crate::{Component, ContactLaw, DropRanges, Mount, Product, Spread, WorstCase};
 use clatter_flight::Drop;
 
-/// Where in the ranges a drop and a part are.
+/// The place of a drop and a part in the ranges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coordinates {
     pub(crate) first: End,
-    /// Whether both ends land as one.
+    /// True where both ends land as one.
     pub(crate) flat: bool,
     /// Sides that are exchanged, of a plate whose drops stand for those of its mirror images.
     pub(crate) mirrored: [bool; 2],
     pub(crate) at_m: [f64; 2],
-    /// From 0 to 1 along each range: of the [axes](AXES).
+    /// The shares from 0 to 1 along each range: of the [axes](AXES).
     pub(crate) shares: [f64; AXES],
 }
 
-/// Those of the inputs of a drop that are searched, the natural frequency and the damping ratio of the part, and the direction.
+/// The number of axes: those of the inputs of a drop that are searched, the natural frequency and the damping ratio of the part, and the
+/// direction.
 pub(crate) const AXES: usize = 9;
 pub(super) const TILT: usize = 0;
 pub(super) const SPEED: usize = 1;
 pub(super) const RESTITUTION: usize = 2;
 pub(super) const CONTACT: usize = 3;
-/// Those of the part.
+/// The axes of the part.
 pub(crate) const FREQUENCY: usize = 4;
 pub(crate) const DAMPING: usize = 5;
 pub(crate) const DIRECTION: usize = 7;
@@ -42,9 +43,9 @@ pub(crate) struct Ranges<'a> {
     pub(crate) product: &'a Product,
     pub(crate) drop: &'a DropRanges,
     pub(crate) model: Model,
-    /// How a box lies as it lands, but for its tolerance.
+    /// The posture of a box as it lands, but for its tolerance.
     pub(crate) base: Option<Base>,
-    /// How many drops the product is put through.
+    /// The number of drops that the product goes through.
     pub(crate) listed: usize,
     pub(crate) law: ContactLaw,
     pub(crate) tolerance: f64,
@@ -53,7 +54,7 @@ pub(crate) struct Ranges<'a> {
 }
 
 impl Ranges<'_> {
-    /// The drop at a place.
+    /// Returns the drop at a place.
     pub(crate) fn single(&self, place: &Coordinates) -> Drop {
         let direction_rad = if self.product.body.is_wide() {
             let [from, to] = self.directions();
@@ -83,7 +84,7 @@ impl Ranges<'_> {
         drop
     }
 
-    /// Where in the ranges a worst case is.
+    /// Finds where in the ranges a worst case is.
     pub(crate) fn place_of(&self, component: &Component, worst: &WorstCase) -> Coordinates {
         let share = |[lo, hi]: [f64; 2], x: f64| if hi > lo { ((x - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
         let of = |spread: &Spread, x: f64| share([spread.lo(), spread.hi()], x);
@@ -114,14 +115,14 @@ impl Ranges<'_> {
         Coordinates { first: drop.first(), flat: drop.is_flat, mirrored, at_m: worst.part.at_m(), shares }
     }
 
-    /// The middle of all ranges.
+    /// Returns the middle of all ranges.
     pub(crate) fn middle(&self, component: &Component) -> Coordinates {
         let at_m = [component.position_m, component.across_m].map(|place| 0.5 * (place.lo() + place.hi()));
         let (first, mirrored) = (self.drop.first_ends()[0], [false; 2]);
         Coordinates { first, flat: false, mirrored, at_m, shares: [0.5; AXES] }
     }
 
-    /// Whether the drops with the least tilt land as one: without a contact time, strikes closer than any contact lasts are not
+    /// Returns whether the drops with the least tilt land as one: without a contact time, strikes closer than any contact lasts are not
     /// apart.
     pub(crate) fn hold_flat(&self) -> bool {
         let [_, fast] = self.drop.speeds_m_s();
@@ -130,19 +131,19 @@ impl Ranges<'_> {
         self.product.contact_time_s.is_none() && !self.drop.may_spin() && gap_m < self.merge_s * fast
     }
 
-    /// Whether a flat drop is one of the ranges.
+    /// Returns whether a flat drop is one of the ranges.
     pub(crate) fn hold(&self, flat: &Candidate) -> bool {
         if flat.place.flat { self.hold_flat() } else { self.drop.tilt_rad.lo() == 0.0 && !self.drop.may_spin() }
     }
 
-    /// Which axes have a range at a place: a flat drop has no tilt.
+    /// Returns which axes have a range at a place: a flat drop has no tilt.
     pub(super) fn free_at(&self, task: &Task<'_>, place: &Coordinates) -> [bool; AXES] {
         let mut free = self.free(task);
         free[TILT] &= !place.flat;
         free
     }
 
-    /// Which axes of a drop have a range, and those of a part, which any may have.
+    /// Returns which axes of a drop have a range, and those of a part, which any may have.
     pub(super) fn free_in_drops(&self) -> [bool; AXES] {
         let mut free = [false; AXES];
         for (row, search) in searched() {
@@ -153,7 +154,7 @@ impl Ranges<'_> {
         free
     }
 
-    /// Which axes have a range.
+    /// Returns which axes have a range.
     pub(super) fn free(&self, task: &Task<'_>) -> [bool; AXES] {
         let mut free = self.free_in_drops();
         [free[FREQUENCY], free[DAMPING]] = match task.component.mount {
@@ -166,7 +167,7 @@ impl Ranges<'_> {
         free
     }
 
-    /// The directions that drops are followed in: of a plate that may rise to any, those of which the others are mirror images.
+    /// Returns the directions that drops are followed in: of a plate that may rise to any, those of which the others are mirror images.
     pub(super) fn directions(&self) -> [f64; 2] {
         match (&self.product.body.width, &self.drop.direction_rad) {
             (None, _) => [0.0; 2],
@@ -180,7 +181,7 @@ impl Ranges<'_> {
             },
         }
     }
-    /// Whether exchanging its ends, and its long edges, leaves a plate as it is.
+    /// Returns whether exchanging its ends, and its long edges, leaves a plate as it is.
     fn symmetries(&self) -> [bool; 2] {
         let Some(width) = &self.product.body.width else { return [false; 2] };
         let even = |[lo, hi]: [f64; 2]| lo.to_bits() == hi.to_bits() && self.product.body.products_m2[0] == 0.0;
@@ -200,44 +201,44 @@ impl Ranges<'_> {
             [false, false] => &[[false, false]],
         }
     }
-    /// On how many faces at once a box lands at least, turned off its posture by all of its tolerance: 1 a face, 2 an edge, 3 a corner; 0
-    /// of a bar or a plate.
+    /// Returns on how many faces at once a box lands at least, turned off its posture by all of its tolerance: 1 a face, 2 an edge, 3 a
+    /// corner; 0 of a bar or a plate.
     pub(super) fn faces(&self) -> usize {
-        // So far its tolerance levels a side.
+        // The tolerance levels a side by so much.
         let level = libm::sin(self.drop.tilt_rad.hi());
         self.base.map_or(0, |base| base.up.iter().filter(|side| side.abs() > level).count())
     }
-    /// The longest way from the lowest point to the highest, along the body.
+    /// Returns the longest way from the lowest point to the highest, along the body.
     pub(super) fn reach_m(&self) -> f64 {
         libm::hypot(self.product.body.length_m(), self.product.body.width_m())
     }
-    /// A share of the range of the spin; 0 where it has none, so that no two places differ by it.
+    /// Returns a share of the range of the spin; 0 where it has none, so that no two places differ by it.
     pub(super) fn spin_share(&self, share: f64) -> f64 {
         if self.drop.spin_rad_s.is_value() { 0.0 } else { share }
     }
-    /// How fast the raised end or corner comes down as the other touches, at most and at least over the spins of the fastest drop, before
-    /// that strikes; at least a tenth of the speed, as the strike turns it down.
+    /// Returns how fast the raised end or corner comes down as the other touches, at most and at least over the spins of the fastest drop,
+    /// before that strikes; at least a tenth of the speed, as the strike turns it down.
     pub(super) fn closing_m_s(&self) -> [f64; 2] {
         let ([_, fast], reach_m) = (self.drop.speeds_m_s(), self.reach_m());
         let [closes, opens] =
             [-self.drop.spin_rad_s.lo(), self.drop.spin_rad_s.hi()].map(|spin| reach_m * spin.max(0.0));
         [fast + closes, (fast - opens).max(0.1 * fast)]
     }
-    /// Of a symmetric product one end first is the other one turned around.
+    /// Returns whether one end first is the other one turned around, as of a symmetric product.
     pub(crate) fn turns(&self) -> bool {
         let [a, b] = self.product.body.arms_m();
         let is_even = a.to_bits() == b.to_bits() && self.product.own_contacts.is_even([true, false]);
         is_even && self.drop.first_ends().len() > 1 && !self.product.body.is_wide()
     }
 
-    /// The ends that are let touch first.
+    /// Returns the ends that are let touch first.
     pub(crate) fn firsts(&self) -> &'static [End] {
         if self.turns() || self.product.body.is_wide() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() }
     }
 }
 
 impl Coordinates {
-    /// Landing flat: as one, or with the tilt at the least of its range.
+    /// Returns the drop landing flat: as one, or with the tilt at the least of its range.
     pub(crate) fn flattened(mut self, as_one: bool) -> Self {
         self.flat = as_one;
         self.shares[TILT] = 0.0;
@@ -249,7 +250,7 @@ impl Coordinates {
     }
 }
 
-/// The direction of a mirror image.
+/// Returns the direction of a mirror image.
 fn image(direction_rad: f64, [along, across]: [bool; 2]) -> f64 {
     let turned = if along { PI - direction_rad } else { direction_rad };
     if across { -turned } else { turned }

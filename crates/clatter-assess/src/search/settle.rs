@@ -9,17 +9,17 @@ use clatter_flight::Until;
 
 /// Worst cases that are answered to the tolerance, early ones and late ones.
 const TRIES: usize = 8;
-/// So many times the space between two places of an extended part is halved about the worst.
+/// The number of times that the space between two places of an extended part is halved about the worst.
 const NARROWED: usize = 7;
 
-/// The most that any of these asks after rebounds.
+/// Returns the largest demand of any of these after rebounds.
 fn late_most(reached: &[Candidate]) -> f64 {
     let late = reached.iter().filter(|found| found.late);
     late.map(|found| found.answer.utilization()).fold(0.0, f64::max)
 }
 
 impl Ranges<'_> {
-    /// The worst of what was reached, answered to the tolerance. What comes after rebounds is so sensitive that it may not come up
+    /// Returns the worst of the drops reached, answered to the tolerance. The demand after rebounds is so sensitive that it may not come up
     /// again; so the next are tried until none may be worse.
     pub(super) fn settle(&self, task: &Task<'_>, mut reached: Vec<Candidate>) -> Worst {
         reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
@@ -62,8 +62,8 @@ impl Ranges<'_> {
         worst
     }
 
-    /// The worst of what was reached as it was found, where the time is over: to the tolerance if it decides, and nobody knows how far
-    /// off.
+    /// Returns the worst of the drops reached as it was found, where the time is over: to the tolerance if it decides, and nobody knows how
+    /// far off.
     pub(super) fn settle_at_once(&self, task: &Task<'_>, reached: Vec<Candidate>) -> Worst {
         let mut worst = Worst { late: late_most(&reached), stopped: true, ..Worst::none() };
         let found = reached.into_iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()));
@@ -80,7 +80,7 @@ impl Ranges<'_> {
         worst
     }
 
-    /// What a drop that was found asks to the tolerance, of the part that was found.
+    /// Answers a drop that was found to the tolerance, for the part that was found.
     pub(super) fn exactly(&self, task: &Task<'_>, found: &Candidate) -> Result<Candidate, Error> {
         let followed = follow(&self.single(&found.place), self.model, self.tolerance, Until::Over)?;
         let at = |at_m: [f64; 2]| {

@@ -1,4 +1,4 @@
-//! What measured drops tell, beside what the product file states.
+//! This module compares the results of measured drops with the values that the product file states.
 
 use std::io::{self, Write};
 
@@ -7,7 +7,7 @@ use clatter_answer::assess::{Answer, Said};
 use crate::Streams;
 use crate::text::shown;
 
-/// Tells where the product that was measured is not that of the file.
+/// Warns where the measured product is not that of the file.
 pub(super) fn warn(answer: &Answer<'_>, streams: &mut Streams<'_>) {
     for (drop, told) in answer.warnings() {
         streams.note("warning", format_args!("{}: {told}", shown(drop, 60)));

@@ -1,4 +1,4 @@
-//! Assessments for people.
+//! This module writes assessments for people.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -64,7 +64,7 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     Ok(())
 }
 
-/// The verdict, and how many parts are behind it.
+/// Writes the verdict, and how many parts are behind it.
 fn headline(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     let count = |verdict: Verdict| assessment.components.iter().filter(|c| c.verdict == verdict).count();
     let (product, all) = (shown(&assessment.product, 60), assessment.components.len());
@@ -78,14 +78,14 @@ fn headline(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     sentence(out, &format!("{product} "), &format!("{verdict}{body}"))
 }
 
-/// As what body a product is answered whose file does not state it.
+/// Names the body that a product is answered as, where its file does not state it.
 fn as_a(assessment: &Assessment) -> Option<String> {
     let body = assessment.assumed.iter().find(|assumed| **assumed == Assumed::Bar)?;
     let [_, taken, why] = body.told();
     Some(format!("as a {taken}; {why}"))
 }
 
-/// A row for each limit, in the unit in which the file gives it.
+/// Writes a row for each limit, in the unit in which the file gives it.
 fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     let heads = [
         "component",
@@ -105,7 +105,7 @@ fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> i
             let first = if i == 0 { name(component) } else { String::new() };
             let written = given.limits.unit(limit.limit, limit.unit);
             let of = |value: Option<f64>| value.map_or("-".to_owned(), |value| in_words(limit.unit, written, value));
-            // Of a demand of nothing there is no share.
+            // A demand of nothing has no share.
             let share = limit.margin.filter(|margin| margin.is_finite());
             rows.push(vec![
                 first,
@@ -125,7 +125,7 @@ fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> i
     Table { keys: 2, headings: 1, texts: 3, last_is_text: false, least: 9, rows }.write(out)
 }
 
-/// Of several drops, a row for each: the limit that it leaves least room.
+/// Writes a row for each of several drops: the limit with the least margin.
 fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     let tilt = if file.is_box() { "off, deg" } else { "tilt, deg" };
     let heads = ["drop", tilt, "verdict", "tightest", "limit", "demand", "margin"];
@@ -178,7 +178,7 @@ fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) ->
     Table { keys: 1, headings: 1, texts: 5, last_is_text: false, least: 9, rows }.write(out)
 }
 
-/// The drop behind a demand: why the limit is undecided, what else is to be known, and the command that repeats it.
+/// Writes the drop behind a demand: why the limit is undecided, the further facts, and the command that repeats the drop.
 fn worst_drop(
     (path, accuracy): (&str, &Accuracy),
     component: &ComponentAssessment,
@@ -205,7 +205,7 @@ fn worst_drop(
     writeln!(out, "  {}", short.unwrap_or_else(|| worst.command()))
 }
 
-/// Margins of several products, a column each.
+/// Writes the margins of several products, one column each.
 pub(super) fn side_by_side(files: &[PathBuf], answers: &[Answer<'_>], out: &mut dyn Write) -> io::Result<()> {
     let assessments: Vec<&Assessment> = answers.iter().map(|answer| &answer.assessment).collect();
     let mut rows: Vec<(String, &'static str)> = Vec::new();
@@ -219,7 +219,7 @@ pub(super) fn side_by_side(files: &[PathBuf], answers: &[Answer<'_>], out: &mut 
             }
         }
     }
-    // Products of one name are told apart by their files.
+    // Products of one name are distinguished by their files.
     let alike = |name: &str| assessments.iter().filter(|a| shown(&a.product, 20) == shown(name, 20)).count() > 1;
     let head = |(a, file): (&&Assessment, &PathBuf)| {
         if alike(&a.product) { path(file) } else { shown(&a.product, 20) }

@@ -1,4 +1,4 @@
-//! Goals in the plane of q and e: where they are met, and the front of the largest zone.
+//! This module shows where goals in the plane of q and e are met, and the front of the largest zone.
 
 use std::io::{self, Write};
 
@@ -54,7 +54,7 @@ fn name(design: &Design) -> String {
     format!("({}, {})", given(design.q), given(design.e))
 }
 
-/// How goals are shown.
+/// The output of an answer about goals.
 struct Shown<'a>(&'a Answer);
 
 impl Shown<'_> {
@@ -127,7 +127,7 @@ impl Shown<'_> {
     }
 }
 
-/// A goal in words.
+/// Describes a goal in words.
 fn said(goal: &Goal, unit: &str) -> String {
     match *goal {
         Goal::Zone { threshold, s } => format!("{} {unit} within {} % of the bar", given(threshold), given(100.0 * s)),

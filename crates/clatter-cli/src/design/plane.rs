@@ -1,4 +1,4 @@
-//! The plane of a product, as a picture or as points.
+//! This module writes the plane of a product, as a picture or as points.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -29,7 +29,7 @@ fn drawing(plane: &Plane) -> DesignPlane {
     }
 }
 
-/// Exact borders as points of curves, searched ones as margins on their grid; without a number where none is known.
+/// Writes exact borders as points of curves, searched ones as margins on their grid; without a number where none is known.
 fn csv(plane: &Plane, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "component,piece,q,e,margin")?;
     for component in &plane.components {

@@ -1,4 +1,4 @@
-//! What would make each part of a product safe with a margin.
+//! This module shows the changes that would make each part of a product safe with a margin.
 
 use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Write};
@@ -11,49 +11,49 @@ use crate::numbers::{digits, figures, given};
 use crate::text::{field, shown};
 use crate::words;
 
-/// How changes are shown.
+/// The output of an answer about changes.
 pub(super) struct Found<'a>(pub(super) &'a Answer<'a>);
 
-/// At most so many significant digits.
+/// Writes a number with at most so many significant digits.
 fn digits_of(x: f64, digits: usize) -> String {
     given(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
 }
 
-/// At most six significant digits.
+/// Writes a number with at most six significant digits.
 fn short(x: f64) -> String {
     digits_of(x, 6)
 }
 
-/// A range, or a value where it is one.
+/// Writes a range, or a single value where both ends are the same.
 fn either([lo, hi]: [String; 2], unit: &str) -> String {
     if lo == hi { format!("{lo}{unit}") } else { format!("{lo} to {hi}{unit}") }
 }
 
-/// A margin in words.
+/// Writes a margin in words.
 fn in_percent(margin: f64) -> String {
     if margin.is_infinite() { "no margin known".to_owned() } else { format!("margin {}", words::margin(margin)) }
 }
 
-/// The highest speed at the first touch, in any of its drops.
+/// Returns the highest speed at the first touch, in any of its drops.
 fn fastest(file: &ProductFile) -> f64 {
     let listed = file.landings.iter().map(|landing| landing.drop.speeds_m_s()[1]).reduce(f64::max);
     listed.unwrap_or(file.drop.speeds_m_s()[1])
 }
 
 impl Found<'_> {
-    /// The margin of a changed part in words.
+    /// Describes the margin of a changed part in words.
     fn left(&self, after: &ComponentAssessment) -> String {
         let undecided = if after.verdict == Verdict::Safe { "" } else { ", not safe" };
         format!("then {}{undecided}", in_percent(self.0.file.least_margin(after)))
     }
 
-    /// What follows lever and unit in a row.
+    /// Returns the cells that follow lever and unit in a row.
     fn cells(&self, outcome: &str, Change { from, to, .. }: &Change, after: &ComponentAssessment) -> String {
         let numbers = [from[0], from[1], to[0], to[1], self.0.file.least_margin(after)].map(digits);
         format!("{outcome},{}", numbers.join(","))
     }
 
-    /// A value of a lever of a part in words, a range where it is one, in the unit of the file.
+    /// Writes a value of a lever of a part in words, or a range where it is one, in the unit of the file.
     fn value(&self, part: &Remedies, lever: Lever, value: [f64; 2]) -> String {
         if lever == Lever::InertiaRatio {
             let mut radii = value.map(|q| self.0.gyration_mm(q));
@@ -66,14 +66,14 @@ impl Found<'_> {
         either(value.map(|x| short(unit.map_or(x, |unit| unit.of_si(x)))), &name)
     }
 
-    /// A change in words.
+    /// Describes a change in words.
     fn said(&self, part: &Remedies, change: &Change) -> String {
         let Change { lever, from, to } = *change;
         let more = match lever {
             Lever::InertiaRatio => format!(", q {} -> {}", digits_of(from[0], 4), digits_of(to[0], 4)),
             Lever::ContactTime => {
                 let fastest = fastest(self.0.file);
-                // That of the hysteretic law: τ = (π/2)(1 + e) d/v.
+                // The depth is that of the hysteretic law: τ = (π/2)(1 + e) d/v.
                 let give_m = to[1] * fastest / (FRAC_PI_2 * (1.0 + self.0.file.product.restitution.lo()));
                 format!(", an edge that gives by {} mm", digits_of(1e3 * give_m, 2))
             }
@@ -163,7 +163,7 @@ impl Found<'_> {
         writeln!(out, "    ({})", self.left(&together.after))
     }
 
-    /// Changes that go together have one name as outcome and the margin that all of them leave.
+    /// Writes the changes as CSV; those that go together have one name as outcome and the margin that all of them leave.
     pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "component,margin,lever,unit,outcome,from_lo,from_hi,to_lo,to_hi,margin_after")?;
         for part in &self.0.remedies {

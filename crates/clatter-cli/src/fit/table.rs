@@ -1,4 +1,4 @@
-//! A fit for people.
+//! This module writes a fit for people.
 
 use std::io::{self, Write};
 
@@ -61,10 +61,10 @@ fn line(estimate: &Estimate, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", text.trim_end())
 }
 
-/// Strikes shown at most.
+/// The largest number of strikes that are shown.
 const MOST: usize = 40;
 
-/// Measured strikes beside computed ones.
+/// Writes measured strikes next to computed ones.
 fn strikes(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
     for record in answer.fit.records.iter().filter(|record| !record.strikes.is_empty()) {
         writeln!(out, "\n{:>7} {:>4} {:>14} {:>14}", "strike", "end", "measured, ms", "less computed")?;

@@ -1,4 +1,4 @@
-//! The train of impacts of one plate.
+//! This module shows the train of impacts of one plate.
 
 use std::io::{self, Write};
 
@@ -47,7 +47,7 @@ impl Args {
 }
 
 impl Drop<'_> {
-    /// Whether a corner is still to come down after an endless train.
+    /// Returns whether a corner is still to come down after an endless train.
     fn falls_on(&self) -> bool {
         let endless = self.answer.count == PlateCount::Endless;
         endless && self.answer.final_velocity.is_some_and(|velocities| velocities.iter().any(|v| v.0 < 0.0))
@@ -66,7 +66,7 @@ impl Drop<'_> {
         Some(format!("listed at most {listed} of {of}; --limit=N lists more"))
     }
 
-    /// How the order of a tie was taken, where there was one among the impacts listed.
+    /// Writes the table, and returns how the order of a tie was taken, where there was one among the impacts shown.
     fn table(&self, out: &mut dyn Write) -> io::Result<Option<&'static str>> {
         let Question { plate, start, at, limit, .. } = self.question;
         let Answer { count, duration, peak, final_velocity, .. } = &self.answer;
@@ -148,7 +148,7 @@ impl Drop<'_> {
     }
 }
 
-/// What is shown of an impact, column by column: of itself, and at the places asked for.
+/// Returns the numbers of an impact that are shown, column by column: of the impact itself, and at the requested places.
 fn numbers(impact: &Impact) -> [Vec<f64>; 2] {
     let Impact { time, approach, delta_v: [a, b, c, d], delta_v_at, .. } = impact;
     [vec![time.0, approach.0, a.0, b.0, c.0, d.0], delta_v_at.iter().map(|x| x.0).collect()]

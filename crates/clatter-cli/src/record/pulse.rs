@@ -1,4 +1,4 @@
-//! The pulse that fits the largest shock of a record, and the tolerances of standards about it.
+//! This module shows the pulse that fits the largest shock of a record, and the tolerances of standards about it.
 
 use std::io::{self, Write};
 
@@ -51,7 +51,7 @@ pub(super) fn table(channel: &Channel, name: &str, fitted: &Fitted, out: &mut dy
     Ok(())
 }
 
-/// The nominal pulse as points, in seconds since the first sample and m/s², with quiet before and after.
+/// Returns the nominal pulse as points, in seconds since the first sample and m/s², with quiet before and after.
 pub(super) fn curve(fitted: &Fitted) -> Vec<(f64, f64)> {
     const POINTS: u32 = 200;
     let Pulse { duration, start, .. } = fitted.nominal;

@@ -1,4 +1,4 @@
-//! The shocks of a record.
+//! This module shows the shocks of a record.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! A part in one drop of any body, answered by the engine that answers an assessment.
+//! This module shows a part in one drop of any body, answered by the engine that answers an assessment.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -28,14 +28,14 @@ struct Drop<'a> {
     shown: Shown,
     /// The part of a product file.
     part: Option<PartSetup>,
-    /// Whether the drop was found by a search, so that its inputs have all of their digits.
+    /// True where the drop was found by a search, so that its inputs have all of their digits.
     is_found: bool,
     suspension: Option<Suspension>,
     answer: Answer,
 }
 
 impl Args {
-    /// One drop that was written as data.
+    /// Answers one drop that was written as data.
     pub(super) fn run_case(&self, path: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let case: Case = serde_json::from_str(&assess::text(path)?)
             .map_err(|error| Failure::Wrong(format!("{}: {error}", shown_path(path))))?;
@@ -95,7 +95,7 @@ impl Args {
         Ok(())
     }
 
-    /// Feet that the product lands on, as they are given, or its own.
+    /// Returns the given feet that the product lands on, or its own.
     fn feet(&self, fall: &Falls) -> Result<Option<clatter_assess::Feet>, Failure> {
         let Some([x, y, height_m]) = self.feet_m else { return Ok(fall.body.feet) };
         if fall.is_solid() {
@@ -107,7 +107,7 @@ impl Args {
         Ok(Some(clatter_assess::Feet { inset_m: [x, y], height_m }))
     }
 
-    /// Contacts of their own, as they are given, or those of the product.
+    /// Returns the given contacts of their own, or those of the product.
     fn own_contacts(&self, fall: &Falls) -> Result<OwnContacts, Failure> {
         let mut own = fall.own_contacts;
         for (k, (at, contact)) in self.contact.iter().enumerate() {
@@ -122,7 +122,7 @@ impl Args {
         Ok(own)
     }
 
-    /// Where the part may be.
+    /// Returns the places where the part may be.
     fn places(&self, fall: &Falls, setup: &Setup) -> Result<Vec<Place>, Failure> {
         if !fall.is_solid() && (self.at_m.is_some() || self.axis.is_some()) {
             return Err(Failure::Usage("--at-m and --axis are of a box, which has --width and --thickness"));
@@ -148,18 +148,18 @@ impl Drop<'_> {
         }
     }
 
-    /// An input: what was typed as it was, what a search found to six digits.
+    /// Returns an input as it was typed, or to six digits where a search found it.
     fn input(&self, x: f64) -> f64 {
         if self.is_found { six(x) } else { neat(x) }
     }
 
-    /// How many sides of the body a place is told along.
+    /// Returns the number of sides of the body along which a place is shown.
     fn axes(&self) -> usize {
         let drop = &self.answer.drop.drop;
         if drop.is_solid() { 3 } else { drop.body.points() / 2 }
     }
 
-    /// How the place is called.
+    /// Names the place.
     fn called(&self) -> String {
         let place = &self.answer.drop.place;
         if let (Some(at), false) = (self.args.at, self.is_found) {
@@ -246,7 +246,7 @@ impl Drop<'_> {
         equivalent_table(self.answer.place.equivalent.as_ref(), out)
     }
 
-    /// The peaks of the part.
+    /// Writes the peaks of the part.
     fn peaks(&self, part: &Peaks, out: &mut dyn Write) -> io::Result<()> {
         let (peaks, time, speed) = (&part.peaks, self.shown.time, self.shown.speed);
         let [acceleration, displacement] =
@@ -257,7 +257,7 @@ impl Drop<'_> {
             let after = largest.map_or(String::new(), |largest| format!("  after impact {}", largest.impact));
             writeln!(out, "  {name:<32}{size:>12} {:>13}{after}", time.figures(at.0))
         };
-        // As an assessment tells it.
+        // The values are shown as in an assessment.
         let limits = self.part.as_ref().map(|part| part.limits);
         for (name, kind, largest) in [
             ("acceleration", LimitKind::Acceleration, acceleration),
@@ -277,7 +277,7 @@ impl Drop<'_> {
         Ok(())
     }
 
-    /// What the place goes through.
+    /// Writes the largest values at the place.
     fn place(&self, out: &mut dyn Write) -> io::Result<()> {
         let (of, shown, Case { drop, model, .. }) = (&self.answer.place.answers, &self.shown, &self.answer.drop);
         let when = format!("when, {}", shown.time.name());
@@ -299,7 +299,7 @@ impl Drop<'_> {
         line("change of angular velocity", shown.spin, of.angular_velocity_change, "")
     }
 
-    /// Single shocks at the position beside the answer.
+    /// Writes single shocks at the position next to the answer.
     fn shocks(&self, out: &mut dyn Write) -> io::Result<()> {
         let (speed, Case { drop, .. }) = (self.shown.speed, &self.answer.drop);
         let AtPlace { velocity_change_m_s, clatter_free, standard, gain, .. } = &self.answer.place;

@@ -1,4 +1,4 @@
-//! What one drop asks of the limits of a part of a product file, as an assessment tells it.
+//! This module shows the demand of one drop on the limits of a part of a product file, in the form of an assessment.
 
 use std::io::{self, Write};
 
@@ -12,7 +12,7 @@ use crate::quantities::Show;
 use crate::text::shown;
 use crate::words::in_words;
 
-/// `axes` of each place are told.
+/// Writes the table; it shows `axes` coordinates of each place.
 pub(super) fn table(
     part: &PartSetup,
     limits: &[Limit],

@@ -1,4 +1,4 @@
-//! What every table of `clatter respond` has in common: single shocks beside the peaks, the equivalent pulse.
+//! This module writes the common rows of every table of `clatter respond`: single shocks next to the peaks, the equivalent pulse.
 
 use std::io::{self, Write};
 
@@ -7,7 +7,7 @@ use clatter_answer::respond::{Equivalent, Factors, HalfSine, LargestValues, NOTH
 use crate::numbers::figures;
 use crate::quantities::Show;
 
-/// The equivalent pulse for people.
+/// Writes the equivalent pulse for people.
 pub(super) fn equivalent_table(equivalent: Option<&Equivalent>, out: &mut dyn Write) -> io::Result<()> {
     let Some(Equivalent { equivalent_pulse, no_equivalent_pulse, service_condition, .. }) = equivalent else {
         return Ok(());
@@ -35,7 +35,7 @@ fn half_sine(pulse: &HalfSine, out: &mut dyn Write) -> io::Result<()> {
     )
 }
 
-/// The least service condition that covers a drop.
+/// Writes the least service condition that covers a drop.
 fn covered(of: &ServiceCondition, out: &mut dyn Write) -> io::Result<()> {
     let ServiceCondition { pulse, acceleration_g, duration_s, acceleration_ratio, displacement_ratio, .. } = of;
     let [g, ms, a, z] = [acceleration_g.0, 1e3 * duration_s.0, acceleration_ratio.0, displacement_ratio.0].map(figures);
@@ -46,7 +46,7 @@ fn covered(of: &ServiceCondition, out: &mut dyn Write) -> io::Result<()> {
     )
 }
 
-/// Single shocks at the position, each with what it does to the component.
+/// Single shocks at the position, each with the response of the component.
 pub(super) struct Shocks<'a> {
     pub(super) show: Show,
     pub(super) out: &'a mut dyn Write,
@@ -65,7 +65,7 @@ impl Shocks<'_> {
         let a = show(peaks.map(|p| p.peak_absolute_acceleration_over_omega.0));
         writeln!(self.out, "  {name:<32}{:>12} {z:>13} {a:>13}", self.show.figures(shock))
     }
-    /// Without clatter and as standards assume, where these are known.
+    /// Writes the rows without clatter and as standards assume, where these are known.
     pub(super) fn at_once(&mut self, flat: Option<&Factors>, standard: Option<&Factors>) -> io::Result<()> {
         for (name, factors) in [("without clatter, (1 + e) v0", flat), ("as standards assume, 2 v0", standard)] {
             factors.map_or(Ok(()), |factors| self.row(name, factors.shock, Some(factors)))?;
@@ -74,10 +74,10 @@ impl Shocks<'_> {
     }
 }
 
-/// What is left open is told where it could raise an answer by more than so many tolerances.
+/// A possible error is reported where it exceeds this many tolerances.
 const TOLD: f64 = 10.0;
 
-/// What later strikes could still do.
+/// Writes how far the values may be off, as strikes multiply the errors of earlier ones.
 pub(super) fn doubts(tolerance: f64, of: &LargestValues, out: &mut dyn Write) -> io::Result<()> {
     for (name, largest) in [
         ("W z", of.part_displacement),

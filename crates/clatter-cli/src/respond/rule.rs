@@ -1,4 +1,4 @@
-//! The rule: peaks over W h0/v0, as a file.
+//! This module writes the rule, which is the peaks over W h0/v0, as a file.
 
 use std::io::{self, Write};
 

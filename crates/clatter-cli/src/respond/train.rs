@@ -1,4 +1,4 @@
-//! A component that is driven by the paper's bar, or by shocks or pulses of a file.
+//! This module shows a component that is driven by the paper's bar, or by shocks or pulses of a file.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -17,12 +17,12 @@ use crate::output::Target;
 use crate::quantities::Show;
 use crate::{Failure, lists, text};
 
-/// What is shown.
+/// The answer for a train of shocks, with the arguments that it is shown by.
 pub(super) struct Train<'a> {
     args: &'a Args,
     question: Question,
     answer: Answer,
-    /// Of shocks or pulses.
+    /// The file of the shocks or pulses.
     file: Option<&'a Path>,
 }
 
@@ -57,7 +57,7 @@ impl Args {
         Ok(Train { args: self, question, answer, file: file.map(AsRef::as_ref) })
     }
 
-    /// The paper's bar.
+    /// Makes the clatter of the paper's bar.
     fn clatter(&self) -> Result<Excitation, Failure> {
         let at = self.position()?.unwrap_or(f64::NAN);
         let (bar, start) = (self.inertia.bar(self.e())?, Start::new(self.velocity.map(|v| v.si), self.height_gap.si)?);
@@ -85,13 +85,13 @@ impl Train<'_> {
         matches!(self.question.excitation, Excitation::Pulses(_))
     }
 
-    /// How velocities are shown.
+    /// Returns the unit in which velocities are shown.
     fn speed_shown(&self) -> Show {
         let unit = if self.file.is_none() { self.args.velocity[0].unit } else { None };
         Show { unit, name: if self.file.is_none() { "v0" } else { "m/s" } }
     }
 
-    /// W h0/v0, of a bar.
+    /// Returns W h0/v0 of a bar.
     fn ratio(&self) -> Option<f64> {
         self.answer.bar.map(|bar| self.answer.part.omega.0 * bar.height_gap.0 / -bar.velocity[0].0)
     }
@@ -160,7 +160,7 @@ impl Train<'_> {
         equivalent_table(self.answer.equivalent.as_ref(), out)
     }
 
-    /// The impact, shock or pulse that a peak follows, in words.
+    /// Describes the impact, shock or pulse that a peak follows.
     fn holder(&self, peak: f64, number: usize) -> String {
         if peak.abs() <= 0.0 {
             return "no impact is felt here".to_owned();

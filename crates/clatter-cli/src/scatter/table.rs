@@ -1,4 +1,4 @@
-//! What came of all samples, for people and as rows.
+//! This module writes the result of all samples, as a table for people and as rows.
 
 use std::io::{self, Write};
 
@@ -15,10 +15,10 @@ use crate::text::{field, shown};
 
 /// Inputs that explain less than this share are not named.
 const NAMED: f64 = 0.01;
-/// What chance makes of the share of an input that does nothing, times the samples: a standard deviation.
+/// The standard deviation, by chance alone, of the share of an input without influence, times the number of samples.
 const NOISE: f64 = 7.9;
 
-/// How an input is called in a table: its name; what a part alone has is the part's own.
+/// Returns the name of an input in a table; an input that a part alone has is called the part's own.
 fn called(input: &Varied) -> &'static str {
     match input {
         Varied::Drop(input, _) => input.row().words,
@@ -32,17 +32,17 @@ fn called(input: &Varied) -> &'static str {
     }
 }
 
-/// The same, with the drop of several that it belongs to.
+/// Returns the name of an input, with the drop that it belongs to where there are several.
 fn of_drop(file: &ProductFile, input: &Varied) -> String {
     let name = called(input);
     input.landing().map_or_else(|| name.to_owned(), |n| format!("{name} {}", file.drop_names()[n].there()))
 }
 
-/// Which way it goes, where that accounts for at least half of what the input does.
+/// Returns the direction of an input's effect, where the trend accounts for at least half of the effect.
 fn way(driver: &Driver) -> &'static str {
     let share = driver.share;
     match (&driver.input, share.trend * share.trend >= 0.5 * share.variance, share.trend > 0.0) {
-        // two values have no way in between
+        // Two values have no way in between.
         (Varied::Drop(Input::First, _), _, true) => " (b)",
         (Varied::Drop(Input::First, _), _, false) => " (a)",
         (_, false, _) => "~",
@@ -51,12 +51,12 @@ fn way(driver: &Driver) -> &'static str {
     }
 }
 
-/// The same of an estimate; "-" where nothing was answered.
+/// Writes an estimate; "-" where there is no answer.
 pub(crate) fn estimated(survival: &Probability) -> String {
     survival.estimate.map_or_else(|| "-".to_owned(), hundredths)
 }
 
-/// A probability as a number of a hundred.
+/// Writes a probability as a percentage.
 pub(crate) fn hundredths(p: f64) -> String {
     if p >= 1.0 { "100".to_owned() } else { figures(100.0 * p) }
 }
@@ -109,7 +109,7 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     if !scatter.assumed_even.is_empty() {
         let mut names: Vec<String> = Vec::new();
         for name in scatter.assumed_even.iter().map(|input| in_full(file, input)) {
-            // Of all drops alike.
+            // An input of several drops is named once.
             if !names.contains(&name) {
                 names.push(name);
             }
@@ -121,7 +121,7 @@ pub(crate) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     if has_list { landings(file, scatter, &sure, out) } else { Ok(()) }
 }
 
-/// A row for each of several drops: how many survive it alone, and the part that the fewest do.
+/// Writes a row for each of several drops: how many survive it alone, and the part that the fewest do.
 fn landings(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
     let row = |cells: [&str; 7]| cells.map(str::to_owned).to_vec();
     let interval = format!("{sure} % interval");
@@ -131,7 +131,7 @@ fn landings(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Wri
     ];
     for of in &scatter.landings {
         let parts = file.components.iter().zip(&of.components);
-        // One that is not known comes last.
+        // A survival that is not known comes last.
         let order = |of: &LandingComponent| {
             (of.survival.estimate.unwrap_or(f64::INFINITY), -of.largest_utilization.unwrap_or(0.0))
         };
@@ -154,7 +154,7 @@ fn landings(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Wri
     Table { keys: 1, headings: 2, texts: 1, last_is_text: false, least: 8, rows }.write(out)
 }
 
-/// The model, and how a plate is followed.
+/// Describes the model, and how a plate is followed.
 pub(crate) fn model(scatter: &Scatter) -> String {
     let how = match scatter.plate {
         None => String::new(),
@@ -170,7 +170,7 @@ pub(crate) fn model(scatter: &Scatter) -> String {
     format!("Each is answered by the model {}{how}", scatter.model.name())
 }
 
-/// An input with the part that it belongs to.
+/// Returns the name of an input with the part that it belongs to.
 fn in_full(file: &ProductFile, input: &Varied) -> String {
     let name = input.name().replace('-', " ");
     match input.component() {
@@ -182,7 +182,7 @@ fn in_full(file: &ProductFile, input: &Varied) -> String {
     }
 }
 
-/// A row for each part.
+/// Writes a row for each part.
 fn parts(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
     let row = |cells: [&str; 8]| cells.map(str::to_owned).to_vec();
     let interval = format!("{sure} % interval");
@@ -190,7 +190,7 @@ fn parts(file: &ProductFile, scatter: &Scatter, sure: &str, out: &mut dyn Write)
         row(["part", "survives", "at least", &interval, "", "utilization", "largest", "driven by"]),
         row(["", "%", "%", "from, %", "to, %", "mean", "", ""]),
     ];
-    // Of many inputs of a list some stand out by chance.
+    // Among many inputs some stand out by chance.
     #[expect(clippy::cast_precision_loss, reason = "a share")]
     let by_chance = if scatter.landings.is_empty() { 0.0 } else { 3.0 * NOISE / scatter.settings.samples as f64 };
     let least = NAMED.max(by_chance);
@@ -224,7 +224,7 @@ pub(super) fn csv(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
 pub(crate) const HEADS: &str = "name,samples,failed,survival,interval_lo,interval_hi,at_least,mean_utilization,\
                                 largest_utilization,open,unanswered";
 
-/// A row of CSV for each part, each behind the same beginning.
+/// Writes a row of CSV for each part, each behind the same beginning.
 pub(crate) fn rows(scatter: &Scatter, begin: &str, out: &mut dyn Write) -> io::Result<()> {
     let samples = scatter.settings.samples;
     for component in &scatter.components {

@@ -1,4 +1,4 @@
-//! The presses of a box in one drop.
+//! This module shows the presses of a box in one drop.
 
 use std::io::{self, Write};
 

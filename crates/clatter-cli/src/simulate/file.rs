@@ -1,4 +1,4 @@
-//! The whole motion as a file.
+//! This module writes the whole motion as a file.
 
 use std::io::{self, Write};
 
@@ -8,7 +8,7 @@ use crate::numbers::digits;
 use crate::output::{self, Kind, Target};
 use clatter_figures::FigureError;
 
-/// Rows that nobody wants unless they ask for them.
+/// The largest number of rows that is written where the command line gives no limit.
 const MOST_ROWS: usize = 4_000_000;
 
 impl Drop<'_> {
@@ -40,7 +40,7 @@ impl Drop<'_> {
         })
     }
 
-    /// What the places are called in the picture: the part of the product, or else the length from the middle.
+    /// Returns the names of the places in the picture: the part of the product, or else the length from the middle.
     fn named(&self) -> Vec<String> {
         let millimeters =
             |s: &f64| format!("{} mm", clatter_figures::three(500.0 * self.setup.drop.body.length_m() * s));

@@ -1,4 +1,4 @@
-//! One drop of a plate in time: by instant impacts, without gravity or with it, or with contacts that take time.
+//! This module shows one drop of a plate in time: by instant impacts, without gravity or with it, or with contacts that take time.
 
 use std::io::{self, Write};
 
@@ -21,7 +21,7 @@ pub(super) struct Drop<'a> {
     pub(super) setup: Setup,
     /// The drop as its flight has it.
     pub(super) scene: PlateScene,
-    /// Places asked for, in half-sides.
+    /// Requested places, in half-sides.
     pub(super) at: Vec<[f64; 2]>,
     pub(super) answer: Answer,
 }
@@ -152,7 +152,7 @@ impl Drop<'_> {
     }
 }
 
-/// How fast a plate turns along its length and its width, where it does.
+/// Describes how fast a plate turns along its length and its width, where it does.
 fn turning(spin: [f64; 2], show: Show) -> String {
     if spin.iter().all(|rate| *rate == 0.0) {
         return String::new();
@@ -161,7 +161,7 @@ fn turning(spin: [f64; 2], show: Show) -> String {
     format!(", turning at {x} along its length and {y} along its width")
 }
 
-/// Time, end of the contact where it takes time, approach and shocks of a strike.
+/// Returns the cells of a strike: time, end of the contact where it takes time, approach and shocks.
 fn cells(impact: &Impact, time: impl Fn(f64) -> String, speed: impl Fn(f64) -> String) -> Vec<String> {
     let Impact { time_s, until_s, approach_m_s, delta_v_m_s, delta_v_at_m_s, .. } = impact;
     let shocks = delta_v_m_s.iter().chain(delta_v_at_m_s);

@@ -1,4 +1,4 @@
-//! The strikes for people, and as rows.
+//! This module writes the strikes for people, and as rows.
 
 use std::io::{self, Write};
 
@@ -14,7 +14,7 @@ use crate::numbers::{Json, digits, figures, given};
 const MATTERS: f64 = 0.01;
 
 impl Drop<'_> {
-    /// What the model keeps.
+    /// Describes the physics that the model keeps.
     pub(super) fn physics(&self) -> String {
         let shown = &self.setup.shown;
         let gravity = shown.acceleration.given(self.scene.gravity_m_s2());
@@ -124,7 +124,7 @@ impl Drop<'_> {
         Ok(())
     }
 
-    /// Largest velocity shock of each end.
+    /// Returns the largest velocity shock of each end.
     fn largest(&self) -> impl Iterator<Item = f64> {
         self.answer.largest_delta_v_m_s.iter().map(|shock| shock.0)
     }
@@ -148,17 +148,17 @@ impl Drop<'_> {
     }
 }
 
-/// What stands for a shock that a limit has cut off.
+/// The cell of a shock that a limit has cut off.
 const UNFINISHED: &str = "unfinished";
 
-/// Time, end of the contact where it takes time, approach and shocks of a strike.
+/// Returns the cells of a strike: time, end of the contact where it takes time, approach and shocks.
 fn cells(impact: &Impact, time: impl Fn(f64) -> String, speed: impl Fn(f64) -> String) -> Vec<String> {
     let Impact { time_s, until_s, approach_m_s, delta_v_m_s, delta_v_at_m_s, .. } = impact;
     let shocks = delta_v_m_s.iter().chain(delta_v_at_m_s);
     of_strike([*time_s, *approach_m_s], *until_s, shocks.copied(), time, speed)
 }
 
-/// The same of a strike of any body; a shock is none where the contact is unfinished.
+/// Returns the cells of a strike of any body; a shock is none where the contact is unfinished.
 pub(super) fn of_strike(
     [time_s, approach_m_s]: [Json; 2],
     until_s: Option<Json>,

@@ -1,4 +1,4 @@
-//! The damage boundary of a pulse or a record.
+//! This module shows the damage boundary of a pulse or a record.
 
 use std::io::{self, Write};
 
@@ -15,7 +15,7 @@ const BOUNDARY_OF: &str = "--damage-boundary goes with one --pulse with one star
                            --frequency and one --q-factor or --tests";
 
 impl Args {
-    /// The damage boundary of a pulse or a record.
+    /// Finds the damage boundary of a pulse or a record.
     pub(super) fn boundary(&self, excitation: &Excitation, frequencies: &Frequencies) -> Result<Boundary, Failure> {
         if let Some(path) = &self.tests {
             let Some(pulse @ Pulse { shape: Shape::Rectangle, .. }) = one_pulse(excitation) else {

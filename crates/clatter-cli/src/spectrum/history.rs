@@ -1,4 +1,4 @@
-//! What one component feels over time.
+//! This module shows the response of one component over time.
 
 use std::io::Write;
 
@@ -11,9 +11,9 @@ use crate::numbers::digits;
 use crate::output::{self, Target, buffered};
 use crate::{Failure, text};
 
-/// Periods of the component that are told after the end of the record.
+/// The number of periods of the component that are shown after the end of the record.
 const PERIODS_AFTER: f64 = 5.0;
-/// Points in each of them.
+/// The number of points in each of them.
 const POINTS: u32 = 16;
 
 impl Args {
@@ -60,7 +60,7 @@ impl Args {
         })
     }
 
-    /// The history of a channel, then rest.
+    /// Returns the points of the history of a channel, then of rest.
     fn points(&self, channel: &Channel, hz: f64) -> Vec<(f64, f64)> {
         let mut points = channel.history(self.interpolation.into());
         if let Some(&(end_s, _)) = points.last() {

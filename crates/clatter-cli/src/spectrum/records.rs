@@ -1,4 +1,4 @@
-//! Measured records, read and made ready, and what is made of several.
+//! This module reads measured records, prepares them, and combines several of them.
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub(crate) struct Several {
 }
 
 impl Several {
-    /// The flag that was given.
+    /// Returns the flag that was given.
     pub(super) fn given(self) -> Option<&'static str> {
         let given = [(self.resultant, "--resultant"), (self.envelope, "--envelope"), (self.mean_3db, "--mean-3db")];
         given.into_iter().find(|(given, _)| *given).map(|(_, flag)| flag)
@@ -36,7 +36,7 @@ impl Several {
 pub(super) fn read(args: &Args) -> Result<Vec<Measured>, Failure> {
     let one = |path: &PathBuf| {
         let record = args.condition.apply(args.reading.read(path)?, path)?;
-        // A record by its file where there are several of them.
+        // A record is named by its file where there are several of them.
         let name = (args.excitation.records.len() > 1).then(|| called(path));
         let whole = Measured { file: path.to_string_lossy().into_owned(), name, record, shock: None };
         match args.finding.search() {
@@ -60,7 +60,7 @@ fn refused(path: &Path, error: Error) -> Failure {
     }
 }
 
-/// A record by the name of its file, without its folders.
+/// Names a record by its file, without the folders.
 fn called(path: &Path) -> String {
     path.file_name().map_or_else(|| text::path(path), |name| text::path(Path::new(name)))
 }

@@ -1,4 +1,4 @@
-//! A spectrum as a table and as CSV.
+//! This module writes a spectrum as a table and as CSV.
 
 use std::io::{self, Write};
 
@@ -111,7 +111,7 @@ impl Computed<'_> {
         Table { keys: 1, headings: 2, texts: 0, last_is_text: false, least: 10, rows }.write(out)
     }
 
-    /// The maximax of several spectra, a column each.
+    /// Writes the maximax of several spectra, one column each.
     fn side_by_side(&self, out: &mut dyn Write) -> io::Result<()> {
         let (show, hz) = (self.show(), Show { unit: self.unit, name: "Hz" });
         let names = self.answer.parts.iter().map(|part| self.name(part));
@@ -140,7 +140,7 @@ impl Computed<'_> {
         )
     }
 
-    /// Whether a spectrum reached what it was to, and where it is off most on either side.
+    /// Writes whether a spectrum reached the required one, and where it is off most on either side.
     fn reached(&self, part: &Part, deviations: &[Option<Deviation>], out: &mut dyn Write) -> io::Result<()> {
         let Some([low, high]) = outermost(deviations) else {
             return writeln!(out, "The required spectrum covers none of these frequencies");

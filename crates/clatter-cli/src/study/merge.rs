@@ -1,4 +1,4 @@
-//! `clatter study merge`: the answer of all parts of a study.
+//! This module is `clatter study merge`: it makes the answer of all parts of a study.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! The answer of a study, for people and as rows.
+//! This module writes the answer of a study, for people and as rows.
 
 use std::io::{self, Write};
 
@@ -13,7 +13,7 @@ use crate::scatter::table::{self as of_one, estimated, hundredths};
 use crate::text::{field, shown};
 use crate::words;
 
-/// Columns of a table that a name of the grid or one of its values may take.
+/// The number of columns of a table that a name of the grid or one of its values may take.
 const WIDEST: usize = 24;
 
 pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
@@ -76,7 +76,7 @@ pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> 
     Table { keys, headings: 2, texts, last_is_text: false, least: 8, rows }.write(out)
 }
 
-/// A row for each part, or of a search for each limit.
+/// Returns a row for each part, or for each limit of a search.
 fn cells(member: &Member) -> Vec<Vec<String>> {
     match &member.outcome {
         Outcome::Drawn(scatter) => scatter.components.iter().map(survival).collect(),

@@ -1,4 +1,4 @@
-//! The safe zone of a plate: a polygon.
+//! This module shows the safe zone of a plate, which is a polygon.
 
 use std::io::{self, Write};
 
@@ -57,7 +57,7 @@ fn table(question: &Question, answer: &Answer, out: &mut dyn Write) -> io::Resul
     writeln!(out, "\n{:>12} {:>10}   corners of the safe zone", "threshold", "safe")?;
     writeln!(out, "{:>12} {:>10}   half-lengths,half-widths", "v0", "of the area")?;
     for zone in &answer.zones {
-        // No place is at −0.0000.
+        // No place is written as −0.0000.
         let shown = |x: f64| (1e4 * x).round() / 1e4 + 0.0;
         let places: Vec<_> = zone.polygon.iter().map(|[x, y]| format!("{:.4},{:.4}", shown(x.0), shown(y.0))).collect();
         let meaning = match zone.extent {

@@ -1,4 +1,4 @@
-//! What would make a part safe with a margin, as `clatter design` finds it.
+//! This module describes the changes that would make a part safe with a margin, as `clatter design` finds them.
 
 use clatter_assess::design::{Change, Lever, Outcome, Remedies, Remedy};
 use clatter_assess::{Component, ComponentAssessment, ProductFile, Verdict};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::words::percent;
 
-/// A number to four digits: changes have fewer.
+/// Writes a number to four digits: changes have fewer.
 fn four(x: f64) -> String {
     format!("{x:.3e}").parse().unwrap_or(x).to_string().replace('-', "−")
 }
@@ -19,7 +19,7 @@ pub(super) struct Of<'a> {
 }
 
 impl Of<'_> {
-    /// A value, low and high end, in the unit of the file; of an inertia ratio the radius of gyration that has it.
+    /// Writes a value, low and high end, in the unit of the file; of an inertia ratio the radius of gyration that has it.
     fn value(&self, lever: Lever, of: [f64; 2]) -> String {
         let (mut numbers, name) = if lever == Lever::InertiaRatio {
             (of.map(|q| self.gyration_mm(q)), " mm".to_owned())
@@ -44,8 +44,8 @@ impl Of<'_> {
     }
 }
 
-/// What the page says of a part that is not safe with the margin: the changes that are enough alone, else the pair that is or what comes
-/// nearest, and what was tried.
+/// Returns the text about a part that is not safe with the margin: the changes that are enough alone, else the pair that is enough or that
+/// comes nearest, and the changes that were tried.
 pub(super) fn changes(of: Of<'_>, assessed: &ComponentAssessment, found: Option<&Remedies>) -> Value {
     let Some(found) = found else {
         let elsewhere = "Of a plate or a box this takes long to find: clatter design of the product file tells.";

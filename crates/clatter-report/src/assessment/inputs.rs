@@ -1,4 +1,4 @@
-//! What an assessment was made from, in words: the product, its drop, how a part is held.
+//! This module describes the inputs of an assessment in words: the product, its drop, how a part is held.
 
 use clatter_assess::{
     Assessment, Axis, Component, Damping, DropRanges, Fall, First, Mount, OwnContact, ProductFile, Side, Spread,
@@ -9,7 +9,7 @@ use clatter_figures::{model_words as model, three};
 use crate::Pages;
 use crate::words::{end, millimeters, place, range, span, sure_name};
 
-/// Rows of what was given: its name and its value.
+/// Returns a row for each given input: its name and its value.
 pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 2]> {
     let product = &file.product;
     let mut rows = Vec::new();
@@ -88,12 +88,12 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     rows
 }
 
-/// At which tilt a bar or a plate lands, and what of it first.
+/// Describes the tilt at which a bar or a plate lands, and which end, edge or corner lands first.
 fn tilt(drop: &DropRanges, is_plate: bool) -> String {
     format!("{} at the first touch, {}", degrees(&drop.tilt_rad), first(drop, is_plate))
 }
 
-/// What of a bar or a plate lands first.
+/// Names the end, edge or corner of a bar or a plate that lands first.
 pub(super) fn first(drop: &DropRanges, is_plate: bool) -> String {
     match (drop.first, &drop.direction_rad) {
         (First::End(first), _) => format!("end {} first", end(first)),
@@ -107,14 +107,14 @@ fn degrees(of: &Spread) -> String {
     range(of, 1f64.to_radians(), "°").replace(" °", "°")
 }
 
-/// How it was made, for the foot of each page: from which file, how exactly, and on which day where that is to be told.
+/// Describes how the assessment was made, for the foot of each page: from which file, how exactly, and on which day where that is printed.
 pub(super) fn made(pages: &Pages<'_>) -> String {
     let share = three(100.0 * pages.assessment.accuracy.tolerance);
     let day = pages.date.map_or_else(String::new, |date| format!(" on {date}"));
     format!("assessed{day} from {}, each drop to {share} %,", sure_name(pages.path))
 }
 
-/// Length, inertia, center of mass.
+/// Describes length, inertia and center of mass.
 fn body(file: &ProductFile) -> String {
     let body = &file.product.body;
     let [a, b] = body.arms_m();
@@ -134,7 +134,7 @@ fn body(file: &ProductFile) -> String {
     )
 }
 
-/// What it lands on, where that is not its ends or corners.
+/// Describes the feet that a product lands on, where it does not land on its ends or corners.
 fn feet(file: &ProductFile) -> String {
     let Some(feet) = &file.product.body.feet else { return String::new() };
     let ([x, y], high) = (feet.inset_m.map(millimeters), millimeters(feet.height_m));
@@ -142,7 +142,7 @@ fn feet(file: &ProductFile) -> String {
     format!(", on feet {inside} inside the edges and {high} high")
 }
 
-/// Contacts of their own, each with what it has of its own.
+/// Describes the contacts with values of their own.
 fn own_contacts(file: &ProductFile) -> String {
     let place = if file.product.body.is_wide() { "corner" } else { "end" };
     let one = |(at, own): (&str, OwnContact)| {
@@ -153,7 +153,7 @@ fn own_contacts(file: &ProductFile) -> String {
     file.product.own_contacts.given().map(one).collect::<Vec<_>>().join("; ")
 }
 
-/// Sides of a plate.
+/// Describes the sides of a plate.
 fn sides(file: &ProductFile) -> String {
     let thick = file.product.body.thickness;
     let thick = thick.map_or(String::new(), |side| format!(", thickness {}", millimeters(side.m())));
@@ -161,7 +161,7 @@ fn sides(file: &ProductFile) -> String {
     format!("length {length}, width {across}{thick}{}", feet(file))
 }
 
-/// Mass of a plate, and where it lies.
+/// Describes the mass of a plate, and where it lies.
 fn inertia(file: &ProductFile, width: &Side) -> String {
     let mut said: Vec<String> = file.product.mass_kg.iter().map(|kg| format!("{} kg", three(*kg))).collect();
     let along = range(&file.product.gyration_m, 1e-3, "mm");
@@ -178,13 +178,13 @@ fn inertia(file: &ProductFile, width: &Side) -> String {
     said.join(", ")
 }
 
-/// The inertia ratio, of a range of radii of gyration as a range.
+/// Writes the inertia ratio, or its range for a range of radii of gyration.
 fn ratio(file: &ProductFile) -> String {
     let [lo, hi] = [1.0, 0.0].map(|share| three(file.product.inertia_ratio_at(share)).replace('-', "−"));
     if lo == hi { lo } else { format!("{lo} to {hi}") }
 }
 
-/// The fall.
+/// Describes the fall.
 fn drop(file: &ProductFile) -> String {
     if file.landings.iter().any(|landing| landing.drop.fall != file.drop.fall) {
         let speeds = file.landings.iter().map(|landing| landing.drop.speeds_m_s());
@@ -201,7 +201,7 @@ fn drop(file: &ProductFile) -> String {
     }
 }
 
-/// Where a part sits and how it is held, in a sentence.
+/// Describes where a part sits and how it is held, in a sentence.
 pub(super) fn held(component: &Component, file: &ProductFile) -> String {
     if file.product.body.is_wide() {
         let along = match component.inside.axis {
@@ -229,7 +229,7 @@ pub(super) fn held(component: &Component, file: &ProductFile) -> String {
     format!("It sits {place}{extent}. {}", mount(component))
 }
 
-/// Where a part of a plate sits, from the middle of the plate.
+/// Describes where a part of a plate sits, from the middle of the plate.
 fn on_plate(component: &Component) -> String {
     let middle = [component.position_m, component.across_m];
     let where_to = if middle.iter().all(Spread::is_value) {

@@ -1,4 +1,4 @@
-//! What the pages say of several drops, and of a box that lands on faces, edges and corners.
+//! This module writes the pages about several drops, and about a box that lands on faces, edges and corners.
 
 use clatter_assess::{Assessment, Landing, LandingAssessment, ProductFile, Spread};
 use clatter_figures::three;
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::inputs::first;
 use crate::words::{name, percent, shown, span};
 
-/// What the pages of a box leave out.
+/// The effects that the pages of a box leave out.
 pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
     [
         "Landing again",
@@ -30,7 +30,8 @@ pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
     ["Ranges", "Values are those of the product file. What is not measured is assumed."],
 ];
 
-/// Of several drops, a row for each: what it is called, its tilt or how far off a box may be, verdict, and the limit that it leaves least room.
+/// Returns a row for each of several drops: its name, its tilt or how far off a box may be, its verdict, and the limit with the least
+/// margin.
 pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<Value> {
     let speeds = |landing: &LandingAssessment| {
         let optional = landing.optional.iter().map(|(_, range)| range.map(f64::to_bits));

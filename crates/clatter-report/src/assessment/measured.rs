@@ -1,4 +1,4 @@
-//! Measured drops beside the computed ones that are nearest.
+//! This module shows measured drops next to the computed ones that are nearest.
 
 use clatter_assess::ProductFile;
 use clatter_assess::fit::{Comparison, Estimate, Fit, MeasuredDrop, RecordFit};
@@ -13,7 +13,7 @@ use crate::words::{end, minus, shown, span, sure_name};
 const Q: f64 = 10.0;
 const PER_OCTAVE: f64 = 24.0;
 
-/// Where a measured drop differs from the file, a sentence each.
+/// Returns where a measured drop differs from the file, one sentence each.
 pub(super) fn differences(file: &ProductFile, drops: &[MeasuredDrop]) -> Vec<String> {
     let mut said = Vec::new();
     for drop in drops {
@@ -30,7 +30,7 @@ pub(super) fn differences(file: &ProductFile, drops: &[MeasuredDrop]) -> Vec<Str
     said
 }
 
-/// What the section of each drop shows.
+/// Returns the content of the section of each drop.
 pub(super) fn sections(file: &ProductFile, drops: &[MeasuredDrop]) -> Vec<Value> {
     let section = |(i, drop): (usize, &MeasuredDrop)| {
         let files: Vec<String> = drop.files.iter().map(|file| sure_name(file)).collect();
@@ -60,7 +60,7 @@ pub(super) fn sections(file: &ProductFile, drops: &[MeasuredDrop]) -> Vec<Value>
     drops.iter().enumerate().map(section).collect()
 }
 
-/// The figures of the sections: each drop, and the spectra of its accelerations.
+/// Draws the figures of the sections: each drop, and the spectra of its accelerations.
 pub(super) fn figures(drops: &[MeasuredDrop]) -> Result<Vec<(String, String)>, FigureError> {
     let mut figures = Vec::new();
     for (i, found) in drops.iter().enumerate().filter_map(|(i, drop)| Some((i, drop.found.as_ref().ok()?))) {
@@ -82,12 +82,12 @@ fn spectra_of(drop: usize, record: usize) -> String {
     format!("measured-{}-spectra-{}.svg", drop + 1, record + 1)
 }
 
-/// Records of an acceleration, by their number in the drop.
+/// Returns the records of an acceleration, by their number in the drop.
 fn accelerations(fit: &Fit) -> impl Iterator<Item = (usize, &RecordFit)> {
     fit.records.iter().enumerate().filter(|(_, record)| record.curves.len() == 1)
 }
 
-/// Name, estimate, interval and what is stated; the first two to two digits of the width of the interval.
+/// Returns name, estimate, interval and stated value; the first two to two digits of the width of the interval.
 fn words(beside: &Comparison<'_>) -> [String; 4] {
     let Estimate { quantity, value, interval, .. } = beside.estimate;
     let (what, factor, unit) = quantity.said();
@@ -114,7 +114,7 @@ fn agreement(beside: &Comparison<'_>) -> &'static str {
     }
 }
 
-/// The largest accelerations, measured and computed, and the picture of the spectra.
+/// Returns the largest accelerations, measured and computed, and the picture of the spectra.
 fn said_of_peaks(drop: usize, record: usize, found: &RecordFit) -> Value {
     let curve = &found.curves[0];
     let peak = |i: usize| curve.iter().map(|row| row[i].abs()).fold(0.0, f64::max);
@@ -128,15 +128,15 @@ fn said_of_peaks(drop: usize, record: usize, found: &RecordFit) -> Value {
     })
 }
 
-/// Shock response spectra of what was measured and of what was computed, of the same samples up to a third of their rate; nothing
-/// where a record is too short for one.
+/// Computes shock response spectra of the measured and of the computed acceleration, of the same samples up to a third of their rate;
+/// nothing where a record is too short for one.
 fn both(curve: &[[f64; 3]]) -> Option<[Spectrum; 2]> {
     #[expect(clippy::cast_precision_loss, reason = "at most a million samples")]
     let step_s = (curve.last()?[0] - curve.first()?[0]) / (curve.len() - 1) as f64;
     let channel = |i: usize| ("", curve.iter().map(|row| row[i]).collect());
     let record = Record::from_samples(0.0, step_s, vec![channel(1), channel(2)]).ok()?;
     let high = (3.0 * step_s).recip();
-    // Below, a record says more of what is around it than of the shock.
+    // Below this frequency a record shows more of its surroundings than of the shock.
     let low = record.channels()[0].times().duration_s().recip().max(10.0);
     let frequencies = Frequencies::per_octave(low, high, PER_OCTAVE).ok()?;
     let damping = DampingRatio::from_quality_factor(Q).ok()?;

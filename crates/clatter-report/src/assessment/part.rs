@@ -1,4 +1,4 @@
-//! What the page says of one part.
+//! This module writes the page of one part.
 
 use clatter_assess::{
     Component, ComponentAssessment, DropName, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase, repeat,
@@ -12,7 +12,7 @@ use super::plate;
 use crate::Pages;
 use crate::words::{end, hundredths, is_sure, millimeters, minus, name, percent, place, shown, span, sure_name};
 
-/// What else is known of a limit, a sentence each.
+/// Returns the further facts about a limit, one sentence each.
 fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
     let sentence = |text: &str| {
         let mut letters = text.chars();
@@ -38,7 +38,7 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
     said
 }
 
-/// The worst drop as columns: first end or direction, tilt, speed, restitution, contact, frequency, damping, place, impact.
+/// Returns the worst drop as columns: first end or direction, tilt, speed, restitution, contact, frequency, damping, place, impact.
 fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     let or_none = |value: Option<f64>, factor: f64| value.map_or("–".to_owned(), |v| three(factor * v));
     let contact = worst.drop.contact_time_s.filter(|_| of.model.bar == Model::Compliant);
@@ -64,10 +64,10 @@ fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     ]
 }
 
-/// What the tables say of one limit of a part.
+/// Returns the cells of the tables for one limit of a part.
 fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
     let file = pages.file;
-    // A name that is drawn as boxes is no name that a command finds.
+    // No command finds a name that is drawn as boxes.
     let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy).filter(|said| said.chars().all(is_sure));
     let known = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(of.unit, value));
     json!({
@@ -85,7 +85,7 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
     })
 }
 
-/// The tightest limit and the drop behind it, in a few sentences.
+/// Describes the tightest limit and the drop behind it, in a few sentences.
 fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait, file: &ProductFile) -> String {
     let what = of.limit.words();
     let tightest = if let (Some(demand), Some(margin), Some(worst)) = (of.demand, of.margin, &of.worst_case) {
@@ -145,21 +145,21 @@ fn drop(worst: &WorstCase) -> String {
     format!("That drop{which} lands {lands} at {speed} m/s{tilted}{optional}, with e = {e}{frequency}; {peak}.")
 }
 
-/// Inputs that a file may leave out, where they count.
+/// Describes the inputs that a file may leave out, where they count.
 fn optional(worst: &WorstCase) -> String {
     let each = worst.optional();
     let told = each.map(|(row, optional, x)| format!(", {} {}", optional.phrase, span([x; 2], 1.0, row.unit)));
     told.collect::<Vec<_>>().concat()
 }
 
-/// Up to which tilt both ends land as one.
+/// Describes up to which tilt both ends land at the same instant.
 fn flat_until(portrait: &Portrait) -> String {
     let flat = portrait.over_tilt.iter().flat_map(|(_, points)| points).filter(|point| point.drop.is_flat);
     let most = flat.map(|point| point.tilt_rad.to_degrees()).reduce(f64::max);
     most.map_or_else(String::new, |tilt| format!(" Up to {}° both ends land as one.", three(tilt)))
 }
 
-/// What the page says of one part.
+/// Returns the content of the page of one part.
 pub(super) fn part(
     pages: &Pages<'_>,
     number: usize,

@@ -1,4 +1,4 @@
-//! What the pages show and say of a plate alone.
+//! This module holds the figures and the texts of the pages that only a plate has.
 
 use clatter_assess::{
     Component, ComponentAssessment, CornerStrike, LimitAssessment, LimitKind, PlaceMap, PlatePortrait, WorstCase,
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::{Part, title};
 use crate::words::shown;
 
-/// What is left out of a plate, each in place of what is said of a bar.
+/// The effects that the model of a plate leaves out, each in place of one of a bar.
 pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
     (
         "Corners and edges",
@@ -37,11 +37,11 @@ pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
     ),
 ];
 
-/// What is said of a plate that turns as it lands, in place of one that does not.
+/// The words for a plate that does not turn before it lands; for one that turns, `SPIN` replaces them.
 pub(super) const NO_SPIN: &str = "the plate does not turn before it lands";
 pub(super) const SPIN: &str = "before it lands the plate turns about the axis of its tilt alone";
 
-/// The plan with some of the parts, after as many others.
+/// Draws the plan with some of the parts, after as many others.
 pub(super) fn plan(
     plate: &clatter_flight::Plate,
     sides_m: [f64; 2],
@@ -60,7 +60,7 @@ pub(super) fn plan(
     draw(plate, sides_m, &area.collect::<Vec<_>>())
 }
 
-/// Direction in degrees, share, and whether the file gives the direction.
+/// Returns the direction in degrees, the share, and whether the file gives the direction.
 pub(super) fn around(of: &PlatePortrait) -> impl Iterator<Item = (f64, f64, bool)> {
     of.over_direction.iter().map(|point| {
         let direction_rad = point.drop.direction_rad;
@@ -68,7 +68,7 @@ pub(super) fn around(of: &PlatePortrait) -> impl Iterator<Item = (f64, f64, bool
     })
 }
 
-/// The demand over the direction, the landing, and what would be asked anywhere.
+/// Draws the demand over the direction, the landing, and the demand at any other place.
 pub(super) fn figures(
     number: usize,
     (plate, sides_m): (&clatter_flight::Plate, [f64; 2]),
@@ -108,20 +108,20 @@ pub(super) fn figures(
     Ok(files)
 }
 
-/// The limit whose map is drawn: the tightest one that asks more in one place than in another.
+/// Finds the limit whose map is drawn: the tightest one whose demand differs from place to place.
 fn mapped<'a>(assessed: &'a ComponentAssessment, of: &'a PlatePortrait) -> Option<(&'a LimitAssessment, &'a PlaceMap)> {
     let (kind, map) = of.maps.first()?;
     assessed.limits.iter().find(|limit| limit.limit == *kind).map(|limit| (limit, map))
 }
 
-/// The strikes up to the one of the peak, and until each corner that strikes has struck: others come far later.
+/// Returns the strikes up to the one of the peak, and until each corner that strikes has struck: others come far later.
 fn told<'a>(of: &'a PlatePortrait, worst: &WorstCase) -> &'a [CornerStrike] {
     let first = (0..4).filter_map(|corner| of.strikes.iter().position(|strike| strike.corner == corner));
     let all = usize::try_from(worst.impact).unwrap_or(usize::MAX).max(first.fold(0, |most, i| most.max(i + 1)));
     &of.strikes[..all.min(of.strikes.len())]
 }
 
-/// The lowest corner of a plate that rises to a direction in degrees, or its lowest edge.
+/// Names the lowest corner of a plate that rises to a direction in degrees, or its lowest edge.
 pub(super) fn lowest(direction_deg: f64) -> String {
     let (corners, edges) = (["a", "b", "c", "d"], ["a–d", "a–b", "b–c", "c–d"]);
     let side = direction_deg / 90.0;
@@ -135,12 +135,12 @@ pub(super) fn lowest(direction_deg: f64) -> String {
     }
 }
 
-/// Least and most of a map.
+/// Returns the least and the largest value of a map.
 fn span(map: &PlaceMap) -> [f64; 2] {
     map.shares.iter().fold([f64::INFINITY, 0.0], |[least, most], share| [least.min(*share), most.max(*share)])
 }
 
-/// Where the tightest limit holds, in a sentence.
+/// Describes where the tightest limit holds, in a sentence.
 pub(super) fn zone(tightest: LimitKind, of: &PlatePortrait) -> String {
     let own = of.maps.first().filter(|(kind, _)| *kind == tightest);
     let said = match own.map(|(_, map)| span(map)) {
@@ -152,7 +152,7 @@ pub(super) fn zone(tightest: LimitKind, of: &PlatePortrait) -> String {
     format!(" In the drops of the figures {said}.")
 }
 
-/// Where limits other than the one whose map is drawn hold, each in the drops around its own worst one.
+/// Describes where the limits without a map hold, each in the drops around its own worst one.
 fn of_others(of: &PlatePortrait) -> String {
     let one = |((kind, map), line): (&(LimitKind, PlaceMap), &str)| match span(map) {
         [least, _] if least > 1.0 => format!(" Its {} is exceeded everywhere.", kind.words()),
@@ -168,7 +168,7 @@ fn of_others(of: &PlatePortrait) -> String {
         .concat()
 }
 
-/// What stands below the figures of a part.
+/// Returns the captions below the figures of a part.
 pub(super) fn captions(
     component: &Component,
     assessed: &ComponentAssessment,

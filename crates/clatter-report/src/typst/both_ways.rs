@@ -1,4 +1,4 @@
-//! The command of typst and its wheel set the same pages.
+//! This test checks that the command of typst and its wheel set the same pages.
 //!
 //! Both hold the same typst, with other versions of the library that packs streams. So the pages are not the same byte for byte;
 //! each object in them is, unpacked, but for the name of the instance, which typst makes of the bytes.
@@ -6,7 +6,7 @@
 use super::ways::{COMMAND, WHEEL, content};
 use crate::{Pages, assessment};
 
-/// What the pages are made of: text, formulas, tables of data, drawings.
+/// The content of the test pages: text, formulas, tables of data, drawings.
 const PAGE: &str = "
 #set document(title: \"Both ways\", author: \"clatter\")
 #set text(font: \"Libertinus Serif\", lang: \"en\")

@@ -1,4 +1,4 @@
-//! Builds typst into the project's cache.
+//! This module builds typst into the project's cache.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -7,19 +7,19 @@ use super::find::{Env, absolute, program};
 use super::{Typst, VERSION, failed};
 use crate::ReportError;
 
-/// The cargo command, its words apart by one space; what is missing is where to.
+/// Returns the cargo command, with one space between its words; the place to build into is missing.
 pub(super) fn by_hand() -> String {
     format!(
         "cargo install typst-cli --version {VERSION} --locked --no-default-features --features embedded-fonts,vendor-openssl"
     )
 }
 
-/// The typst built into the cache, whether it is there or not.
+/// Returns the typst built into the cache, whether it is there or not.
 pub(super) fn kept(root: &Path) -> Typst {
     Typst::new(root.join("bin").join(program("typst")))
 }
 
-/// Builds typst into `root`; nobody else does so meanwhile.
+/// Builds typst into `root`; no other process does so at the same time.
 pub(super) fn build(env: Env<'_>, root: &Path, progress: &mut dyn FnMut(&str)) -> Result<Typst, ReportError> {
     progress(&format!("building typst {VERSION} with cargo into {}, 7 to 12 minutes, once", root.display()));
     // cargo obeys settings in the directory that it runs in and those above, such as which compiler to run: it gets the topmost, which

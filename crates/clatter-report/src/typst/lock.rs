@@ -1,4 +1,4 @@
-//! One process at a time puts typst into the project's cache.
+//! This module lets one process at a time put typst into the project's cache.
 
 use std::fs::{File, TryLockError};
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Runs a program within bounds: of its time, and of how much of its output is kept.
+//! This module runs a program within bounds: of its time, and of the output that is kept.
 
 use std::io::{self, Read};
 use std::path::Path;
@@ -11,10 +11,10 @@ use super::failed;
 use crate::ReportError;
 use crate::leftovers::{Listed, kill_group};
 
-/// What is kept of each stream of output; the rest is read and dropped.
+/// The number of bytes that are kept of each stream of output; the rest is read and dropped.
 const KEPT: u64 = 1 << 20;
 
-/// How a run ended, where it did end.
+/// The outcome of a run that has ended.
 #[derive(Debug)]
 pub(super) struct Ended {
     pub(super) success: bool,
@@ -39,7 +39,7 @@ pub(super) fn run(command: &mut Command, limit: Duration, program: &Path) -> Res
         }
     };
     let text = |stream: &Receiver<String>| stream.recv_timeout(end.saturating_duration_since(Instant::now())).ok();
-    // The streams before the program: once it has been waited for, the number of its group may be another's.
+    // The streams are read before the wait for the program: after the wait the number of its group may be that of another one.
     if let (Some(stdout), Some(stderr)) = (text(&streams.0), text(&streams.1))
         && let Some(success) = wait(&mut child, end)
     {
@@ -49,10 +49,10 @@ pub(super) fn run(command: &mut Command, limit: Duration, program: &Path) -> Res
     Err(failed(format!("{} was cut off: it had not ended after {} s", program.display(), limit.as_secs_f64())))
 }
 
-/// Reads a stream to its end beside the wait, so that a full pipe stops nobody.
+/// Reads a stream to its end during the wait, so that a full pipe stops nobody.
 ///
 /// # Errors
-/// Where no thread can be made for that.
+/// Fails where no thread can be made for that.
 fn read(stream: Option<impl Read + Send + 'static>) -> io::Result<Receiver<String>> {
     let (sender, receiver) = mpsc::channel();
     thread::Builder::new().spawn(move || {
@@ -62,7 +62,7 @@ fn read(stream: Option<impl Read + Send + 'static>) -> io::Result<Receiver<Strin
     Ok(receiver)
 }
 
-/// The beginning of a stream that is read to its end.
+/// Returns the beginning of a stream, which it reads to its end.
 fn keep(mut stream: impl Read) -> Vec<u8> {
     let mut kept = Vec::new();
     // Where reading fails, what was read until then is still worth showing.
@@ -72,7 +72,7 @@ fn keep(mut stream: impl Read) -> Vec<u8> {
     kept
 }
 
-/// Whether the child succeeded; `None` where it has not ended in time.
+/// Returns whether the child succeeded; `None` where it has not ended in time.
 fn wait(child: &mut Child, end: Instant) -> Option<bool> {
     loop {
         match child.try_wait() {
@@ -103,7 +103,8 @@ mod tests {
     fn what_never_ends_is_cut_off_with_all_that_it_started() {
         let dir = tempfile::tempdir().unwrap();
         let alive = dir.path().join("alive");
-        // A child holds the output open; a program ends without its child; one runs on with its output closed.
+        // In the first script a child holds the output open; in the second a program ends without its child; in the third one runs on with
+        // its output closed.
         for script in
             ["(sleep 2; touch alive) & wait", "(sleep 2; touch alive) &", "exec >&- 2>&-; sleep 2; touch alive"]
         {

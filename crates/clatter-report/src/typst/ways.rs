@@ -1,4 +1,4 @@
-//! The two ways to run typst, and what their pages hold: what tests of pages share.
+//! This module has the two ways to run typst, and reads the content of their pages, for all tests of pages.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -14,7 +14,7 @@ fn skip(why: &str) {
     let _ = writeln!(std::io::stderr(), "skipped: the pages of both ways to run typst are not compared: {why}");
 }
 
-/// The command, of the tested version, where there is one.
+/// Returns the command of the tested version, where there is one.
 fn by_command() -> Option<Typst> {
     let found = Typst::by_command().unwrap();
     if found.is_none() {
@@ -23,13 +23,13 @@ fn by_command() -> Option<Typst> {
     found
 }
 
-/// The wheel, of which there is one in the cache afterwards, where it can be had.
+/// Returns the wheel, where it can be had; it is in the cache afterwards.
 fn by_wheel() -> Option<Typst> {
     let error = match Typst::by_wheel(&mut |_| ()) {
         Ok(typst) => return Some(typst),
         Err(error) => error.to_string(),
     };
-    // No Python, or a bare one; no network, or no wheel for this machine.
+    // The machine may have no Python, or a bare one; no network, or no wheel that fits.
     let may = [
         "CLATTER_NO_INSTALL",
         "none is on PATH",
@@ -43,7 +43,7 @@ fn by_wheel() -> Option<Typst> {
     None
 }
 
-/// What a PDF holds, a line an object.
+/// Returns the content of a PDF, one line for each object.
 pub(crate) fn content(pdf: &[u8]) -> String {
     let pdf = lopdf::Document::load_mem(pdf).unwrap();
     let mut content = String::new();

@@ -1,4 +1,4 @@
-//! Puts the wheel of typst into the project's cache: a Python environment of its own, made within seconds.
+//! This module puts the wheel of typst into the project's cache: a Python environment of its own, made within seconds.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,18 +11,18 @@ use super::{Typst, VERSION, failed};
 use crate::ReportError;
 use crate::leftovers::Listed;
 
-/// Has a version of its own.
+/// The version of the wheel, which differs from that of typst.
 const WHEEL: &str = "0.15.2";
-/// What pip may install.
+/// The packages that pip may install.
 const LIST: &str = include_str!("wheel.txt");
 /// Python reads no settings and nothing of the directory that it runs in; the script takes the arguments of typst.
 const BEFORE: &[&str] = &["-I", "-X", "utf8", "-c", include_str!("wheel.py")];
-/// Each step takes seconds, or minutes where the network is slow.
+/// The time limit of a step; each takes seconds, or minutes where the network is slow.
 pub(super) const STEP_LIMIT: Duration = Duration::from_secs(10 * 60);
-/// How the name of an environment begins that is not whole.
+/// The beginning of the name of an environment that is not complete.
 const PART: &str = "part-";
 
-/// The wheel in the cache, whether it is there or not.
+/// Returns the wheel in the cache, whether it is there or not.
 pub(super) fn kept(root: &Path) -> Typst {
     typst(&whole(root))
 }
@@ -36,8 +36,8 @@ fn typst(environment: &Path) -> Typst {
     Typst { before: BEFORE, ..Typst::new(environment.join(python)) }
 }
 
-/// Installs the wheel with the first Python on PATH. The environment has another name until it runs, so that one of a
-/// process that was killed is never taken for whole; nobody else does this meanwhile.
+/// Installs the wheel with the first Python on PATH. The environment has another name until it runs, so that the remains of a killed
+/// process are never taken for a complete one; no other process does this at the same time.
 pub(super) fn install(
     env: Env<'_>,
     root: &Path,
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
     use crate::typst::tests::stand_in;
 
-    /// Stands in for Python: its environment is a copy of it, and it notes what pip is told and where it runs.
+    /// Stands in for Python: its environment is a copy of it, and it notes the arguments of pip and where it runs.
     const GOOD: &str = "case $3 in venv) mkdir $4/bin; cp $0 $4/bin/python;; \
         pip) sleep 0.1; echo \"$PWD $TMPDIR $*\" >> ${0%/clatter/*}/noted; cat wheel.txt > list;; *) echo typst 0.15.1;; esac";
 
@@ -147,12 +147,12 @@ mod tests {
             Typst::find_with(&|name| self.env(name), &mut |_| ())
         }
 
-        /// What pip and cargo noted.
+        /// Returns the notes that pip and cargo left.
         fn noted(&self) -> String {
             fs::read_to_string(self.dir.path().join("noted")).unwrap_or_default()
         }
 
-        /// What there is in the cache of typst.
+        /// Returns the sorted names in the cache of typst.
         fn names(&self) -> Vec<String> {
             let all = fs::read_dir(self.root()).unwrap();
             let mut names: Vec<_> = all.map(|f| f.unwrap().file_name().into_string().unwrap()).collect();
@@ -217,7 +217,7 @@ mod tests {
     #[test]
     fn what_is_not_whole_or_runs_no_longer_is_replaced() {
         let cache = Cache::with(GOOD);
-        // Of processes that were killed: before the end, and with the name of a whole one but without its Python.
+        // Killed processes left these: one before the end, and one with the name of a complete one but without its Python.
         for dir in ["part-1/bin", "wheel-0.15.2/lib"] {
             fs::create_dir_all(cache.root().join(dir)).unwrap();
         }
