@@ -70,7 +70,7 @@ pub enum Error {
     #[error(transparent)]
     Flight(clatter_flight::Error),
     /// A motion that was given up while more was to come.
-    #[error("the motion goes on beyond 1024 strikes or 150 000 phases, and was left there")]
+    #[error("the motion is left before it ends: after 1024 strikes or 150 000 phases, or where a thick bar turns over")]
     Unfinished,
     /// A search that was stopped by its caller.
     #[error("the search for the worst drop was stopped before")]

@@ -5,11 +5,14 @@ mod file;
 mod plate;
 mod table;
 
+use std::io::{self, Write};
+
 use clap::ValueHint;
 use clatter_answer::simulate::{self, Answer, Question, bar};
 use clatter_assess::Model;
 use clatter_assess::units::Quantity;
 use clatter_flight::{Scene, Stop};
+use serde::Serialize;
 
 use crate::drop_args::{DropArgs, ExtraArgs, IN_SI, Setup};
 use crate::inputs::{self, RowFormat};
@@ -213,30 +216,60 @@ impl Args {
             let across = if width_m > 0.0 { 2.0 * y / width_m } else { 0.0 };
             question.at.push([signs[0] * 2.0 * x / length_m, signs[1] * across]);
         }
-        let told = match simulate::answer(&question).map_err(|error| self.drop.failure(error, self.inertia.given()))? {
-            Answer::Bar(answer) => {
-                let typed = self.at.iter().map(|place| place.of_bar("--at").map(Place::said));
-                let mut called = typed.collect::<Result<Vec<_>, _>>()?;
-                let show = |part: &PartSetup| Show { unit: part.units[0].or(setup.shown.length.unit), name: "m" };
-                called.extend(of_part.map(|part| show(part).given(neat(signs[0] * part.middle.at_m[0]))));
-                let at = question.at.iter().map(|[s, _]| *s).collect();
-                let scene = setup.drop.scene()?;
-                let drop = Drop { args: self, setup, scene, at, called, answer: *answer };
-                if let Some(target) = &self.output {
-                    drop.write(target)?;
+        let (warnings, notes) =
+            match simulate::answer(&question).map_err(|error| self.drop.failure(error, self.inertia.given()))? {
+                Answer::Bar(answer) => {
+                    let typed = self.at.iter().map(|place| place.of_bar("--at").map(Place::said));
+                    let mut called = typed.collect::<Result<Vec<_>, _>>()?;
+                    let show = |part: &PartSetup| Show { unit: part.units[0].or(setup.shown.length.unit), name: "m" };
+                    called.extend(of_part.map(|part| show(part).given(neat(signs[0] * part.middle.at_m[0]))));
+                    let at = question.at.iter().map(|[s, _]| *s).collect();
+                    let scene = setup.drop.scene()?;
+                    let drop = Drop { args: self, setup, scene, at, called, answer: *answer };
+                    if let Some(target) = &self.output {
+                        drop.write(target)?;
+                    }
+                    self.write(&drop.answer, &|out| drop.table(out), &|out| drop.csv(out), streams)?;
+                    (drop.warnings(), drop.setup.notes)
                 }
-                drop.tell(streams)?
-            }
-            Answer::Plate(answer) => {
-                let Some(scene) = setup.drop.of_level()? else { return Ok(()) };
-                plate::Drop { args: self, setup, scene, at: question.at, answer: *answer }.tell(streams)?
-            }
-            Answer::Block(answer) => block::Drop { args: self, setup, answer: *answer }.tell(streams)?,
-        };
-        for (kind, note) in told {
+                Answer::Plate(answer) => {
+                    let Some(scene) = setup.drop.of_level()? else { return Ok(()) };
+                    if signs.iter().any(|sign| *sign < 0.0) {
+                        let turned = "touches first and is called a here: places are turned around";
+                        setup.notes.push(("note", format!("corner {} {turned}", setup.drop.lowest())));
+                    }
+                    let drop = plate::Drop { args: self, setup, scene, at: question.at, answer: *answer };
+                    self.write(&drop.answer, &|out| drop.table(out), &|out| drop.csv(out), streams)?;
+                    (drop.warnings(), drop.setup.notes)
+                }
+                Answer::Block(answer) => {
+                    let drop = block::Drop { args: self, setup, answer: *answer };
+                    self.write(&drop.answer, &|out| drop.table(out), &|out| drop.csv(out), streams)?;
+                    (drop.warnings(), drop.setup.notes)
+                }
+            };
+        for (kind, note) in &notes {
             streams.note(kind, note);
         }
+        for warning in warnings {
+            streams.note("warning", warning);
+        }
         Ok(())
+    }
+
+    /// Writes an answer in the format of the command line.
+    fn write(
+        &self,
+        answer: &impl Serialize,
+        table: Rows<'_>,
+        csv: Rows<'_>,
+        streams: &mut Streams<'_>,
+    ) -> Result<(), Failure> {
+        match self.format {
+            RowFormat::Table => table(streams.out).map_err(Failure::Answer),
+            RowFormat::Csv => csv(streams.out).map_err(Failure::Answer),
+            RowFormat::Json => streams.json(answer),
+        }
     }
 
     fn time_limit_s(&self) -> Option<f64> {
@@ -244,22 +277,10 @@ impl Args {
     }
 }
 
-/// Notes to report with an answer: the kind and the words of each.
-type Notes = Vec<(&'static str, String)>;
+/// The function that writes the rows of an answer.
+type Rows<'a> = &'a dyn Fn(&mut dyn Write) -> io::Result<()>;
 
 impl Drop<'_> {
-    fn tell(self, streams: &mut Streams<'_>) -> Result<Notes, Failure> {
-        match self.args.format {
-            RowFormat::Table => self.table(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Csv => self.csv(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.json(&self.answer)?,
-        }
-        let warnings = self.warnings();
-        let mut notes = self.setup.notes;
-        notes.extend(warnings.into_iter().map(|warning| ("warning", warning)));
-        Ok(notes)
-    }
-
     fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         if let Some((count, first)) = self.answer.impacts.overlaps() {

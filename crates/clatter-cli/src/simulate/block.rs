@@ -5,12 +5,10 @@ use std::io::{self, Write};
 use clatter_answer::simulate::block::{Answer, DropAnswer, Impact};
 use clatter_flight::{Block, LEAST_OF_BLOCKS, Stop};
 
-use super::{Args, Notes};
+use super::Args;
 use crate::drop_args::Setup;
-use crate::inputs::RowFormat;
 use crate::numbers::{digits, figures, given};
 use crate::quantities::neat;
-use crate::{Failure, Streams};
 
 /// Presses whose largest shock is below this share of the largest of all are left out of the table.
 const MATTERS: f64 = 0.01;
@@ -23,19 +21,7 @@ pub(super) struct Drop<'a> {
 }
 
 impl Drop<'_> {
-    pub(super) fn tell(self, streams: &mut Streams<'_>) -> Result<Notes, Failure> {
-        match self.args.format {
-            RowFormat::Table => self.table(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Csv => self.csv(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.json(&self.answer)?,
-        }
-        let warnings = self.warnings();
-        let mut notes = self.setup.notes;
-        notes.extend(warnings.into_iter().map(|warning| ("warning", warning)));
-        Ok(notes)
-    }
-
-    fn warnings(&self) -> Vec<String> {
+    pub(super) fn warnings(&self) -> Vec<String> {
         let (mut warnings, drop) = (Vec::new(), &self.setup.drop);
         let e = drop.restitution;
         if drop.contact_law.leaves_a_dent() && e < LEAST_OF_BLOCKS {
@@ -81,7 +67,7 @@ impl Drop<'_> {
         )
     }
 
-    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.heading(out)?;
         writeln!(out, "Impacts {:>26}", self.answer.impacts.len())?;
         let stopped = match self.answer.stop {
@@ -120,7 +106,7 @@ impl Drop<'_> {
         Ok(())
     }
 
-    fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         write!(out, "number,corner,time_s,until_s,approach_m_s")?;
         (0..8).try_for_each(|corner| write!(out, ",delta_v_{}_m_s", Block::corner_name(corner)))?;
         writeln!(out)?;

@@ -7,13 +7,12 @@ use clatter_answer::simulate::plate::{Answer, Impact};
 use clatter_assess::Model;
 use clatter_flight::{PlateScene, Stop};
 
+use super::Args;
 use super::table::of_strike;
-use super::{Args, Notes};
+use crate::columns;
 use crate::drop_args::Setup;
-use crate::inputs::RowFormat;
 use crate::numbers::{digits, given};
 use crate::quantities::Show;
-use crate::{Failure, Streams, columns};
 
 /// A drop of a plate and what came of it.
 pub(super) struct Drop<'a> {
@@ -30,33 +29,17 @@ pub(super) struct Drop<'a> {
 const MATTERS: f64 = 0.01;
 
 impl Drop<'_> {
-    pub(super) fn tell(self, streams: &mut Streams<'_>) -> Result<Notes, Failure> {
-        match self.args.format {
-            RowFormat::Table => self.table(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Csv => self.csv(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.json(&self.answer)?,
-        }
-        let warning = self.cut_short();
-        let (drop, mut notes) = (self.setup.drop, self.setup.notes);
-        if drop.signs().iter().any(|sign| *sign < 0.0) {
-            let turned = "touches first and is called a here: places are turned around";
-            notes.push(("note", format!("corner {} {turned}", drop.lowest())));
-        }
-        notes.extend(warning.map(|warning| ("warning", warning)));
-        Ok(notes)
-    }
-
-    fn cut_short(&self) -> Option<String> {
+    pub(super) fn warnings(&self) -> Vec<String> {
         let n = self.answer.impacts.count();
         match self.answer.stop {
             Stop::ImpactLimit { .. } => {
-                Some(format!("stopped after {n} impacts, more would follow; --impact-limit=N follows more"))
+                vec![format!("stopped after {n} impacts, more would follow; --impact-limit=N follows more")]
             }
             Stop::TimeLimit { time_s } if self.args.time_limit_s().is_none_or(|limit| time_s < limit) => {
                 let time = self.setup.shown.time.said(time_s);
-                Some(format!("left at {time}, where the plate neither rests nor strikes again in sight"))
+                vec![format!("left at {time}, where the plate neither rests nor strikes again in sight")]
             }
-            _ => None,
+            _ => Vec::new(),
         }
     }
 
@@ -90,7 +73,7 @@ impl Drop<'_> {
         writeln!(out, "Corner a touches at {speed}{spin}; b is {hx} higher, d {hy}, c both together\n")
     }
 
-    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
         let (time, speed) = (self.setup.shown.time, self.setup.shown.speed);
         let stop = match self.answer.stop {
@@ -135,7 +118,7 @@ impl Drop<'_> {
         Ok(())
     }
 
-    fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let until = if self.answer.contact.is_some() { ",until_s" } else { "" };
         write!(
             out,
