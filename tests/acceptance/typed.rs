@@ -364,6 +364,8 @@ fn a_drop_and_a_part_come_from_a_product_file() {
             "has no component \"lens\": its components are \"display\", \"camera\", \"crystal\"",
         ),
         (&["simulate", "--product=nothing.toml"], "cannot read nothing.toml"),
+        // A bar of a file rises to no direction.
+        (&["respond", &product, "--component=camera", "--direction=200deg"], "'--direction': it is that of a plate"),
     ] {
         let outcome = clatter(arguments);
         assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""));

@@ -217,10 +217,6 @@ impl DropInputs {
     }
 
     fn bar(&self, base: Option<&Body>) -> Result<Body, Error> {
-        if self.direction_deg.is_some() || self.gaps_m.is_some() {
-            let name = if self.gaps_m.is_some() { "gaps_m" } else { "direction_deg" };
-            return Err(Error::input(name, "it is that of a plate: give its width"));
-        }
         if self.product_of_inertia_m2.is_some() {
             return Err(Error::input("product_of_inertia_m2", "it is that of a plate: give its width"));
         }
@@ -236,6 +232,10 @@ impl DropInputs {
 
     /// Tilts and turns a bar or a plate as it is at the first touch.
     fn turned(&self, mut drop: Drop, is_over: bool) -> Result<Drop, Error> {
+        if !drop.body.is_wide() && (self.direction_deg.is_some() || self.gaps_m.is_some()) {
+            let name = if self.gaps_m.is_some() { "gaps_m" } else { "direction_deg" };
+            return Err(Error::input(name, "it is that of a plate: give its width"));
+        }
         if drop.body.is_wide() && (self.is_flat || self.first.is_some()) {
             let name = if self.is_flat { "flat" } else { "first" };
             return Err(Error::input(name, "it is that of a bar: a plate lands flat with a tilt of 0, corner a first"));
