@@ -34,7 +34,7 @@ bench:
 
 # Torn product files by the million, intervals of fits in earnest, bounds of a hundred thousand products, the same bytes on any number of threads, and an hour of fuzzing each target: once a week
 weekly:
-    PROPTEST_CASES=1000000 cargo test --release -p clatter-assess --test all mutations:: && cargo test --release -p clatter-assess --test all -- --ignored fit:: && cargo test --release -p clatter-assess --lib many_random -- --ignored && cargo test --release -p clatter-acceptance --test acceptance threads -- --ignored && fuzz/run 3600
+    PROPTEST_CASES=1000000 cargo test --release -p clatter-assess --test all mutations:: && cargo test --release -p clatter-fit --test all -- --ignored && cargo test --release -p clatter-assess --lib many_random -- --ignored && cargo test --release -p clatter-acceptance --test acceptance threads -- --ignored && fuzz/run 3600
 
 # Everything that gates a change
 ci:

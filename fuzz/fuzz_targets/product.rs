@@ -2,7 +2,7 @@
 
 #![no_main]
 
-use clatter_assess::ProductFile;
+use clatter_product::ProductFile;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

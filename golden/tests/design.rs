@@ -6,8 +6,11 @@
 use std::fmt::Write as _;
 
 use clatter::design::{Goal, front, region};
-use clatter_assess::design::{Bounds, Outcome, Together};
-use clatter_assess::{ProductFile, Verdict};
+use clatter_assess::{
+    Verdict,
+    design::{Bounds, Outcome, Together},
+};
+use clatter_product::ProductFile;
 
 const LAPTOP: &str = include_str!("laptop.toml");
 
@@ -52,9 +55,9 @@ fn together(text: &mut String, name: &str, found: &Together) {
 #[test]
 fn changes_that_make_a_laptop_safe() {
     let file = ProductFile::read(LAPTOP, "laptop.toml").unwrap();
-    let assessment = file.assess().unwrap();
+    let assessment = clatter_assess::assess(&file).unwrap();
     let mut text = String::new();
-    for part in file.remedies(&assessment, &Bounds::default(), MARGIN).unwrap() {
+    for part in clatter_assess::remedies(&file, &assessment, &Bounds::default(), MARGIN).unwrap() {
         let found = &assessment.components[part.component];
         let _ = writeln!(text, "{}: {}", found.name, found.verdict.name());
         for remedy in &part.levers {

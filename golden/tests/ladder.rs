@@ -7,8 +7,8 @@
 use std::fmt::Write as _;
 
 use clatter::design::DESIGNS;
-use clatter_assess::ProductFile;
 use clatter_assess::ladder::Ladder;
+use clatter_product::ProductFile;
 use clatter_studies::bars;
 
 /// Tolerance of a model; the reference is ten times as exact.
@@ -57,7 +57,7 @@ fn the_bars_of_table_1() {
 fn a_handheld_terminal() {
     let text = include_str!("../../tests/cases/bar-terminal.toml");
     let file = ProductFile::read(text, "handheld-terminal.toml").unwrap();
-    let answer = file.ladders(&file.assess().unwrap(), TOLERANCE).unwrap();
+    let answer = clatter_assess::ladders(&file, &clatter_assess::assess(&file).unwrap(), TOLERANCE).unwrap();
     let mut text = String::new();
     for limit in &answer.limits {
         let worst = &limit.worst_case;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use clatter_assess::ProductFile;
+use clatter_product::ProductFile;
 
 /// Checks headings, alternative texts, and the beginnings of the parts of the pages.
 #[test]
@@ -12,8 +12,8 @@ fn the_pages_of_a_plate() {
         return;
     }
     let file = ProductFile::read(include_str!("../../reports/examples/handheld-terminal.toml"), "plate.toml").unwrap();
-    let assessment = file.assess().unwrap();
-    let portraits = file.portraits(&assessment);
+    let assessment = clatter_assess::assess(&file).unwrap();
+    let portraits = clatter_assess::portraits(&file, &assessment);
     let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
     let pages = clatter_report::Pages {
         file,

@@ -5,8 +5,8 @@
 
 use std::fmt::Write as _;
 
-use clatter_assess::ProductFile;
 use clatter_assess::scatter::{Sampler, Settings};
+use clatter_product::ProductFile;
 
 const LAPTOP: &str = include_str!("laptop.toml");
 

@@ -4,7 +4,8 @@
 
 use std::fmt::Write as _;
 
-use clatter_assess::{LimitAssessment, ProductFile};
+use clatter_assess::LimitAssessment;
+use clatter_product::ProductFile;
 
 const EXAMPLES: [&str; 4] = [
     include_str!("../../reports/examples/phone.toml"),
@@ -40,7 +41,7 @@ fn line(limit: &LimitAssessment) -> String {
 fn the_worked_products() {
     let mut text = String::new();
     for example in EXAMPLES {
-        let assessment = ProductFile::read(example, "example").unwrap().assess().unwrap();
+        let assessment = clatter_assess::assess(&ProductFile::read(example, "example").unwrap()).unwrap();
         let _ = writeln!(text, "{}: {}", assessment.product, assessment.verdict.name());
         for component in &assessment.components {
             let _ = writeln!(text, "  {}: {}", component.name, component.verdict.name());

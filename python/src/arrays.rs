@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use clatter::{Count, End, Error, PeakImpact, Plate, PlateCount, PlateStart, Start};
 use clatter_answer::{DropInputs, simulate};
-use clatter_assess::Model;
+use clatter_product::Model;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

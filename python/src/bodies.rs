@@ -1,8 +1,8 @@
 //! This module makes bars, plates and their starts from the values of Python.
 
 use clatter::{Bar, Error, Mass, Plate, PlateStart, Start};
-use clatter_assess::Model;
 use clatter_flight::ContactLaw;
+use clatter_product::Model;
 use clatter_shock::DampingRatio;
 use pyo3::prelude::*;
 

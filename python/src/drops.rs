@@ -2,7 +2,7 @@
 
 use clatter_answer::simulate::{self as simulate_of, Answer};
 use clatter_answer::{DropInputs, neat};
-use clatter_assess::{Drop, Model};
+use clatter_product::{Drop, Model};
 use pyo3::prelude::*;
 
 use crate::answered::{Answered, Drawing, json};

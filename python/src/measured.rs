@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use clatter::End;
 use clatter_answer::Error;
 use clatter_answer::fit::{self, Data, DropRecords, List};
-use clatter_assess::fit::{Known, Measured, MeasuredDrop, MeasuredHeights, MeasuredStrike};
-use clatter_assess::{ProductFile, RecordFile, visible};
+use clatter_fit::{Known, Measured, MeasuredDrop, MeasuredHeights, MeasuredStrike};
+use clatter_product::{ProductFile, RecordFile, visible};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 

@@ -8,10 +8,13 @@ use clatter_answer::fit::DropRecords;
 use clatter_answer::{
     assess as assess_of, design as design_of, explain as explain_of, fit as fit_of, scatter as scatter_of,
 };
-use clatter_assess::design::Bounds;
-use clatter_assess::ladder::ProductLadder;
-use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, EXAMPLE, ProductFile, visible};
+use clatter_assess::{
+    Accuracy,
+    design::Bounds,
+    ladder::ProductLadder,
+    scatter::{Sampler, Settings},
+};
+use clatter_product::{EXAMPLE, ProductFile, visible};
 use clatter_report::{Pages, ReportError};
 use pyo3::prelude::*;
 
@@ -50,7 +53,7 @@ pub(crate) fn example() -> &'static str {
 
 #[pyfunction]
 pub(crate) fn schema() -> String {
-    clatter_assess::schema().to_string()
+    clatter_product::schema().to_string()
 }
 
 fn accuracy(tolerance: f64, model: Option<&str>, merge_s: f64) -> PyResult<Accuracy> {
@@ -101,7 +104,8 @@ pub(crate) fn assess(
     let (text, warnings, (file, assessment)) = done??;
     let draw = move || {
         // The portraits of a plate take long, and its picture shows none of them.
-        let portraits = if file.product.body.is_wide() { Vec::new() } else { file.portraits(&assessment) };
+        let portraits =
+            if file.product.body.is_wide() { Vec::new() } else { clatter_assess::portraits(&file, &assessment) };
         clatter_figures::assessed(&file, &assessment, &portraits)
     };
     Ok(((text, Some(Drawing::new(draw))), warnings))
@@ -121,7 +125,7 @@ fn print(
             visible(&pdf.to_string_lossy())
         )));
     }
-    let portraits = answer.file.portraits(&answer.assessment);
+    let portraits = clatter_assess::portraits(answer.file, &answer.assessment);
     wanted.or_leave();
     let remedies = clatter_answer::design::of_pages(answer.file, &answer.assessment, &|_, _| wanted.still());
     let remedies = remedies.map_err(|error| Refused::Words(error.to_string()))?;
@@ -176,7 +180,7 @@ pub(crate) fn design(
     long(py, move |wanted| {
         let watch = |_, _| wanted.still();
         let found = assess_of::watched(&file, &Accuracy::default(), &watch).and_then(|answer| {
-            let remedies = file.remedies_watched(&answer.assessment, &bounds, margin, &watch)?;
+            let remedies = clatter_assess::remedies_watched(&file, &answer.assessment, &bounds, margin, &watch)?;
             Ok(design_of::Answer::new(&file, answer.assessment, remedies, margin))
         });
         json(&found.map_err(|error| error.to_string())?)
@@ -218,7 +222,7 @@ fn ladders(file: &ProductFile, tolerance: f64, wanted: &Wanted) -> Result<Produc
     let answer = assess_of::watched(file, &Accuracy::default(), &|_, _| wanted.still());
     let ladders = answer.and_then(|answer| {
         wanted.or_leave();
-        file.ladders(&answer.assessment, tolerance)
+        clatter_assess::ladders(file, &answer.assessment, tolerance)
     });
     ladders.map_err(|error| error.to_string())
 }

@@ -2,7 +2,7 @@
 
 use clatter_answer::respond::{self as respond_of, Excitation, drop as drop_of};
 use clatter_answer::shape_name;
-use clatter_assess::{Axis, Model};
+use clatter_product::{Axis, Model};
 use clatter_shock::{Pulses, Shape, Suspension};
 use pyo3::prelude::*;
 

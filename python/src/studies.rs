@@ -5,7 +5,7 @@ use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use clatter_answer::study::{Answer, Merge, Parts, Shard, Study};
-use clatter_assess::{LARGEST_FILE, Plan, ProductFile, visible};
+use clatter_product::{LARGEST_FILE, Plan, ProductFile, visible};
 use clatter_record::{RowGroupWriter, RowGroups};
 use pyo3::prelude::*;
 use serde::Serialize;

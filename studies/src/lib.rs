@@ -73,7 +73,7 @@ pub enum Error {
     Shock(#[from] clatter_shock::Error),
     /// A product could not be computed.
     #[error(transparent)]
-    Assess(#[from] clatter_assess::Error),
+    Assess(#[from] clatter_product::Error),
     /// A figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] clatter_figures::FigureError),

@@ -3,10 +3,13 @@
 use std::f64::consts::TAU;
 
 use clatter::design::DESIGNS;
-use clatter_assess::ladder::{Ladder, LimitLadder, Machine};
-use clatter_assess::{Accuracy, Drop, Limit, LimitKind, Part, ProductFile};
+use clatter_assess::{
+    Accuracy, Part,
+    ladder::{Ladder, LimitLadder, Machine},
+};
 use clatter_figures::{LadderPanel as Panel, ladders as panels, three};
 use clatter_flight::Body;
+use clatter_product::{Drop, Limit, LimitKind, ProductFile};
 use clatter_report::{File, ladder_svg, words};
 use clatter_shock::{DampingRatio, STANDARD_GRAVITY_M_S2, Suspension};
 use serde::Serialize;
@@ -28,13 +31,13 @@ const EXAMPLES: [(&str, &str); 3] = [
 ///
 /// # Errors
 /// None in practice: the numbers are valid.
-pub fn bars() -> Result<[(Drop, Part, Limit); 4], clatter_assess::Error> {
+pub fn bars() -> Result<[(Drop, Part, Limit); 4], clatter_product::Error> {
     let [a, b, c, d] = DESIGNS.map(|[q, e]| bar(q, e));
     Ok([a?, b?, c?, d?])
 }
 
 /// Returns one of these bars.
-fn bar(q: f64, e: f64) -> Result<(Drop, Part, Limit), clatter_assess::Error> {
+fn bar(q: f64, e: f64) -> Result<(Drop, Part, Limit), clatter_product::Error> {
     let part = Suspension::new(TAU * 230.0, DampingRatio::from_quality_factor(10.0)?)?;
     // q = (L² − ρ²)/(L² + ρ²)
     let gyration_m = 0.07 * ((1.0 - q) / (1.0 + q)).sqrt();
@@ -90,7 +93,7 @@ pub fn trade_files() -> Result<Vec<File>, Error> {
     let mut products = Vec::new();
     for (name, text) in EXAMPLES {
         let file = ProductFile::read(text, name).map_err(|faults| Error::Data(faults.to_string()))?;
-        let product = file.ladders(&file.assess()?, tolerance)?;
+        let product = clatter_assess::ladders(&file, &clatter_assess::assess(&file)?, tolerance)?;
         files.push((name, ladder_svg(&product)?));
         products.push(product);
     }
@@ -115,7 +118,7 @@ pub fn trade_files() -> Result<Vec<File>, Error> {
 mod tests {
     use super::*;
     use crate::frame::stay_within_their_frame;
-    use clatter_assess::Model;
+    use clatter_product::Model;
 
     #[test]
     fn four_figures_and_their_data() {

@@ -146,10 +146,11 @@ fn every_worked_product_has_a_width() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/examples");
     for file in fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();
-        let product = clatter_assess::ProductFile::read(&fs::read_to_string(&path).unwrap(), "worked").unwrap().product;
+        let product =
+            clatter_product::ProductFile::read(&fs::read_to_string(&path).unwrap(), "worked").unwrap().product;
         assert!(product.body.is_wide(), "{}", path.display());
     }
-    let init = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "init").unwrap();
+    let init = clatter_product::ProductFile::read(clatter_product::EXAMPLE, "init").unwrap();
     assert!(init.product.body.is_wide());
 }
 

@@ -366,8 +366,9 @@ fn the_map_in_meters_is_the_bar() {
 /// Every model as an assessment answers it, the center of mass off the middle.
 #[test]
 fn drops_drive_components_as_in_an_assessment() {
-    use clatter_assess::{Drop, Model, Part};
+    use clatter_assess::Part;
     use clatter_flight::Body;
+    use clatter_product::{Drop, Model};
     use clatter_shock::{DampingRatio, Suspension};
     let contact_s = 4e-4;
     let drop = Drop {

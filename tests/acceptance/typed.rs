@@ -436,7 +436,7 @@ fn what_one_kind_alone_may_be_goes_to_standard_output() {
     let picture = clatter(["tradeoff", &path, "-o", "-"]).stdout;
     assert!(picture.starts_with("<svg") && picture.trim_end().ends_with("</svg>"), "{picture}");
     let template = clatter(["init", "-"]);
-    assert_eq!((template.stdout.as_str(), template.stderr.as_str()), (clatter_assess::EXAMPLE, ""));
+    assert_eq!((template.stdout.as_str(), template.stderr.as_str()), (clatter_product::EXAMPLE, ""));
 }
 
 #[test]
@@ -444,7 +444,7 @@ fn what_would_be_taken_two_ways_is_refused() {
     let body = ["--length=140mm", "--e=0.3", "--speed=4m/s", "--tilt=5deg", "--model=finite-tilt"];
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("p.toml");
-    fs::write(&file, clatter_assess::EXAMPLE).unwrap();
+    fs::write(&file, clatter_product::EXAMPLE).unwrap();
     let file = file.to_str().unwrap();
     for (arguments, says) in [
         (

@@ -129,7 +129,7 @@ mod tests {
         assert_eq!(bar, clatter::Bar::new(0.5, 7.0).unwrap_err().to_string());
         let product =
             error(serde_json::json!({ "ask": "assess", "name": "x.toml", "text": "a = 1", "quick": false }), "");
-        let faults = clatter_assess::ProductFile::read("a = 1", "x.toml").unwrap_err().to_string();
+        let faults = clatter_product::ProductFile::read("a = 1", "x.toml").unwrap_err().to_string();
         assert!(product == faults && product.contains("error: the file has no key `a`"), "{product}");
         let record = serde_json::json!({ "ask": "record", "name": "x.csv", "units": "", "sample_rate": "" });
         let said = error(record, "time [s],a [g]\n0,0\n0.001,1\n0.002,x\n");

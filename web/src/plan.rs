@@ -2,8 +2,10 @@
 
 use std::ops::Range;
 
-use clatter_assess::Component;
-use clatter_assess::units::{LENGTH, Unit};
+use clatter_product::{
+    Component,
+    units::{LENGTH, Unit},
+};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};

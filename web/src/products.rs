@@ -2,10 +2,9 @@
 
 use clatter::End;
 use clatter_answer::assess as assess_of;
-use clatter_assess::{
-    Accuracy, Assessment, Component, LimitAssessment, LimitKind, Model, Portrait, ProductFile, repeat, visible,
-};
+use clatter_assess::{Accuracy, Assessment, LimitAssessment, Portrait, repeat};
 use clatter_figures::FigureError;
+use clatter_product::{Component, LimitKind, Model, ProductFile, visible};
 use serde::Serialize;
 
 use crate::{Progress, Reply, json, quoted, text};
@@ -92,8 +91,8 @@ pub(crate) fn figures(name: &str, given: &str, progress: Progress<'_>) -> Result
         progress(done, all);
         true
     };
-    let assessment = file.assess_watched(&Accuracy::default(), &watch).map_err(text)?;
-    let portraits = file.portraits(&assessment);
+    let assessment = clatter_assess::assess_watched(&file, &Accuracy::default(), &watch).map_err(text)?;
+    let portraits = clatter_assess::portraits(&file, &assessment);
     let zones_m: Vec<_> = portraits.iter().map(|portrait| portrait.zone_m).collect();
     let figures = drawn(&file, &assessment, &portraits).map_err(text)?;
     let command = format!("clatter assess {} -o report.pdf", quoted(name));

@@ -2,9 +2,8 @@
 
 use clatter_answer::record::{self as record_of, time_s};
 use clatter_answer::spectrum::{self as spectrum_of, Excitation, Measured};
-use clatter_assess::units::FREQUENCY;
-use clatter_assess::{STANDARD_GRAVITY_M_S2, visible, visible_lines};
 use clatter_figures::{Against, Trace};
+use clatter_product::{STANDARD_GRAVITY_M_S2, units::FREQUENCY, visible, visible_lines};
 use clatter_record::{Channel, Options, Record};
 use clatter_shock::DampingRatio;
 use serde::{Deserialize, Serialize};

@@ -2,8 +2,9 @@
 //!
 //! ```
 //! use clatter_answer::assess;
-//! use clatter_assess::{Accuracy, ProductFile};
-//! let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
+//! use clatter_assess::Accuracy;
+//! use clatter_product::ProductFile;
+//! let file = ProductFile::read(clatter_product::EXAMPLE, "example.toml")?;
 //! let answer = assess::answer(&file, &Accuracy::default())?;
 //! assert_eq!(answer.assessment.components.len(), file.components.len());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -11,8 +12,9 @@
 //!
 //! Measured drops come from records by [`DropRecords::fitted`](crate::fit::DropRecords::fitted).
 
-use clatter_assess::fit::{Comparison, MeasuredDrop};
-use clatter_assess::{Accuracy, Assessment, Error, ProductFile, Watch};
+use clatter_assess::{Accuracy, Assessment, Watch};
+use clatter_fit::{Comparison, MeasuredDrop};
+use clatter_product::{Error, ProductFile};
 use serde::{Serialize, Serializer};
 
 use crate::{Json, significant};
@@ -32,7 +34,7 @@ pub struct Answer<'a> {
 /// Searches the worst drop for every limit; without measured drops.
 ///
 /// # Errors
-/// As [`ProductFile::assess_to`].
+/// As [`clatter_assess::assess_to`].
 pub fn answer<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<Answer<'a>, Error> {
     watched(file, accuracy, &|_, _| true)
 }
@@ -40,9 +42,9 @@ pub fn answer<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<Answer<'
 /// Searches as [`answer`] does and counts the progress; ends early where `watch` says so, with the verdicts by then.
 ///
 /// # Errors
-/// As [`ProductFile::assess_watched`].
+/// As [`clatter_assess::assess_watched`].
 pub fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Answer<'a>, Error> {
-    Ok(Answer { file, assessment: file.assess_watched(accuracy, watch)?, measured: Vec::new() })
+    Ok(Answer { file, assessment: clatter_assess::assess_watched(file, accuracy, watch)?, measured: Vec::new() })
 }
 
 impl Answer<'_> {

@@ -3,9 +3,9 @@
 //!
 //! ```
 //! use clatter_answer::design;
-//! use clatter_assess::ProductFile;
+//! use clatter_product::ProductFile;
 //! use clatter_assess::design::Bounds;
-//! let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
+//! let file = ProductFile::read(clatter_product::EXAMPLE, "example.toml")?;
 //! let answer = design::answer(&file, &Bounds::default(), 0.1)?;
 //! // A part that is safe with that margin needs no change.
 //! assert!(answer.remedies.len() <= file.components.len());
@@ -14,8 +14,11 @@
 
 pub mod goals;
 
-use clatter_assess::design::{Bounds, Change, Lever, Outcome, Plane, Remedies, Remedy, Together};
-use clatter_assess::{Assessment, ComponentAssessment, Error, ProductFile, Verdict, Watch};
+use clatter_assess::{
+    Assessment, ComponentAssessment, Verdict, Watch,
+    design::{Bounds, Change, Lever, Outcome, Plane, Remedies, Remedy, Together},
+};
+use clatter_product::{Error, ProductFile};
 use serde::{Serialize, Serializer};
 
 use crate::Json;
@@ -40,10 +43,10 @@ pub struct Answer<'a> {
 /// Finds the smallest changes within the bounds; without the plane.
 ///
 /// # Errors
-/// As [`ProductFile::assess`] and [`ProductFile::remedies`].
+/// As [`clatter_assess::assess()`] and [`clatter_assess::remedies`].
 pub fn answer<'a>(file: &'a ProductFile, bounds: &Bounds, margin: f64) -> Result<Answer<'a>, Error> {
-    let assessment = file.assess()?;
-    let remedies = file.remedies(&assessment, bounds, margin)?;
+    let assessment = clatter_assess::assess(file)?;
+    let remedies = clatter_assess::remedies(file, &assessment, bounds, margin)?;
     Ok(Answer::new(file, assessment, remedies, margin))
 }
 
@@ -51,12 +54,12 @@ pub fn answer<'a>(file: &'a ProductFile, bounds: &Bounds, margin: f64) -> Result
 /// box there are none: to find them takes many times as long as to assess it.
 ///
 /// # Errors
-/// As [`ProductFile::remedies_watched`].
+/// As [`clatter_assess::remedies_watched`].
 pub fn of_pages(file: &ProductFile, assessment: &Assessment, watch: Watch<'_>) -> Result<Vec<Remedies>, Error> {
     if file.product.body.is_wide() {
         return Ok(Vec::new());
     }
-    file.remedies_watched(assessment, &Bounds::default(), 0.1, watch)
+    clatter_assess::remedies_watched(file, assessment, &Bounds::default(), 0.1, watch)
 }
 
 impl<'a> Answer<'a> {
@@ -96,12 +99,12 @@ impl<'a> Answer<'a> {
         let together = |together: &Together| TogetherJson {
             changes: together.changes.iter().map(|change| self.change_json(change)).collect(),
             verdict: together.after.verdict,
-            margin_after: Json(self.file.least_margin(&together.after)),
+            margin_after: Json(clatter_assess::least_margin(self.file, &together.after)),
         };
         PartJson {
             name: &component.name,
             verdict: component.verdict,
-            margin: Json(self.file.least_margin(component)),
+            margin: Json(clatter_assess::least_margin(self.file, component)),
             remedies: part.iter().flat_map(|part| &part.levers).map(|remedy| self.remedy_json(remedy)).collect(),
             pair: part.and_then(|part| part.pair.as_ref()).map(together),
             nearest: part.and_then(|part| part.nearest.as_ref()).map(together),
@@ -140,7 +143,7 @@ impl<'a> Answer<'a> {
                     from: Some(from),
                     to: Some(to),
                     radius_of_gyration_m,
-                    margin_after: Some(Json(self.file.least_margin(after))),
+                    margin_after: Some(Json(clatter_assess::least_margin(self.file, after))),
                     warning: (!notes.is_empty()).then(|| notes.join("; ")),
                     ..none
                 }
@@ -186,7 +189,7 @@ struct PlaneJson {
 struct PartJson<'a> {
     name: &'a str,
     verdict: Verdict,
-    /// The margin, as of [`ProductFile::least_margin`].
+    /// The margin, as of [`clatter_assess::least_margin`].
     margin: Json,
     remedies: Vec<RemedyJson>,
     /// The two changes that are enough together, where no change alone is.

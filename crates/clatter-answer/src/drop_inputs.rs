@@ -1,8 +1,8 @@
 //! This module makes one drop from numbers, as the options of the command and the arguments of the wheel give them.
 
 use clatter::End;
-use clatter_assess::{Model, STANDARD_GRAVITY_M_S2};
 use clatter_flight::{Block, BlockDrop, Body, ContactLaw, Drop, Plate, Profile, Side};
+use clatter_product::{Model, STANDARD_GRAVITY_M_S2};
 
 use crate::Error;
 
@@ -14,7 +14,7 @@ use crate::Error;
 /// # Examples
 /// ```
 /// use clatter_answer::DropInputs;
-/// use clatter_assess::{Model, STANDARD_GRAVITY_M_S2};
+/// use clatter_product::{Model, STANDARD_GRAVITY_M_S2};
 /// let inputs = DropInputs {
 ///     length_m: Some(0.15),
 ///     gyration_m: Some(vec![0.043]),

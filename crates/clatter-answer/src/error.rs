@@ -1,6 +1,6 @@
 //! This module has the reasons why a question has no answer.
 
-use clatter_assess::fit::MOST_SAMPLES;
+use clatter_fit::MOST_SAMPLES;
 use clatter_shock::Pulse;
 
 /// A question that nothing answers: the value, and what is allowed.
@@ -80,10 +80,10 @@ pub enum Error {
     Shock(#[from] clatter_shock::Error),
     /// A fault in the product or its drop.
     #[error(transparent)]
-    Assess(clatter_assess::Error),
+    Assess(clatter_product::Error),
     /// A fault in the fit of measured drops.
     #[error(transparent)]
-    Fit(#[from] clatter_assess::fit::Error),
+    Fit(#[from] clatter_fit::Error),
     /// A fault in a record.
     #[error(transparent)]
     Record(#[from] clatter_record::Error),
@@ -95,9 +95,9 @@ impl Error {
     }
 }
 
-impl From<clatter_assess::Error> for Error {
-    fn from(error: clatter_assess::Error) -> Self {
-        if let clatter_assess::Error::Flight(error) = error { Self::Flight(error) } else { Self::Assess(error) }
+impl From<clatter_product::Error> for Error {
+    fn from(error: clatter_product::Error) -> Self {
+        if let clatter_product::Error::Flight(error) = error { Self::Flight(error) } else { Self::Assess(error) }
     }
 }
 

@@ -3,14 +3,17 @@
 //!
 //! ```
 //! use clatter_answer::explain;
-//! let file = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
-//! let ladders = file.ladders(&file.assess()?, 0.01)?;
+//! let file = clatter_product::ProductFile::read(clatter_product::EXAMPLE, "example.toml")?;
+//! let ladders = clatter_assess::ladders(&file, &clatter_assess::assess(&file)?, 0.01)?;
 //! assert!(!serde_json::to_string(&explain::Answer(&ladders))?.contains("seconds"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use clatter_assess::ladder::{Groups, LandingLadder, LeftOut, LimitLadder, Measured, ProductLadder, Reference, Rung};
-use clatter_assess::{LimitKind, Unit, WorstCase};
+use clatter_assess::{
+    WorstCase,
+    ladder::{Groups, LandingLadder, LeftOut, LimitLadder, Measured, ProductLadder, Reference, Rung},
+};
+use clatter_product::{LimitKind, Unit};
 use serde::{Serialize, Serializer};
 
 use crate::Json;

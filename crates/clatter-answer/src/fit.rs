@@ -2,9 +2,9 @@
 //!
 //! ```
 //! use clatter_answer::fit::{self, Data, Record};
-//! use clatter_assess::ProductFile;
-//! use clatter_assess::fit::Quantity;
-//! let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
+//! use clatter_product::ProductFile;
+//! use clatter_fit::Quantity;
+//! let file = ProductFile::read(clatter_product::EXAMPLE, "example.toml")?;
 //! // Each flight of what bounces flat is 0.4 of the one before.
 //! let bounces = Record { name: "bounces.csv".to_owned(), data: Data::Bounces(vec![0.0, 0.5, 0.7, 0.78, 0.812]) };
 //! let question = fit::Question::new(&file, vec![bounces]);
@@ -17,11 +17,12 @@
 mod list;
 
 use clatter::End;
-use clatter_assess::fit::{
-    self, Estimate, Explanation, Fit, Known, MOST_SAMPLES, Measured, MeasuredDrop, RecordFit, StrikeFit, Undetermined,
+use clatter_fit as fit;
+use clatter_fit::{
+    Estimate, Explanation, Fit, Known, MOST_SAMPLES, Measured, MeasuredDrop, RecordFit, StrikeFit, Undetermined,
     Written,
 };
-use clatter_assess::{ProductFile, optional_inputs};
+use clatter_product::{ProductFile, optional_inputs};
 use serde::{Serialize, Serializer};
 
 pub use list::{List, options, refusal};
@@ -137,17 +138,17 @@ pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
     }
     let bounces = matches!(&records[..], [Record { data: Data::Bounces(_), .. }]);
     if file.product.body.is_wide() && !bounces {
-        return Err(clatter_assess::Error::FitOfPlate.into());
+        return Err(clatter_product::Error::FitOfPlate.into());
     }
     if !file.product.own_contacts.is_none() {
-        return Err(clatter_assess::Error::AlikeContacts("a fit").into());
+        return Err(clatter_product::Error::AlikeContacts("a fit").into());
     }
     if !(file.landings.is_empty() || bounces) {
-        return Err(clatter_assess::Error::OneDrop("a fit of strikes, heights or accelerations").into());
+        return Err(clatter_product::Error::OneDrop("a fit of strikes, heights or accelerations").into());
     }
     let mut optional = optional_inputs().filter(|(row, _)| row.input.is_there(&file.product, &file.drop));
     if let Some((row, _)) = optional.next().filter(|_| !bounces) {
-        return Err(clatter_assess::Error::Without("a fit of strikes, heights or accelerations", row.name).into());
+        return Err(clatter_product::Error::Without("a fit of strikes, heights or accelerations", row.name).into());
     }
     let known = Known { gyration_known, ..Known::from(file) };
     Ok(Answer { question, fit: nearest(&known, records, timing_s)? })

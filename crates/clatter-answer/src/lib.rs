@@ -17,7 +17,8 @@
 //!
 //! ```
 //! use clatter_answer::assess;
-//! use clatter_assess::{Accuracy, EXAMPLE, ProductFile};
+//! use clatter_assess::Accuracy;
+//! use clatter_product::{EXAMPLE, ProductFile};
 //! let file = ProductFile::read(EXAMPLE, "example.toml")?;
 //! let answer = serde_json::to_value(assess::answer(&file, &Accuracy::default())?)?;
 //! assert_eq!(answer["components"][0]["name"], file.components[0].name.as_str());
@@ -50,7 +51,7 @@ mod words;
 pub mod zone;
 
 use clatter::End;
-use clatter_assess::visible;
+use clatter_product::visible;
 use clatter_shock::Shape;
 pub use drop_inputs::DropInputs;
 pub use error::Error;

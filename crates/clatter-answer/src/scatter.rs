@@ -3,7 +3,7 @@
 //! ```
 //! use clatter_answer::scatter;
 //! use clatter_assess::scatter::Settings;
-//! let file = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
+//! let file = clatter_product::ProductFile::read(clatter_product::EXAMPLE, "example.toml")?;
 //! let mut answer = scatter::answer(&file, Settings { samples: 200, seed: 1, confidence: 0.95, merge_s: 1e-3 })?;
 //! answer.target = Some(0.999);
 //! // 200 drops cannot show that.
@@ -21,7 +21,7 @@ use clatter_assess::scatter::{
     ComponentScatter, Driver, Error, LandingComponent, LandingScatter, PlateAs, Probability, Sampler, Scatter,
     Settings, Varied,
 };
-use clatter_assess::{Component, DropName, Model, ProductFile};
+use clatter_product::{Component, DropName, Model, ProductFile};
 use serde::{Serialize, Serializer};
 
 use crate::Json;

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use clatter_answer::simulate::{self, Answer};
-//! use clatter_assess::{Body, Drop, Model};
+//! use clatter_product::{Body, Drop, Model};
 //! // Mass spread evenly over 140 mm, at 4.43 m/s and a tilt of 5°.
 //! let drop = Drop::new(Body::new(0.14, 0.0404)?, 4.43, 5_f64.to_radians(), 0.3);
 //! let Answer::Bar(answer) = simulate::answer(&simulate::Question::new(drop, Model::FiniteTilt))? else { panic!("a bar") };
@@ -15,8 +15,8 @@ pub mod bar;
 pub mod block;
 pub mod plate;
 
-use clatter_assess::{Drop, Model};
 use clatter_flight::{Contact, Stop};
+use clatter_product::{Drop, Model};
 use serde::{Serialize, Serializer};
 
 use crate::{Error, Json};

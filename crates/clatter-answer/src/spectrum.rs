@@ -16,7 +16,7 @@
 pub mod boundary;
 mod json;
 
-use clatter_assess::units::Unit;
+use clatter_product::units::Unit;
 use clatter_record::{Between, Channel, Record, TimeAxis};
 use clatter_shock::{
     DampingRatio, Deviation, EnvelopingPulse, Frequencies, LimitCurve, Margin, Pulse, Pulses, Quantity,

@@ -8,7 +8,7 @@
 //!
 //! ```
 //! use clatter_answer::study::{Merge, Shard, Study};
-//! use clatter_assess::{EXAMPLE, Plan};
+//! use clatter_product::{EXAMPLE, Plan};
 //! let plan = Plan::read("product = \"example.toml\"\nsamples = 100", "plan.toml")?;
 //! let study = Study::new(plan, EXAMPLE, "example.toml")?;
 //! let mut merge = Merge::new(&study, 0.95)?;
@@ -31,11 +31,11 @@ mod parts;
 use std::io;
 use std::ops::Range;
 
-use clatter_assess::Input;
-use clatter_assess::scatter::{Column, PartRow, Sampler, Settings};
 use clatter_assess::{
-    Accuracy, Assessment, Component, DropName, Family, Faults, LimitKind, Plan, ProductFile, Verdict,
+    Accuracy, Assessment, Verdict,
+    scatter::{Column, PartRow, Sampler, Settings},
 };
+use clatter_product::{Component, DropName, Family, Faults, Input, LimitKind, Plan, ProductFile};
 use clatter_record::{Field, FieldKind};
 
 pub use answer::{Answer, Member, Outcome, SearchedLimit};
@@ -54,7 +54,7 @@ pub enum Error {
     Scatter(#[from] clatter_assess::scatter::Error),
     /// A product that is not assessed.
     #[error(transparent)]
-    Assess(#[from] clatter_assess::Error),
+    Assess(#[from] clatter_product::Error),
     /// Boxes of one grid that do not go through the same drops.
     #[error(
         "product {0} of the grid goes through other drops than the first; allowed: the same list for all, as the columns tell them"

@@ -1,6 +1,7 @@
 //! This module describes a worst drop in words, which are the same wherever the drop is shown.
 
-use clatter_assess::{Axis, DropName, WorstCase};
+use clatter_assess::WorstCase;
+use clatter_product::{Axis, DropName};
 
 use crate::{letter, significant};
 
@@ -8,8 +9,8 @@ use crate::{letter, significant};
 ///
 /// ```
 /// use clatter_answer::drop_in_words;
-/// use clatter_assess::{EXAMPLE, ProductFile};
-/// let assessment = ProductFile::read(EXAMPLE, "example.toml")?.assess()?;
+/// use clatter_product::{EXAMPLE, ProductFile};
+/// let assessment = clatter_assess::assess(&ProductFile::read(EXAMPLE, "example.toml")?)?;
 /// let worst = assessment.components[0].limits[0].worst_case.expect("a worst drop");
 /// assert!(drop_in_words(&worst).contains(" m/s, e "));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

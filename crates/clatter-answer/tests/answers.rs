@@ -11,11 +11,14 @@ use clatter::{Axis, Bar, Plate, PlateStart, Quantity, Start};
 use clatter_answer::fit::Data;
 use clatter_answer::respond::{self, Excitation};
 use clatter_answer::{assess, atlas, fit, impacts, map, record, scatter, simulate, spectrum, zone};
-use clatter_assess::design::Bounds;
-use clatter_assess::fit::{Known, Measured, MeasuredStrike};
-use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, Body, Drop, Model, Place, ProductFile, Side};
+use clatter_assess::{
+    Accuracy,
+    design::Bounds,
+    scatter::{Sampler, Settings},
+};
+use clatter_fit::{Known, Measured, MeasuredStrike};
 use clatter_flight::{Block, BlockDrop, ContactLaw, PlateScene};
+use clatter_product::{Body, Drop, Model, Place, ProductFile, Side};
 use clatter_record::{Options, Record};
 use clatter_shock::{
     DampingRatio, Frequencies, LimitCurve, Pulse, Pulses, Search, Shape, ShockTable, SpectrumFilter, Suspension,
@@ -92,9 +95,9 @@ fn handheld() -> Result<Drop, Box<dyn Error>> {
 
 fn of_parts(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
     let file = ProductFile::read(include_str!("../../../tests/cases/bar-handheld.toml"), "bar.toml")?;
-    let assessment = file.assess()?;
+    let assessment = clatter_assess::assess(&file)?;
     lines.push(serde_json::to_string(&assessment)?);
-    lines.push(format!("{:?}", file.remedies(&assessment, &Bounds::default(), 0.1)?));
+    lines.push(format!("{:?}", clatter_assess::remedies(&file, &assessment, &Bounds::default(), 0.1)?));
     let sampler = Sampler::new(&file, Settings { samples: 2000, seed: 1, confidence: 0.95, merge_s: 1e-3 })?;
     lines.push(format!("{:?}", sampler.run(false, &|| true, |_| Ok::<_, std::fmt::Error>(()))?));
     let (half_sine, damping) =

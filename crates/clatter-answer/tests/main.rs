@@ -3,9 +3,9 @@
 use clatter::{Axis, Bar, Plate, PlateStart, Quantity, Start};
 use clatter_answer::respond::{self, Excitation};
 use clatter_answer::{atlas, fit, impacts, map, simulate, spectrum, zone};
-use clatter_assess::fit::Measured;
-use clatter_assess::{Body, Drop, Model, Place, ProductFile};
+use clatter_fit::Measured;
 use clatter_flight::{Block, BlockDrop, PlateScene};
+use clatter_product::{Body, Drop, Model, Place, ProductFile};
 use clatter_record::{Options, Record};
 use clatter_shock::{DampingRatio, Pulse, Search, Shape, Suspension};
 use serde_json::{Value, json};
@@ -91,7 +91,7 @@ fn parts_that_no_drop_answers_are_refused() {
     let block = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478]).expect("a box");
     let drop = Drop::of_block(&BlockDrop::tilted(block, 0.5, 0.0, 1.0, 9.806_65).expect("a drop"), 0.3);
     let drop = Drop { contact_time_s: Some(4e-4), ..drop };
-    let mut question = ask(drop, Model::Compliant, Place { at_m: [0.0, 0.04, 0.0], axis: clatter_assess::Axis::Any });
+    let mut question = ask(drop, Model::Compliant, Place { at_m: [0.0, 0.04, 0.0], axis: clatter_product::Axis::Any });
     says(respond::drop::answer(&question).expect_err("beyond the box"), "in m is 0.04");
     (question.places[0].at_m, question.suspension) = ([0.0; 3], Some(part(100.0)));
     says(respond::drop::answer(&question).expect_err("no axis"), "100.0");
@@ -118,13 +118,13 @@ fn records_that_answer_nothing_are_refused() {
     let question = fit::Question::new(&file, vec![bounces, strikes]);
     says(fit::answer(&question).expect_err("two drops"), "of another drop");
     let mut range = file.clone();
-    range.product.gyration_m = clatter_assess::Spread::new(0.05, 0.06, clatter_assess::Law::Range).expect("a range");
+    range.product.gyration_m = clatter_product::Spread::new(0.05, 0.06, clatter_product::Law::Range).expect("a range");
     let mut question = fit::Question::new(&range, Vec::new());
     question.gyration_known = true;
     says(fit::answer(&question).expect_err("not known"), "0.05 to 0.06 m");
     // A plate lands on corners; flat it bounces as any body does.
     let mut plate = file.clone();
-    let width = clatter_assess::Side { ends_m: [0.035; 2], gyration_m: 0.02 };
+    let width = clatter_product::Side { ends_m: [0.035; 2], gyration_m: 0.02 };
     plate.product.body = plate.product.body.with_width(width);
     let strikes = fit::Data::Measured(Measured::Strikes { strikes: Vec::new(), deviation_s: None });
     let question = fit::Question::new(&plate, vec![one(strikes)]);

@@ -2,8 +2,8 @@
 
 use clatter_answer::study::{Answer, Error, Merge, Parts, Shard, Study};
 use clatter_answer::{assess, scatter};
-use clatter_assess::scatter::Settings;
-use clatter_assess::{Accuracy, Plan, ProductFile};
+use clatter_assess::{Accuracy, scatter::Settings};
+use clatter_product::{Plan, ProductFile};
 use serde_json::Value;
 
 /// A bar.

@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use clatter_assess::{EXAMPLE, ProductFile};
+use clatter_product::{EXAMPLE, ProductFile};
 use divan::{Bencher, black_box};
 
 fn main() {
@@ -34,14 +34,14 @@ fn ten(drop: &str, contact: &str) -> ProductFile {
 #[divan::bench(sample_count = 10)]
 fn ten_parts_without_contact_time(bencher: Bencher<'_, '_>) {
     let file = ten("height = [\"0.8 m\", \"1.3 m\"]", "");
-    bencher.bench(|| black_box(&file).assess());
+    bencher.bench(|| clatter_assess::assess(black_box(&file)));
 }
 
 /// Contacts that take time.
 #[divan::bench(sample_count = 10)]
 fn ten_parts(bencher: Bencher<'_, '_>) {
     let file = ten("height = [\"0.8 m\", \"1.3 m\"]", "contact_time = \"0.4 ms\"");
-    bencher.bench(|| black_box(&file).assess());
+    bencher.bench(|| clatter_assess::assess(black_box(&file)));
 }
 
 #[divan::bench(sample_count = 10, args = ["phone", "terminal", "laptop"])]
@@ -52,7 +52,7 @@ fn worked(bencher: Bencher<'_, '_>, name: &str) {
         _ => include_str!("../../../tests/cases/bar-laptop.toml"),
     };
     let file = ProductFile::read(text, name).unwrap_or_else(|faults| panic!("{faults}"));
-    bencher.bench(|| black_box(&file).assess());
+    bencher.bench(|| clatter_assess::assess(black_box(&file)));
 }
 
 /// From text to product.

@@ -3,8 +3,8 @@
 
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
-use clatter_assess::ProductFile;
 use clatter_assess::scatter::{Sampler, Settings};
+use clatter_product::ProductFile;
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 

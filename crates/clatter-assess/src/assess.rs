@@ -4,19 +4,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::Model;
-use crate::attitude::Base;
 use crate::bound::bound;
 use crate::engine::answer;
-use crate::quantity::Source;
 use crate::reason::{Contradiction, Doubt, Note, Reason};
 use crate::search::{Candidate, Coordinates, Ranges, Task, Watch, Worst};
 use crate::{
-    Accuracy, Assessment, Assumed, Component, ComponentAssessment, DropName, DropRanges, Error, Landing,
-    LandingAssessment, Limit, LimitAssessment, LimitKind, ModelChoice, Mount, ProductFile, Sides, Unit, Verdict,
-    WorstCase,
+    Accuracy, Assessment, Assumed, ComponentAssessment, LandingAssessment, LimitAssessment, ModelChoice, Sides,
+    Verdict, WorstCase,
 };
 use clatter_flight::Drop;
+use clatter_product::{
+    Base, Component, DropName, DropRanges, Error, Limit, LimitKind, Model, Mount, ProductFile, Source, Unit,
+};
 
 /// The part of a worst case that the search may miss, as a share of it: tests hold single drops of the same ranges to this.
 pub(crate) const COVERAGE: f64 = 0.02;
@@ -38,371 +37,360 @@ pub(crate) struct Breaker {
 /// The demands that no drop exceeds, by either contact law.
 const NOTHING_BREAKS: [f64; 2] = [f64::INFINITY; 2];
 
-impl ProductFile {
-    /// Finds the worst drop of every component over all stated ranges, and whether it stands it: [`assess_to`](Self::assess_to) 1 %.
-    ///
-    /// # Errors
-    /// As [`assess_to`](Self::assess_to).
-    ///
-    /// # Examples
-    /// ```
-    /// use clatter_assess::{EXAMPLE, ProductFile};
-    /// let assessment = ProductFile::read(EXAMPLE, "example.toml")?.assess()?;
-    /// for limit in assessment.components.iter().flat_map(|c| &c.limits) {
-    ///     assert!(limit.bound.zip(limit.demand).is_none_or(|(bound, demand)| demand <= bound));
-    /// }
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn assess(&self) -> Result<Assessment, Error> {
-        self.assess_to(&Accuracy::default())
-    }
+/// Finds the worst drop of every component over all stated ranges, and whether it stands it: [`assess_to`](crate::assess_to) 1 %.
+///
+/// # Errors
+/// As [`assess_to`](crate::assess_to).
+///
+/// # Examples
+/// ```
+/// use clatter_product::{EXAMPLE, ProductFile};
+/// let assessment = clatter_assess::assess(&ProductFile::read(EXAMPLE, "example.toml")?)?;
+/// for limit in assessment.components.iter().flat_map(|c| &c.limits) {
+///     assert!(limit.bound.zip(limit.demand).is_none_or(|(bound, demand)| demand <= bound));
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn assess(file: &ProductFile) -> Result<Assessment, Error> {
+    assess_to(file, &Accuracy::default())
+}
 
-    /// Assesses the product to a tolerance, or by a named model.
-    ///
-    /// # Method
-    /// Drops of the ranges are followed by the model with the most physics that the data allow: contacts that take time where
-    /// their time is known, else instant impacts at real tilt with gravity. The worst one is searched as the module of
-    /// the search says.
-    ///
-    /// A limit is *unsafe* where a drop was found that exceeds it. It is *safe* where the energy of the drops allows no more than
-    /// it, or where every drop of the search was answered and the worst leaves room for what its answer may be off by, for what
-    /// the search may miss, 2 %, or 10 % of a box and after rebounds, and for the demand of rebounds by their energy. Else it is
-    /// *undecided*, and the reason is reported. The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
-    ///
-    /// # Errors
-    /// Those of [`check`](Self::check) for data that product files do not allow; [`Error::Tolerance`] for a tolerance outside
-    /// [1e-4, 0.5], [`Error::Merge`] for a time that is none; [`Error::Contact`] for the compliant model of a product without contact
-    /// time.
-    pub fn assess_to(&self, accuracy: &Accuracy) -> Result<Assessment, Error> {
-        self.assess_watched(accuracy, &|_, _| true)
-    }
+/// Assesses the product to a tolerance, or by a named model.
+///
+/// # Method
+/// Drops of the ranges are followed by the model with the most physics that the data allow: contacts that take time where
+/// their time is known, else instant impacts at real tilt with gravity. The worst one is searched as the module of
+/// the search says.
+///
+/// A limit is *unsafe* where a drop was found that exceeds it. It is *safe* where the energy of the drops allows no more than
+/// it, or where every drop of the search was answered and the worst leaves room for what its answer may be off by, for what
+/// the search may miss, 2 %, or 10 % of a box and after rebounds, and for the demand of rebounds by their energy. Else it is
+/// *undecided*, and the reason is reported. The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
+///
+/// # Errors
+/// Those of [`ProductFile::check`] for data that product files do not allow; [`Error::Tolerance`] for a tolerance outside
+/// [1e-4, 0.5], [`Error::Merge`] for a time that is none; [`Error::Contact`] for the compliant model of a product without contact
+/// time.
+pub fn assess_to(file: &ProductFile, accuracy: &Accuracy) -> Result<Assessment, Error> {
+    assess_watched(file, accuracy, &|_, _| true)
+}
 
-    /// Assesses the product to a tolerance, watched. Where `watch` says to stop, no more drops are followed: what was found by then is
-    /// answered, unsafe limits as ever, and the others are undecided unless energy alone says that they are safe.
-    ///
-    /// # Errors
-    /// As [`assess_to`](Self::assess_to).
-    pub fn assess_watched(&self, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Assessment, Error> {
-        let all: Vec<&Component> = self.components.iter().collect();
-        let found = self.assess_these(&all, accuracy, NOTHING_BREAKS, watch)?;
-        let Found { components, landings } = found.unwrap_or_else(|_| unreachable!("nothing exceeds infinity"));
-        let verdict = Verdict::of(components.iter().map(|c| c.verdict));
-        let (product, assumed) = (self.product.name.clone(), Assumed::of(self, accuracy));
-        Ok(Assessment { product, verdict, assumed, components, landings, accuracy: *accuracy })
-    }
+/// Assesses the product to a tolerance, watched. Where `watch` says to stop, no more drops are followed: what was found by then is
+/// answered, unsafe limits as ever, and the others are undecided unless energy alone says that they are safe.
+///
+/// # Errors
+/// As [`assess_to`](crate::assess_to).
+pub fn assess_watched(file: &ProductFile, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Assessment, Error> {
+    let all: Vec<&Component> = file.components.iter().collect();
+    let found = assess_these(file, &all, accuracy, NOTHING_BREAKS, watch)?;
+    let Found { components, landings } = found.unwrap_or_else(|_| unreachable!("nothing exceeds infinity"));
+    let verdict = Verdict::of(components.iter().map(|c| c.verdict));
+    let (product, assumed) = (file.product.name.clone(), Assumed::of(file, accuracy));
+    Ok(Assessment { product, verdict, assumed, components, landings, accuracy: *accuracy })
+}
 
-    /// Assesses one component as [`assess_watched`](Self::assess_watched) does, with the same drops.
-    ///
-    /// # Errors
-    /// As [`assess_to`](Self::assess_to); [`Error::OtherProduct`] for a component that is none of this product.
-    ///
-    /// # Examples
-    /// ```
-    /// use clatter_assess::{Accuracy, EXAMPLE, ProductFile};
-    /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
-    /// let alone = file.assess_one(&file.components[1], &Accuracy::default(), &|_, _| true)?;
-    /// assert_eq!(alone, file.assess()?.components[1]);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn assess_one(
-        &self,
-        component: &Component,
-        accuracy: &Accuracy,
-        watch: Watch<'_>,
-    ) -> Result<ComponentAssessment, Error> {
-        if !self.components.contains(component) {
-            return Err(Error::OtherProduct(component.name.clone()));
-        }
-        let found = self.assess_these(&[component], accuracy, NOTHING_BREAKS, watch)?;
-        Ok(found.map_or_else(|_| unreachable!("nothing exceeds infinity"), |mut found| found.components.remove(0)))
+/// Assesses one component as [`assess_watched`] does, with the same drops.
+///
+/// # Errors
+/// As [`assess_to`](crate::assess_to); [`Error::OtherProduct`] for a component that is none of this product.
+///
+/// # Examples
+/// ```
+/// use clatter_assess::Accuracy;
+/// use clatter_product::{EXAMPLE, ProductFile};
+/// let file = ProductFile::read(EXAMPLE, "example.toml")?;
+/// let alone = clatter_assess::assess_one(&file, &file.components[1], &Accuracy::default(), &|_, _| true)?;
+/// assert_eq!(alone, clatter_assess::assess(&file)?.components[1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn assess_one(
+    file: &ProductFile,
+    component: &Component,
+    accuracy: &Accuracy,
+    watch: Watch<'_>,
+) -> Result<ComponentAssessment, Error> {
+    if !file.components.contains(component) {
+        return Err(Error::OtherProduct(component.name.clone()));
     }
+    let found = assess_these(file, &[component], accuracy, NOTHING_BREAKS, watch)?;
+    Ok(found.map_or_else(|_| unreachable!("nothing exceeds infinity"), |mut found| found.components.remove(0)))
+}
 
-    /// Assesses some components as [`assess_watched`](Self::assess_watched) does, with the drops of all, where only drops are of use
-    /// that demand no more than `most` of any of their limits, by the first contact law and by the other: the search ends as soon as
-    /// a drop is answered that demands more, which is reported.
-    pub(crate) fn assess_these(
-        &self,
-        these: &[&Component],
-        accuracy: &Accuracy,
-        most: [f64; 2],
-        watch: Watch<'_>,
-    ) -> Result<Result<Found, Breaker>, Error> {
-        accuracy.check()?;
-        self.check()?;
-        self.check_apart(accuracy.merge_s)?;
-        if let Some(model) = accuracy.model.filter(|model| self.product.body.is_wide() && *model != Model::Compliant) {
-            return Err(Error::PlateModel(model));
-        }
-        if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
-            return Err(Error::Contact);
-        }
-        let own = !self.product.own_contacts.is_none();
-        if let Some(model) = accuracy.model.filter(|model| own && *model != Model::Compliant) {
-            return Err(Error::OwnContacts(model));
-        }
-        let listed = self.listed();
-        let tasks: Vec<Task<'_>> = these.iter().copied().flat_map(limits_of).collect();
-        let all_tasks: Vec<Task<'_>> = self.components.iter().flat_map(limits_of).collect();
-        let laws = |ranges: Ranges<'_>| match ranges.model {
-            // Contacts that differ are hysteretic.
-            Model::Compliant if !own => vec![ranges.law, ranges.law.other()],
-            _ => vec![ranges.law],
+/// Assesses some components as [`assess_watched`] does, with the drops of all, where only drops are of use
+/// that demand no more than `most` of any of their limits, by the first contact law and by the other: the search ends as soon as
+/// a drop is answered that demands more, which is reported.
+pub(crate) fn assess_these(
+    file: &ProductFile,
+    these: &[&Component],
+    accuracy: &Accuracy,
+    most: [f64; 2],
+    watch: Watch<'_>,
+) -> Result<Result<Found, Breaker>, Error> {
+    accuracy.check()?;
+    file.check()?;
+    file.check_apart(accuracy.merge_s)?;
+    if let Some(model) = accuracy.model.filter(|model| file.product.body.is_wide() && *model != Model::Compliant) {
+        return Err(Error::PlateModel(model));
+    }
+    if accuracy.model == Some(Model::Compliant) && file.product.contact_time_s.is_none() {
+        return Err(Error::Contact);
+    }
+    let own = !file.product.own_contacts.is_none();
+    if let Some(model) = accuracy.model.filter(|model| own && *model != Model::Compliant) {
+        return Err(Error::OwnContacts(model));
+    }
+    let listed = file.listed();
+    let tasks: Vec<Task<'_>> = these.iter().copied().flat_map(limits_of).collect();
+    let all_tasks: Vec<Task<'_>> = file.components.iter().flat_map(limits_of).collect();
+    let laws = |ranges: Ranges<'_>| match ranges.model {
+        // Contacts that differ are hysteretic.
+        Model::Compliant if !own => vec![ranges.law, ranges.law.other()],
+        _ => vec![ranges.law],
+    };
+    let searched: Vec<Vec<Ranges<'_>>> = listed
+        .iter()
+        .map(|one| {
+            let ranges = ranges_of(file, &one.drop, one.base, accuracy);
+            laws(ranges).into_iter().map(|law| Ranges { law, ..ranges }).collect()
+        })
+        .collect();
+    let numbered = searched.iter().map(Vec::len).enumerate();
+    let searches: Vec<(usize, usize)> =
+        numbered.flat_map(|(listed, laws)| (0..laws).map(move |n| (listed, n))).collect();
+    let mut worst: Vec<Vec<Vec<Worst>>> = searched.iter().map(|_| Vec::new()).collect();
+    let progress = SideBySide { done: AtomicUsize::new(0), told: AtomicUsize::new(0), count: searches.len(), watch };
+    for some in searches.chunks(SIDE_BY_SIDE) {
+        let search = |&(listed, n): &(usize, usize)| {
+            let watch = |done, all| progress.goes_on(done, all);
+            let found = searched[listed][n].worst(&tasks, &all_tasks, most[n], &watch);
+            progress.done.fetch_add(1, Ordering::Relaxed);
+            found
         };
-        let searched: Vec<Vec<Ranges<'_>>> = listed
-            .iter()
-            .map(|one| {
-                let ranges = self.ranges_of(&one.drop, one.base, accuracy);
-                laws(ranges).into_iter().map(|law| Ranges { law, ..ranges }).collect()
-            })
-            .collect();
-        let numbered = searched.iter().map(Vec::len).enumerate();
-        let searches: Vec<(usize, usize)> =
-            numbered.flat_map(|(listed, laws)| (0..laws).map(move |n| (listed, n))).collect();
-        let mut worst: Vec<Vec<Vec<Worst>>> = searched.iter().map(|_| Vec::new()).collect();
-        let progress =
-            SideBySide { done: AtomicUsize::new(0), told: AtomicUsize::new(0), count: searches.len(), watch };
-        for some in searches.chunks(SIDE_BY_SIDE) {
-            let search = |&(listed, n): &(usize, usize)| {
-                let watch = |done, all| progress.goes_on(done, all);
-                let found = searched[listed][n].worst(&tasks, &all_tasks, most[n], &watch);
-                progress.done.fetch_add(1, Ordering::Relaxed);
-                found
-            };
-            let found: Vec<Result<Vec<Worst>, Coordinates>> = some.par_iter().map(search).collect();
-            for (&(listed, n), found) in some.iter().zip(found) {
-                match found {
-                    Ok(of_law) => worst[listed].push(of_law),
-                    Err(place) => return Ok(Err(Breaker { other_law: n > 0, listed, place })),
+        let found: Vec<Result<Vec<Worst>, Coordinates>> = some.par_iter().map(search).collect();
+        for (&(listed, n), found) in some.iter().zip(found) {
+            match found {
+                Ok(of_law) => worst[listed].push(of_law),
+                Err(place) => return Ok(Err(Breaker { other_law: n > 0, listed, place })),
+            }
+        }
+    }
+    // The results of all listed drops, of each limit by each law.
+    let judged = |n: usize, task: &Task<'_>, drop: usize| -> Result<Vec<Judged>, Error> {
+        let laws = searched[drop].iter().zip(&worst[drop]);
+        laws.map(|(ranges, worst)| judge(file, ranges, task, &worst[n])).collect()
+    };
+    let mut all = tasks.iter().enumerate();
+    let mut components = Vec::with_capacity(these.len());
+    let names = file.drop_names();
+    let mut landings: Vec<LandingAssessment> = names
+        .iter()
+        .zip(&file.landings)
+        .map(|(name, landing)| LandingAssessment::new(*name, landing, &file.product))
+        .collect();
+    for component in these {
+        // The results are collected for each limit over all drops, and then stops change those of each drop.
+        let mut of_limits = Vec::new();
+        for (n, task) in all.by_ref().take(component.limits.kinds().len()) {
+            let said = |drop: usize| Ok(limit_of(file, &searched[drop][0], task, judged(n, task, drop)?));
+            let of_drops: Vec<Result<LimitAssessment, Error>> = (0..listed.len()).into_par_iter().map(said).collect();
+            // The first of all errors, not the fastest.
+            of_limits.push(of_drops.into_iter().collect::<Result<Vec<_>, _>>()?);
+        }
+        for drop in 0..listed.len() {
+            let mut of_drop: Vec<&mut LimitAssessment> =
+                of_limits.iter_mut().map(|of_drops| &mut of_drops[drop]).collect();
+            stopped(&mut of_drop);
+            if let Some(landing) = landings.get_mut(drop) {
+                for limit in of_drop {
+                    landing.take(component, limit);
                 }
             }
         }
-        // The results of all listed drops, of each limit by each law.
-        let judged = |n: usize, task: &Task<'_>, drop: usize| -> Result<Vec<Judged>, Error> {
-            let laws = searched[drop].iter().zip(&worst[drop]);
-            laws.map(|(ranges, worst)| self.judge(ranges, task, &worst[n])).collect()
-        };
-        let mut all = tasks.iter().enumerate();
-        let mut components = Vec::with_capacity(these.len());
-        let names = self.drop_names();
-        let mut landings: Vec<LandingAssessment> = names
-            .iter()
-            .zip(&self.landings)
-            .map(|(name, landing)| LandingAssessment::new(*name, landing, &self.product))
-            .collect();
-        for component in these {
-            // The results are collected for each limit over all drops, and then stops change those of each drop.
-            let mut of_limits = Vec::new();
-            for (n, task) in all.by_ref().take(component.limits.kinds().len()) {
-                let said = |drop: usize| Ok(self.limit(&searched[drop][0], task, judged(n, task, drop)?));
-                let of_drops: Vec<Result<LimitAssessment, Error>> =
-                    (0..listed.len()).into_par_iter().map(said).collect();
-                // The first of all errors, not the fastest.
-                of_limits.push(of_drops.into_iter().collect::<Result<Vec<_>, _>>()?);
+        let limits = of_limits.into_iter().map(|of_drops| governing(&of_drops, &names)).collect();
+        components.push(verdict(component, file.product.body.is_wide(), limits));
+    }
+    Ok(Ok(Found { components, landings }))
+}
+
+/// Returns the ranges as the search takes them, of a product that falls once.
+#[cfg(test)]
+pub(crate) fn ranges<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Ranges<'a> {
+    ranges_of(file, &file.drop, None, accuracy)
+}
+
+pub(crate) fn ranges_of<'a>(
+    file: &'a ProductFile,
+    drop: &'a DropRanges,
+    base: Option<Base>,
+    accuracy: &Accuracy,
+) -> Ranges<'a> {
+    let fullest = if file.product.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt };
+    let model = accuracy.model.unwrap_or(fullest);
+    let law = file.product.law();
+    let listed = file.landings.len().max(1);
+    let Accuracy { tolerance, merge_s, .. } = *accuracy;
+    Ranges { product: &file.product, drop, model, base, listed, law, tolerance, merge_s }
+}
+
+/// Judges a limit by the worst drop that one contact law gives.
+fn judge(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst) -> Result<Judged, Error> {
+    let bound = bound(&file.product, ranges.drop, ranges.base, task.component, &task.limit, ranges.law);
+    let bound = bound.filter(|bound| bound.is_finite());
+    let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound)) };
+    // The steps that need further drops are left out where the time is over.
+    let flat = if worst.stopped { None } else { landing_flat(ranges, task, &asked)? };
+    if let Some(flat) = flat.filter(|flat| ranges.hold(flat) && flat.exceeds(&asked)) {
+        asked = flat;
+    }
+    let found = asked.answer;
+    let utilization = found.utilization();
+    let is_rough = ranges.base.is_some() || asked.late;
+    let covered = utilization * (1.0 + if is_rough { COVERAGE_WHERE_ROUGH } else { COVERAGE });
+    let covered = covered.max(worst.late * (1.0 + COVERAGE_WHERE_ROUGH));
+    let mut of = Judged { most: covered + found.off_by / found.allowed, ..Judged::new(bound) };
+    if !file.product.body.is_wide() && task.limit.kind == LimitKind::AngularVelocityChange {
+        of.notes.push(Note::Rolls);
+    }
+    if found.off_by.is_infinite() && !worst.stopped {
+        of.notes.push(Note::NoError);
+    } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
+        of.notes.push(Note::Error(found.error()));
+    }
+    if worst.later > of.most {
+        of.most = worst.later;
+        of.notes.push(Note::Rebounds(of.most));
+    }
+    // With contacts the edges beyond feet are followed.
+    let by_impacts = file.product.body.feet.is_some() && ranges.model < Model::Compliant;
+    if by_impacts && (worst.later > 0.0 || of.most.is_infinite()) {
+        of.notes.push(Note::Edges);
+    }
+    let drop = ranges.single(&asked.place);
+    if ranges.model < Model::fullest(&drop) && !worst.stopped {
+        let place = asked.part_there(task.component);
+        let (asked, fullest) = (ranges.model, Model::fullest(&drop));
+        match answer(&drop, &place, &task.limit, fullest, ranges.tolerance) {
+            Ok(full) => {
+                let off = full.utilization() - utilization;
+                of.most += off.max(0.0);
+                of.notes.push(Note::Model { asked, fullest, off: off / utilization });
             }
-            for drop in 0..listed.len() {
-                let mut of_drop: Vec<&mut LimitAssessment> =
-                    of_limits.iter_mut().map(|of_drops| &mut of_drops[drop]).collect();
-                stopped(&mut of_drop);
-                if let Some(landing) = landings.get_mut(drop) {
-                    for limit in of_drop {
-                        landing.take(component, limit);
-                    }
-                }
-            }
-            let limits = of_limits.into_iter().map(|of_drops| governing(&of_drops, &names)).collect();
-            components.push(verdict(component, self.product.body.is_wide(), limits));
-        }
-        Ok(Ok(Found { components, landings }))
-    }
-
-    /// Returns the drops that are searched one after the other: all that are listed, or the one of the file.
-    pub(crate) fn listed(&self) -> Vec<Listed> {
-        let base = |landing: &Landing| {
-            let (faces_m, attitude) = self.product.body.faces_m().zip(landing.attitude)?;
-            Some(Base { up: attitude.upward(faces_m), spin_axis: attitude.about() })
-        };
-        if self.landings.is_empty() {
-            return vec![Listed { drop: self.drop, base: None }];
-        }
-        self.landings.iter().map(|landing| Listed { drop: landing.drop, base: base(landing) }).collect()
-    }
-
-    /// Returns the ranges as the search takes them, of a product that falls once.
-    #[cfg(test)]
-    pub(crate) fn ranges(&self, accuracy: &Accuracy) -> Ranges<'_> {
-        self.ranges_of(&self.drop, None, accuracy)
-    }
-
-    pub(crate) fn ranges_of<'a>(&'a self, drop: &'a DropRanges, base: Option<Base>, accuracy: &Accuracy) -> Ranges<'a> {
-        let fullest = if self.product.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt };
-        let model = accuracy.model.unwrap_or(fullest);
-        let law = self.product.law();
-        let listed = self.landings.len().max(1);
-        let Accuracy { tolerance, merge_s, .. } = *accuracy;
-        Ranges { product: &self.product, drop, model, base, listed, law, tolerance, merge_s }
-    }
-
-    /// Judges a limit by the worst drop that one contact law gives.
-    fn judge(&self, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst) -> Result<Judged, Error> {
-        let bound = bound(&self.product, ranges.drop, ranges.base, task.component, &task.limit, ranges.law);
-        let bound = bound.filter(|bound| bound.is_finite());
-        let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound)) };
-        // The steps that need further drops are left out where the time is over.
-        let flat = if worst.stopped { None } else { Self::flat(ranges, task, &asked)? };
-        if let Some(flat) = flat.filter(|flat| ranges.hold(flat) && flat.exceeds(&asked)) {
-            asked = flat;
-        }
-        let found = asked.answer;
-        let utilization = found.utilization();
-        let is_rough = ranges.base.is_some() || asked.late;
-        let covered = utilization * (1.0 + if is_rough { COVERAGE_WHERE_ROUGH } else { COVERAGE });
-        let covered = covered.max(worst.late * (1.0 + COVERAGE_WHERE_ROUGH));
-        let mut of = Judged { most: covered + found.off_by / found.allowed, ..Judged::new(bound) };
-        if !self.product.body.is_wide() && task.limit.kind == LimitKind::AngularVelocityChange {
-            of.notes.push(Note::Rolls);
-        }
-        if found.off_by.is_infinite() && !worst.stopped {
-            of.notes.push(Note::NoError);
-        } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
-            of.notes.push(Note::Error(found.error()));
-        }
-        if worst.later > of.most {
-            of.most = worst.later;
-            of.notes.push(Note::Rebounds(of.most));
-        }
-        // With contacts the edges beyond feet are followed.
-        let by_impacts = self.product.body.feet.is_some() && ranges.model < Model::Compliant;
-        if by_impacts && (worst.later > 0.0 || of.most.is_infinite()) {
-            of.notes.push(Note::Edges);
-        }
-        let drop = ranges.single(&asked.place);
-        if ranges.model < Model::fullest(&drop) && !worst.stopped {
-            let place = asked.part_there(task.component);
-            let (asked, fullest) = (ranges.model, Model::fullest(&drop));
-            match answer(&drop, &place, &task.limit, fullest, ranges.tolerance) {
-                Ok(full) => {
-                    let off = full.utilization() - utilization;
-                    of.most += off.max(0.0);
-                    of.notes.push(Note::Model { asked, fullest, off: off / utilization });
-                }
-                Err(Error::Stopped) => return Err(Error::Stopped),
-                Err(error) => of.doubts.push(Doubt::Fullest(fullest, error)),
-            }
-        }
-        if drop.body.is_wide() && drop.is_level && !worst.stopped {
-            let thickness_m = drop.body.thickness().m();
-            match ranges.as_block(task, &asked, &worst.near) {
-                Ok(most) => {
-                    of.most += (most - utilization).max(0.0);
-                    if utilization > 0.0 {
-                        of.notes.push(Note::Tilt { off: most / utilization - 1.0, thickness_m });
-                    }
-                }
-                Err(error) => of.doubts.push(Doubt::NoTilt(error)),
-            }
-        }
-        let frictionless = of.most;
-        if worst.with_friction > 0.0 {
-            of.most += (worst.with_friction - utilization).max(0.0);
-            of.notes.push(Note::Friction(worst.with_friction));
-        }
-        if let Some((count, error)) = worst.refused.clone() {
-            of.doubts.push(Doubt::Refused { count, drops: worst.drops, error });
-        }
-        if worst.stopped {
-            let refused = worst.refused.as_ref().map_or(0, |(count, _)| *count);
-            of.doubts.push(Doubt::Stopped { answered: worst.drops.saturating_sub(refused) });
-        }
-        // The demand of drops that are not known may be any number that energy allows; a damage boundary has two.
-        let is_known = of.doubts.iter().all(|doubt| matches!(doubt, Doubt::Stopped { .. }));
-        if !is_known {
-            let by_energy = bound.filter(|_| task.limit.kind.source() != Source::Boundary);
-            of.most = by_energy.map_or(f64::INFINITY, |bound| bound / task.limit.allowed);
-        } else if utilization <= 1.0 && !of.most.is_finite() {
-            of.doubts.push(Doubt::NoBound);
-        } else if utilization <= 1.0 && of.most > 1.0 {
-            let (found, most) = (utilization, of.most);
-            let others =
-                if frictionless > 1.0 { Doubt::Others { found, most } } else { Doubt::Friction { found, most } };
-            of.doubts.push(others);
-        }
-        of.most = of.most.max(utilization);
-        let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
-        of.verdict = if utilization > 1.0 {
-            Verdict::Unsafe
-        } else if held || of.doubts.is_empty() {
-            Verdict::Safe
-        } else {
-            Verdict::Undecided
-        };
-        if of.verdict == Verdict::Unsafe && of.most.is_infinite() && !of.doubts.is_empty() {
-            of.notes.push(Note::Open(of.doubts.clone()));
-        }
-        of.flat = flat.map(|flat| flat.answer.value);
-        of.asked = Some(asked);
-        Ok(of)
-    }
-
-    /// Returns the demand of the worst drop if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the
-    /// same place of them.
-    fn flat(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Candidate) -> Result<Option<Candidate>, Error> {
-        let drop = ranges.single(&worst.place).flattened();
-        let part = worst.part_there(task.component);
-        let limit = in_unit(&task.limit, worst.answer.unit);
-        let flat = match answer(&drop, &part, &limit, ranges.model, ranges.tolerance) {
             Err(Error::Stopped) => return Err(Error::Stopped),
-            flat => flat.ok(),
-        };
-        let place = worst.place.flattened(drop.is_flat);
-        Ok(flat.map(|answer| Candidate { place, part: worst.part, answer, late: false }))
-    }
-
-    /// Returns the limit by its contact laws: its own first, and then the other one where contacts take time.
-    fn limit(&self, ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitAssessment {
-        let mut judged = judged.into_iter();
-        let Some(own) = judged.next() else { unreachable!("drops are followed by one law at least") };
-        let other = judged.next();
-        let Judged { asked, mut verdict, mut doubts, notes, most, bound, flat } = own;
-        let named = self.product.contact_law.is_some();
-        let other_law = other.as_ref().and_then(|other| Some(in_unit_of(asked.as_ref()?, other.asked.as_ref()?)));
-        if let Some(other) = other.filter(|other| !named && other.verdict != verdict) {
-            let law = ranges.law.other();
-            let decided = |of: Verdict| of != Verdict::Undecided;
-            if decided(verdict) && decided(other.verdict) {
-                let share = |asked: Option<Candidate>| asked.map(|asked| asked.answer.utilization());
-                doubts = vec![Doubt::Laws([(ranges.law, share(asked)), (law, share(other.asked))])];
-            } else if decided(verdict) {
-                doubts = vec![Doubt::OtherLaw { law, doubts: other.doubts }];
-            } else if other.verdict == Verdict::Unsafe {
-                doubts.push(Doubt::ExceededByOtherLaw(law));
-            }
-            verdict = Verdict::Undecided;
+            Err(error) => of.doubts.push(Doubt::Fullest(fullest, error)),
         }
-        let (demand, unit) = (asked.map(|asked| asked.answer), task.limit.kind.unit());
-        let utilization = demand.map_or(0.0, |answer| answer.utilization());
-        // With no demand and none to come it is 0.
-        let uncertainty = if demand.is_none() { f64::INFINITY } else { (most / utilization - 1.0).max(0.0) };
-        let shown = asked.map_or_else(|| ranges.middle(task.component), |asked| asked.place);
-        let mut limit = LimitAssessment {
-            limit: task.limit.kind,
-            unit: demand.map_or(unit, |answer| answer.unit),
-            allowed: demand.map_or(task.limit.allowed, |answer| answer.allowed),
-            demand: demand.map(|answer| answer.value),
-            margin: demand.map(|answer| answer.allowed / answer.value - 1.0),
-            verdict,
-            bound: bound.filter(|_| demand.is_none_or(|answer| answer.unit == unit)),
-            uncertainty,
-            governs: None,
-            clatter_free: flat,
-            other_law,
-            worst_case: asked.map(|asked| worst_case(&asked, ranges, task.component)),
-            model: model(ranges, task, accuracy_reason(ranges, &ranges.single(&shown))),
-            undecided: if verdict == Verdict::Undecided { doubts } else { Vec::new() },
-            notes,
-        };
-        limit.hold_to_bound(ranges.tolerance);
-        limit
     }
+    if drop.body.is_wide() && drop.is_level && !worst.stopped {
+        let thickness_m = drop.body.thickness().m();
+        match ranges.as_block(task, &asked, &worst.near) {
+            Ok(most) => {
+                of.most += (most - utilization).max(0.0);
+                if utilization > 0.0 {
+                    of.notes.push(Note::Tilt { off: most / utilization - 1.0, thickness_m });
+                }
+            }
+            Err(error) => of.doubts.push(Doubt::NoTilt(error)),
+        }
+    }
+    let frictionless = of.most;
+    if worst.with_friction > 0.0 {
+        of.most += (worst.with_friction - utilization).max(0.0);
+        of.notes.push(Note::Friction(worst.with_friction));
+    }
+    if let Some((count, error)) = worst.refused.clone() {
+        of.doubts.push(Doubt::Refused { count, drops: worst.drops, error });
+    }
+    if worst.stopped {
+        let refused = worst.refused.as_ref().map_or(0, |(count, _)| *count);
+        of.doubts.push(Doubt::Stopped { answered: worst.drops.saturating_sub(refused) });
+    }
+    // The demand of drops that are not known may be any number that energy allows; a damage boundary has two.
+    let is_known = of.doubts.iter().all(|doubt| matches!(doubt, Doubt::Stopped { .. }));
+    if !is_known {
+        let by_energy = bound.filter(|_| task.limit.kind.source() != Source::Boundary);
+        of.most = by_energy.map_or(f64::INFINITY, |bound| bound / task.limit.allowed);
+    } else if utilization <= 1.0 && !of.most.is_finite() {
+        of.doubts.push(Doubt::NoBound);
+    } else if utilization <= 1.0 && of.most > 1.0 {
+        let (found, most) = (utilization, of.most);
+        let others = if frictionless > 1.0 { Doubt::Others { found, most } } else { Doubt::Friction { found, most } };
+        of.doubts.push(others);
+    }
+    of.most = of.most.max(utilization);
+    let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
+    of.verdict = if utilization > 1.0 {
+        Verdict::Unsafe
+    } else if held || of.doubts.is_empty() {
+        Verdict::Safe
+    } else {
+        Verdict::Undecided
+    };
+    if of.verdict == Verdict::Unsafe && of.most.is_infinite() && !of.doubts.is_empty() {
+        of.notes.push(Note::Open(of.doubts.clone()));
+    }
+    of.flat = flat.map(|flat| flat.answer.value);
+    of.asked = Some(asked);
+    Ok(of)
+}
+
+/// Returns the demand of the worst drop if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the
+/// same place of them.
+fn landing_flat(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Candidate) -> Result<Option<Candidate>, Error> {
+    let drop = ranges.single(&worst.place).flattened();
+    let part = worst.part_there(task.component);
+    let limit = in_unit(&task.limit, worst.answer.unit);
+    let flat = match answer(&drop, &part, &limit, ranges.model, ranges.tolerance) {
+        Err(Error::Stopped) => return Err(Error::Stopped),
+        flat => flat.ok(),
+    };
+    let place = worst.place.flattened(drop.is_flat);
+    Ok(flat.map(|answer| Candidate { place, part: worst.part, answer, late: false }))
+}
+
+/// Returns the limit by its contact laws: its own first, and then the other one where contacts take time.
+fn limit_of(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitAssessment {
+    let mut judged = judged.into_iter();
+    let Some(own) = judged.next() else { unreachable!("drops are followed by one law at least") };
+    let other = judged.next();
+    let Judged { asked, mut verdict, mut doubts, notes, most, bound, flat } = own;
+    let named = file.product.contact_law.is_some();
+    let other_law = other.as_ref().and_then(|other| Some(in_unit_of(asked.as_ref()?, other.asked.as_ref()?)));
+    if let Some(other) = other.filter(|other| !named && other.verdict != verdict) {
+        let law = ranges.law.other();
+        let decided = |of: Verdict| of != Verdict::Undecided;
+        if decided(verdict) && decided(other.verdict) {
+            let share = |asked: Option<Candidate>| asked.map(|asked| asked.answer.utilization());
+            doubts = vec![Doubt::Laws([(ranges.law, share(asked)), (law, share(other.asked))])];
+        } else if decided(verdict) {
+            doubts = vec![Doubt::OtherLaw { law, doubts: other.doubts }];
+        } else if other.verdict == Verdict::Unsafe {
+            doubts.push(Doubt::ExceededByOtherLaw(law));
+        }
+        verdict = Verdict::Undecided;
+    }
+    let (demand, unit) = (asked.map(|asked| asked.answer), task.limit.kind.unit());
+    let utilization = demand.map_or(0.0, |answer| answer.utilization());
+    // With no demand and none to come it is 0.
+    let uncertainty = if demand.is_none() { f64::INFINITY } else { (most / utilization - 1.0).max(0.0) };
+    let shown = asked.map_or_else(|| ranges.middle(task.component), |asked| asked.place);
+    let mut limit = LimitAssessment {
+        limit: task.limit.kind,
+        unit: demand.map_or(unit, |answer| answer.unit),
+        allowed: demand.map_or(task.limit.allowed, |answer| answer.allowed),
+        demand: demand.map(|answer| answer.value),
+        margin: demand.map(|answer| answer.allowed / answer.value - 1.0),
+        verdict,
+        bound: bound.filter(|_| demand.is_none_or(|answer| answer.unit == unit)),
+        uncertainty,
+        governs: None,
+        clatter_free: flat,
+        other_law,
+        worst_case: asked.map(|asked| worst_case(&asked, ranges, task.component)),
+        model: model(ranges, task, accuracy_reason(ranges, &ranges.single(&shown))),
+        undecided: if verdict == Verdict::Undecided { doubts } else { Vec::new() },
+        notes,
+    };
+    limit.hold_to_bound(ranges.tolerance);
+    limit
 }
 
 impl LimitAssessment {
@@ -453,13 +441,6 @@ impl SideBySide<'_> {
 pub(crate) struct Found {
     pub(crate) components: Vec<ComponentAssessment>,
     landings: Vec<LandingAssessment>,
-}
-
-/// A drop that is searched.
-pub(crate) struct Listed {
-    pub(crate) drop: DropRanges,
-    /// The posture of a box as it lands.
-    pub(crate) base: Option<Base>,
 }
 
 /// Returns the result of all listed drops together for one limit. The demand is the largest of all drops that were answered, with the drop
@@ -643,8 +624,8 @@ mod tests {
     /// A drop that went unanswered counts before one that leaves little room, and an unsafe one before both.
     #[test]
     fn the_governing_drop_is_the_one_of_the_worst_verdict() {
-        let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
-        let limit = file.assess().unwrap().components[0].limits[0].clone();
+        let file = ProductFile::read(clatter_product::EXAMPLE, "example.toml").unwrap();
+        let limit = assess(&file).unwrap().components[0].limits[0].clone();
         let of = |verdict, share: Option<f64>| LimitAssessment {
             demand: share.map(|share| share * limit.allowed),
             margin: share.map(|share| 1.0 / share - 1.0),
@@ -673,8 +654,8 @@ mod tests {
     /// An assessment that says more of a drop than its energy allows is an error of the program: it has no bound, and is not safe.
     #[test]
     fn a_demand_above_its_bound_is_told_as_an_error() {
-        let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
-        let mut limit = file.assess().unwrap().components[0].limits[0].clone();
+        let file = ProductFile::read(clatter_product::EXAMPLE, "example.toml").unwrap();
+        let mut limit = assess(&file).unwrap().components[0].limits[0].clone();
         assert_eq!(limit.verdict, Verdict::Safe);
         limit.bound = limit.demand.map(|demand| demand / 1.005);
         let mut near = limit.clone();
@@ -695,8 +676,8 @@ mod tests {
     /// may add is reported by shares: 0.5 of 8 m/s within 60 %, next to 0.4 of 5000 m/s² within 150 %, is all of it, twice what is shown.
     #[test]
     fn drops_in_two_units_are_told_by_shares() {
-        let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
-        let limit = file.assess().unwrap().components[2].limits[0].clone();
+        let file = ProductFile::read(clatter_product::EXAMPLE, "example.toml").unwrap();
+        let limit = assess(&file).unwrap().components[2].limits[0].clone();
         let of = |unit, allowed: f64, share: f64, uncertainty| LimitAssessment {
             unit,
             allowed,
@@ -721,8 +702,8 @@ mod tests {
     /// the shares that they use up.
     #[test]
     fn what_the_other_law_asks_is_told_in_the_unit_of_the_demand() {
-        let file = ProductFile::read(crate::EXAMPLE, "example.toml").unwrap();
-        let place = file.ranges(&Accuracy::default()).middle(&file.components[0]);
+        let file = ProductFile::read(clatter_product::EXAMPLE, "example.toml").unwrap();
+        let place = ranges(&file, &Accuracy::default()).middle(&file.components[0]);
         let of = |value, allowed, unit| {
             let answer = crate::engine::Answer { value, allowed, unit, time_s: 0.0, impact: 1, off_by: 0.0 };
             Candidate { place, part: None, answer, late: false }

@@ -6,9 +6,7 @@
 
 use clatter_flight::{Axis, Body, Contact, ContactLaw, Drop, Levers, Place};
 
-use crate::attitude::Base;
-use crate::quantity::Source;
-use crate::{Component, DropRanges, Limit, Mount, Product};
+use clatter_product::{Base, Component, DropRanges, Limit, Mount, Product, Source};
 
 /// Drops are followed without friction. Parts of a box that move along the ground are assessed with the demand that so much friction may
 /// add: steel, glass and hard plastics on concrete and wood have less, rubber may have more.
@@ -204,7 +202,7 @@ mod random;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ProductFile;
+    use clatter_product::ProductFile;
 
     /// A box that is set on its end falls over: from 75 mm to 7 mm over the ground.
     #[test]

@@ -4,14 +4,16 @@ use clatter_flight::{Drop, Place};
 use clatter_shock::{DampingRatio, Suspension};
 use serde::{Deserialize, Serialize};
 
-use crate::{Error, Model, Part, WorstCase};
+use crate::{Part, WorstCase};
+use clatter_product::{Error, Model};
 
 /// A drop with the part that it shakes, and how it is answered. An assessment writes it as JSON, and `clatter respond --drop` reads it.
 ///
 /// # Examples
 /// ```
-/// use clatter_assess::{Case, EXAMPLE, LimitKind, ProductFile, answer};
-/// let assessment = ProductFile::read(EXAMPLE, "example.toml")?.assess()?;
+/// use clatter_assess::{Case, answer};
+/// use clatter_product::{EXAMPLE, LimitKind, ProductFile};
+/// let assessment = clatter_assess::assess(&ProductFile::read(EXAMPLE, "example.toml")?)?;
 /// let limit = &assessment.components[0].limits[0];
 /// let text = serde_json::to_string(&Case::of(&limit.worst_case.unwrap()))?;
 /// let again: Case = serde_json::from_str(&text)?;

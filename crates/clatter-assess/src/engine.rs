@@ -15,9 +15,8 @@ use clatter_shock::{Pulses, Response, State, Suspension};
 
 use crate::history::{SHORT, pulses};
 use crate::model::{check_drop, follow};
-use crate::quantity::{ResponsePeak, Source};
 use crate::shock::{Shock, largest, largest_turn, samples, shocks_at};
-use crate::{DataFault, Error, Limit, Model, Unit};
+use clatter_product::{DataFault, Error, Limit, Model, ResponsePeak, Source, Unit};
 
 /// A part at one place of the product.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +99,8 @@ impl Answer {
 /// # Examples
 /// The end of the paper's reference bar (q = ½, e = 0.3) has a velocity change of 2.145 v₀ at most, by instant impacts without gravity:
 /// ```
-/// use clatter_assess::{Body, Drop, Limit, LimitKind, Model, Part, answer};
+/// use clatter_assess::{Part, answer};
+/// use clatter_product::{Body, Drop, Limit, LimitKind, Model};
 /// let drop = Drop { gravity_m_s2: 0.0, ..Drop::new(Body::new(0.15, 0.15 / 12_f64.sqrt())?, 4.0, 0.05, 0.3) };
 /// let part = Part::new(0.075, None);
 /// let asked = answer(&drop, &part, &Limit::new(LimitKind::VelocityChange, 9.0), Model::Map, 0.01)?;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use clatter::{Excitation, Section};
 use clatter_shock::Pulses;
 
-use crate::Error;
+use clatter_product::Error;
 
 /// Phase of a part within which pulses act by their impulse, their mean time and their spread alone: what else their shape does is at
 /// most a sixth of their third moment, below (0.7)³/60 of them.

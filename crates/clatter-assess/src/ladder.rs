@@ -17,12 +17,12 @@ use serde::{Serialize, Serializer};
 pub use block::LandingLadder;
 pub use time::Machine;
 
-use crate::Model;
 use crate::engine::{Part, answer};
 use crate::model::follow;
 use crate::verdict::{number, number_or_null};
-use crate::{Assessment, Error, Limit, LimitKind, ProductFile, Unit, WorstCase};
+use crate::{Assessment, WorstCase};
 use clatter_flight::{Drop, Until};
+use clatter_product::{Error, Limit, LimitKind, Model, ProductFile, Unit};
 
 /// The reference is worked out so much more exactly than the tolerance demands.
 const FINER: f64 = 0.1;
@@ -176,7 +176,8 @@ impl Ladder {
     /// # Examples
     /// ```
     /// use clatter_assess::ladder::Ladder;
-    /// use clatter_assess::{Body, Drop, Limit, LimitKind, Part};
+    /// use clatter_assess::Part;
+    /// use clatter_product::{Body, Drop, Limit, LimitKind};
     /// let drop = Drop { contact_time_s: Some(2e-4), ..Drop::new(Body::new(0.14, 0.04)?, 4.43, 0.09, 0.3) };
     /// let part = Part::new(0.06, None);
     /// let ladder = Ladder::measure(&drop, &part, &Limit::new(LimitKind::VelocityChange, 3.0), 0.01)?;
@@ -275,40 +276,38 @@ fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) 
     format!("{}; {} is off by {}", lacks, coarser.model.name(), percent(coarser.error))
 }
 
-impl ProductFile {
-    /// Runs every model on the worst drop of each limit, as an assessment of this file found it.
-    ///
-    /// # Errors
-    /// As [`Ladder::measure`]; [`Error::OtherProduct`] for an assessment of another product.
-    ///
-    /// # Examples
-    /// ```
-    /// use clatter_assess::{EXAMPLE, ProductFile};
-    /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
-    /// let ladders = file.ladders(&file.assess()?, 0.01)?;
-    /// assert!(ladders.limits.iter().all(|limit| limit.ladder.models.len() > 2));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn ladders(&self, assessment: &Assessment, tolerance: f64) -> Result<ProductLadder, Error> {
-        self.check()?;
-        assessment.is_of(self)?;
-        let (mut limits, mut left_out) = (Vec::new(), Vec::new());
-        for (component, assessed) in self.components.iter().zip(&assessment.components) {
-            for (limit, found) in Limit::of(component).iter().zip(&assessed.limits) {
-                let name = component.name.clone();
-                let Some(worst) = found.worst_case.as_ref().filter(|_| found.demand.is_some_and(|demand| demand > 0.0))
-                else {
-                    let reason = found.why_undecided().unwrap_or_else(|| "nothing is asked of it".to_owned());
-                    left_out.push(LeftOut { component: name, limit: limit.kind, reason });
-                    continue;
-                };
-                let ladder = Ladder::measure(&worst.drop, &worst.part, limit, tolerance)?;
-                let (limit, worst_case) = (limit.kind, *worst);
-                limits.push(LimitLadder { component: name, limit, worst_case, ladder });
-            }
+/// Runs every model on the worst drop of each limit, as an assessment of this file found it.
+///
+/// # Errors
+/// As [`Ladder::measure`]; [`Error::OtherProduct`] for an assessment of another product.
+///
+/// # Examples
+/// ```
+/// use clatter_product::{EXAMPLE, ProductFile};
+/// let file = ProductFile::read(EXAMPLE, "example.toml")?;
+/// let ladders = clatter_assess::ladders(&file, &clatter_assess::assess(&file)?, 0.01)?;
+/// assert!(ladders.limits.iter().all(|limit| limit.ladder.models.len() > 2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn ladders(file: &ProductFile, assessment: &Assessment, tolerance: f64) -> Result<ProductLadder, Error> {
+    file.check()?;
+    assessment.is_of(file)?;
+    let (mut limits, mut left_out) = (Vec::new(), Vec::new());
+    for (component, assessed) in file.components.iter().zip(&assessment.components) {
+        for (limit, found) in Limit::of(component).iter().zip(&assessed.limits) {
+            let name = component.name.clone();
+            let Some(worst) = found.worst_case.as_ref().filter(|_| found.demand.is_some_and(|demand| demand > 0.0))
+            else {
+                let reason = found.why_undecided().unwrap_or_else(|| "nothing is asked of it".to_owned());
+                left_out.push(LeftOut { component: name, limit: limit.kind, reason });
+                continue;
+            };
+            let ladder = Ladder::measure(&worst.drop, &worst.part, limit, tolerance)?;
+            let (limit, worst_case) = (limit.kind, *worst);
+            limits.push(LimitLadder { component: name, limit, worst_case, ladder });
         }
-        let (product, machine) = (assessment.product.clone(), Machine::here());
-        let landings = self.landing_ladders(assessment);
-        Ok(ProductLadder { product, tolerance, machine, limits, left_out, landings })
     }
+    let (product, machine) = (assessment.product.clone(), Machine::here());
+    let landings = block::landing_ladders(file, assessment);
+    Ok(ProductLadder { product, tolerance, machine, limits, left_out, landings })
 }

@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter};
 use serde::Serializer;
 
 use crate::bound::FRICTION;
-use crate::{ContactLaw, DropName, Error, Model};
+use clatter_product::{ContactLaw, DropName, Error, Model};
 
 /// The reason why a limit is undecided, or would be if nothing exceeded it. Shares are of the allowed value.
 #[derive(Debug, Clone, PartialEq)]

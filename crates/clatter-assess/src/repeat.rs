@@ -1,6 +1,7 @@
 //! The short command that answers a worst drop once more, from the product file.
 
-use crate::{Accuracy, Case, LimitKind, WorstCase, visible};
+use crate::{Accuracy, Case, WorstCase};
+use clatter_product::{LimitKind, visible};
 
 /// Returns `clatter respond --product=… --component=… --worst=…`, which searches the worst drop of a limit again and answers it; with the
 /// model and the tolerance, where they are not those that an assessment has by itself. None where the command line cannot say it: for a
@@ -8,7 +9,8 @@ use crate::{Accuracy, Case, LimitKind, WorstCase, visible};
 ///
 /// # Examples
 /// ```
-/// use clatter_assess::{Accuracy, LimitKind, repeat};
+/// use clatter_assess::{Accuracy, repeat};
+/// use clatter_product::LimitKind;
 /// let command = repeat("phone.toml", "main board", LimitKind::Acceleration, &Accuracy::default());
 /// assert_eq!(command.unwrap(), "clatter respond --product=phone.toml --component='main board' --worst=acceleration");
 /// ```
@@ -58,7 +60,7 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Model;
+    use clatter_product::Model;
 
     #[test]
     fn what_differs_from_an_assessment_by_itself_is_said() {

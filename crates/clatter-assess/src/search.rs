@@ -23,16 +23,13 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::engine::{Part, PlaceHistory, once};
-use crate::model::{Model, follow};
-use crate::quantity::Source;
-use crate::{Component, Error, Limit, Mount};
+use crate::model::follow;
 use clatter_flight::{Drop, Followed, Place, Until};
+use clatter_product::{Component, Error, Limit, Model, Mount, Source};
 use climb::{CLIMBS, NEAR, starts};
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
-#[cfg(test)]
-pub(crate) use ranges::{AXES, DIRECTION};
 pub(crate) use ranges::{Coordinates, Ranges};
 pub(crate) use ranges::{DAMPING, FREQUENCY};
 

@@ -7,9 +7,12 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use crate::Case;
-use crate::inputs::{INPUTS, Input, Optional, Row, optional_inputs};
+use crate::Part;
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
-use crate::{Axis, Component, Drop, DropName, DropRanges, Landing, LimitKind, Model, Part, Product, ProductFile, Unit};
+use clatter_product::{
+    Axis, Component, Drop, DropName, DropRanges, INPUTS, Input, Landing, LimitKind, MERGE_S, Model, Optional, Product,
+    ProductFile, Row, Unit, optional_inputs,
+};
 
 /// The answer to the question whether every limit holds in the worst drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -62,9 +65,9 @@ impl Assessment {
     /// Checks that it has the components, limits and drops of this product.
     ///
     /// # Errors
-    /// [`Error::OtherProduct`](crate::Error::OtherProduct) with the first component that differs,
-    /// [`Error::OtherDrops`](crate::Error::OtherDrops).
-    pub(crate) fn is_of(&self, file: &ProductFile) -> Result<(), crate::Error> {
+    /// [`Error::OtherProduct`](clatter_product::Error::OtherProduct) with the first component that differs,
+    /// [`Error::OtherDrops`](clatter_product::Error::OtherDrops).
+    pub(crate) fn is_of(&self, file: &ProductFile) -> Result<(), clatter_product::Error> {
         let differs = |(component, assessed): (&Component, &ComponentAssessment)| {
             let limits = assessed.limits.iter().map(|limit| limit.limit);
             component.name != assessed.name || !component.limits.kinds().into_iter().eq(limits)
@@ -75,15 +78,15 @@ impl Assessment {
         let Some(k) = other else { return self.drops_are_of(file) };
         let assessed = self.components.get(k).map(|component| &component.name);
         let name = assessed.or(file.components.get(k).map(|component| &component.name));
-        Err(crate::Error::OtherProduct(name.cloned().unwrap_or_default()))
+        Err(clatter_product::Error::OtherProduct(name.cloned().unwrap_or_default()))
     }
     /// Checks that its worst drops are among those of this product.
-    fn drops_are_of(&self, file: &ProductFile) -> Result<(), crate::Error> {
+    fn drops_are_of(&self, file: &ProductFile) -> Result<(), clatter_product::Error> {
         let (names, limits) = (file.drop_names(), self.components.iter().flat_map(|component| &component.limits));
         let mut worst = limits.filter_map(|limit| limit.worst_case.as_ref());
         let is_of =
             |worst: &WorstCase| worst.listed < names.len().max(1) && worst.landing == names.get(worst.listed).copied();
-        if worst.all(is_of) { Ok(()) } else { Err(crate::Error::OtherDrops) }
+        if worst.all(is_of) { Ok(()) } else { Err(clatter_product::Error::OtherDrops) }
     }
 }
 
@@ -221,9 +224,6 @@ pub struct Accuracy {
     pub merge_s: f64,
 }
 
-/// Instant impacts that are closer than this are one, unless said otherwise: twice what hard cases press.
-pub(crate) const MERGE_S: f64 = 1e-3;
-
 impl Default for Accuracy {
     /// Returns 1 %, by the model with the most physics, 1 ms.
     fn default() -> Self {
@@ -235,7 +235,7 @@ impl Accuracy {
     /// Checks that the tolerance and the time within which impacts are one are in range.
     ///
     /// # Errors
-    /// [`Error::Tolerance`](crate::Error::Tolerance) outside [1e-4, 0.5], [`Error::Merge`](crate::Error::Merge) unless finite and not
+    /// [`Error::Tolerance`](clatter_product::Error::Tolerance) outside [1e-4, 0.5], [`Error::Merge`](clatter_product::Error::Merge) unless finite and not
     /// negative.
     ///
     /// ```
@@ -243,17 +243,17 @@ impl Accuracy {
     /// assert!(Accuracy::default().check().is_ok());
     /// assert!(Accuracy { tolerance: 0.0, ..Accuracy::default() }.check().is_err());
     /// ```
-    pub fn check(&self) -> Result<(), crate::Error> {
+    pub fn check(&self) -> Result<(), clatter_product::Error> {
         if !(1e-4..=0.5).contains(&self.tolerance) {
-            return Err(crate::Error::Tolerance(self.tolerance));
+            return Err(clatter_product::Error::Tolerance(self.tolerance));
         }
         merge(self.merge_s)
     }
 }
 
 /// Checks that this is a valid time within which impacts count as one, in seconds.
-pub(crate) fn merge(time_s: f64) -> Result<(), crate::Error> {
-    if time_s >= 0.0 && time_s.is_finite() { Ok(()) } else { Err(crate::Error::Merge(time_s)) }
+pub(crate) fn merge(time_s: f64) -> Result<(), clatter_product::Error> {
+    if time_s >= 0.0 && time_s.is_finite() { Ok(()) } else { Err(clatter_product::Error::Merge(time_s)) }
 }
 
 /// The verdict on one component.
@@ -518,13 +518,13 @@ pub(crate) fn number_or_null<S: Serializer>(value: &Option<f64>, serializer: S) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::EXAMPLE;
+    use clatter_product::EXAMPLE;
 
     /// A landing takes the worst verdict of its limits, whichever limit comes last.
     #[test]
     fn a_landing_is_as_its_worst_limit() {
         let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();
-        let mut limit = file.assess().unwrap().components[0].limits[0].clone();
+        let mut limit = crate::assess(&file).unwrap().components[0].limits[0].clone();
         let mut landing = LandingAssessment::new(DropName::Number(1), &Landing::tilted(file.drop), &file.product);
         for (own, all) in [
             (Verdict::Safe, Verdict::Safe),

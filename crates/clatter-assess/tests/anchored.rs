@@ -1,7 +1,8 @@
 //! Signs, axes and places, each held to a case that is worked out here from the file's numbers alone.
 
-use clatter_assess::{ContactLaw, Drop, Limit, LimitKind, Model, Part, Place, ProductFile, Verdict, answer};
+use clatter_assess::{Part, Verdict, answer};
 use clatter_flight::{Contact, Plate, PlateScene};
+use clatter_product::{ContactLaw, Drop, Limit, LimitKind, Model, Place, ProductFile};
 
 type Vector = [f64; 3];
 
@@ -29,7 +30,7 @@ fn read(text: &str) -> ProductFile {
 
 /// The demand of each limit of the file, in its order.
 fn demands(text: &str) -> Vec<f64> {
-    let assessment = read(text).assess().unwrap();
+    let assessment = clatter_assess::assess(&read(text)).unwrap();
     assessment.components.iter().flat_map(|part| &part.limits).map(|limit| limit.demand.expect("an answer")).collect()
 }
 
@@ -89,7 +90,7 @@ fn a_box_with_masses_askew_lands_as_its_file_says() {
                  position = [\"-55 mm\", \"-30 mm\"]\nheight = \"11 mm\"\naxis = \"{axis}\"\nmount = \"hard\"\nvelocity_change_limit = \"9 m/s\"\n"
             );
             let file = read(&text);
-            let drop = file.assess().unwrap().components[0].limits[0].worst_case.expect("a drop").drop;
+            let drop = clatter_assess::assess(&file).unwrap().components[0].limits[0].worst_case.expect("a drop").drop;
             let block = drop.of_box().unwrap().unwrap().block();
             for (got, want) in block.center_of_mass_m().into_iter().zip(center) {
                 assert!((got - want).abs() < 1e-12, "{got}, not {want}");
@@ -124,7 +125,8 @@ fn a_plate_that_turns_on_lands_harder() {
              velocity_change_limit = \"99 m/s\"\n",
             direction.to_degrees()
         );
-        let drop = read(&text).assess().unwrap().components[0].limits[0].worst_case.expect("a drop").drop;
+        let drop =
+            clatter_assess::assess(&read(&text)).unwrap().components[0].limits[0].worst_case.expect("a drop").drop;
         let limit = Limit::new(LimitKind::VelocityChange, 99.0);
         let part = Part::at(Place::flat([-0.08, -0.04]), None);
         let asked = answer(&drop, &part, &limit, Model::Compliant, 0.001).unwrap();
@@ -216,7 +218,7 @@ damping_ratio = 0.1
 acceleration_limit = "3000 gn"
 rattle_space = "6 mm"
 "#;
-    let assessment = read(text).assess().unwrap();
+    let assessment = clatter_assess::assess(&read(text)).unwrap();
     let limits = &assessment.components[0].limits;
     let verdicts: Vec<Verdict> = limits.iter().map(|limit| limit.verdict).collect();
     assert_eq!(verdicts, [Verdict::Undecided, Verdict::Unsafe]);
@@ -234,7 +236,7 @@ fn the_energy_of_a_bar_is_that_of_its_fall_its_spin_and_its_height() {
              contact_law = \"hysteretic\"\n{feet}\n[drop]\nspeed = \"3 m/s\"\ntilt = \"4 deg\"\n{spin}\n[[component]]\nname = \"part\"\n\
              position = \"20 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"99 m/s\"\n"
         );
-        let limit = read(&text).assess().unwrap().components[0].limits[0].clone();
+        let limit = clatter_assess::assess(&read(&text)).unwrap().components[0].limits[0].clone();
         (limit.bound.expect("a bound"), limit.demand.expect("an answer"))
     };
     let bound = |spin: f64| {

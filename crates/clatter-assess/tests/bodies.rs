@@ -1,6 +1,6 @@
 //! Bodies: all mass and every part lies within the faces, in a file and in code.
 
-use clatter_assess::{ContactLaw, DataFault, Error, Law, ProductFile, Side, Spread};
+use clatter_product::{ContactLaw, DataFault, Error, Law, ProductFile, Side, Spread};
 
 use crate::random::Random;
 
@@ -164,7 +164,7 @@ fn impossible_bodies_are_refused_in_code() {
         change(&mut file);
         let told = file.check().expect_err(said).to_string();
         assert!(told.contains(said), "{told}\n{said}");
-        assert_eq!(file.assess().expect_err(said).to_string(), told);
+        assert_eq!(clatter_assess::assess(&file).expect_err(said).to_string(), told);
     }
     // A center of mass and all of one side's mass next to one end: ∫x y dm is at most that of a corner.
     let mut file = read(&a_box()).expect("a box");

@@ -2,12 +2,13 @@
 
 use crate::boxes::{HANDHELD, on};
 use crate::plates::file;
-use clatter_assess::design::{Bounds, Lever, Outcome};
-use clatter_assess::ladder::Rung;
-use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings, Varied};
 use clatter_assess::{
-    Attitude, Drop, DropName, Input, Law, Limit, LimitKind, Model, Mount, Part, ProductFile, Spread, Verdict, answer,
+    Part, Verdict, answer,
+    design::{Bounds, Lever, Outcome},
+    ladder::Rung,
+    scatter::{Column, Progress, Sampler, Scatter, Settings, Varied},
 };
+use clatter_product::{Attitude, Drop, DropName, Input, Law, Limit, LimitKind, Model, Mount, ProductFile, Spread};
 use clatter_shock::{DampingRatio, Suspension};
 
 fn settings(samples: u64) -> Settings {
@@ -87,7 +88,7 @@ fn a_flat_landing_without_ranges_survives_as_it_is_assessed() {
                 .replace("mount =", &along)
                 .replace("natural_frequency", &format!("axis = \"{axis}\"\nnatural_frequency"));
             let file = file(&text.replace("5000 gn", acceleration).replace("9 mm\"", &format!("{rattle}\"")));
-            let (assessment, scatter) = (file.assess().unwrap(), run(&file, 3));
+            let (assessment, scatter) = (clatter_assess::assess(&file).unwrap(), run(&file, 3));
             assert!(scatter.inputs.is_empty() && scatter.unanswered == 0);
             assert_eq!(assessment.components.iter().map(|c| c.verdict).collect::<Vec<_>>(), verdicts);
             for (verdict, part) in verdicts.into_iter().zip(&scatter.components) {
@@ -286,7 +287,7 @@ fn the_drops_of_a_list_have_their_names() {
 #[test]
 fn a_tolerance_leaves_open_whether_a_box_clatters() {
     let file = file(&HANDHELD.replace("extent = [\"20 mm\", \"10 mm\"]\n", ""));
-    let ladders = file.ladders(&file.assess().unwrap(), 0.05).unwrap();
+    let ladders = clatter_assess::ladders(&file, &clatter_assess::assess(&file).unwrap(), 0.05).unwrap();
     assert_eq!(ladders.landings.len(), 26);
     let v = (2.0 * 9.806_65 * 1.22_f64).sqrt();
     let of = |name: &str| {
@@ -316,7 +317,7 @@ fn a_tolerance_leaves_open_whether_a_box_clatters() {
     let range = self::file(
         &on("face", "bottom").replace("contact_time = \"0.4 ms\"", "contact_time = [\"0.2 ms\", \"0.4 ms\"]"),
     );
-    let all = range.ladders(&range.assess().unwrap(), 0.05).unwrap().landings;
+    let all = clatter_assess::ladders(&range, &clatter_assess::assess(&range).unwrap(), 0.05).unwrap().landings;
     let as_one = all[0].as_one_to_deg.unwrap().to_radians().sin() * 0.15_f64.hypot(0.07) / v;
     assert!((as_one - 2e-4).abs() < 1e-12, "{all:?}");
 
@@ -337,7 +338,7 @@ fn a_tolerance_leaves_open_whether_a_box_clatters() {
 fn a_box_alone_answers_what_no_plate_does() {
     for (key, faces) in [("edge", "bottom end-a"), ("corner", "bottom back end-a")] {
         let file = file(&on(key, faces));
-        let ladders = file.ladders(&file.assess().unwrap(), 0.05).unwrap();
+        let ladders = clatter_assess::ladders(&file, &clatter_assess::assess(&file).unwrap(), 0.05).unwrap();
         for limit in &ladders.limits {
             assert_eq!((limit.ladder.models.len(), limit.ladder.cheapest), (1, Rung::Block), "{limit:?}");
             assert!(limit.ladder.reason.contains("no plate lands so"), "{}", limit.ladder.reason);
@@ -355,10 +356,10 @@ fn changes_of_boxes_hold_when_assessed() {
     // So damped that its rebounds seldom count, which drops would be followed for longer for.
     let text = text.replace("damping_ratio = 0.1", "damping_ratio = 0.35");
     let file = file(&text);
-    let before = file.assess().unwrap();
+    let before = clatter_assess::assess(&file).unwrap();
     assert!(before.components.iter().all(|component| component.verdict != Verdict::Safe), "{before:?}");
     let margin = 0.05;
-    let found = file.remedies(&before, &Bounds::default(), margin).unwrap();
+    let found = clatter_assess::remedies(&file, &before, &Bounds::default(), margin).unwrap();
     assert_eq!(found.len(), 2);
     let mut held = Vec::new();
     for part in &found {
@@ -375,10 +376,10 @@ fn changes_of_boxes_hold_when_assessed() {
                 (Lever::ContactTime, _) => changed.product.contact_time_s = Some(to),
                 (Lever::Limit(kind), _) => component.limits = component.limits.with(kind, to),
                 (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => *frequency_hz = to,
-                (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = clatter_assess::Damping::Ratio(to),
+                (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = clatter_product::Damping::Ratio(to),
                 other => panic!("{other:?}"),
             }
-            let after = changed.assess().unwrap();
+            let after = clatter_assess::assess(&changed).unwrap();
             let after = &after.components[part.component];
             let room = after.limits[0].margin.unwrap();
             assert!(after.verdict == Verdict::Safe && room >= margin, "{change:?}: {after:?}");

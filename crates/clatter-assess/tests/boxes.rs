@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 
 use crate::plates::file;
 use crate::random::Random;
-use clatter_assess::{
-    Attitude, Axis, Body, Drop, DropName, Fall, Limit, LimitAssessment, LimitKind, Model, Mount, Note, Part, Place,
-    ProductFile, Side, Verdict, WorstCase, answer,
+use clatter_assess::{LimitAssessment, Note, Part, Verdict, WorstCase, answer};
+use clatter_product::{
+    Attitude, Axis, Body, Drop, DropName, Fall, Limit, LimitKind, Model, Mount, Place, ProductFile, Side,
 };
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
@@ -67,7 +67,7 @@ fn holds(listed: Option<f64>, alone: &LimitAssessment, name: &str) {
 
 #[test]
 fn a_standard_is_its_drops_one_by_one() {
-    let assessment = file(HANDHELD).assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file(HANDHELD)).expect("an assessment");
     assert_eq!(assessment.landings.len(), 26);
     assert!(assessment.landings.iter().all(|landing| landing.source.is_some_and(|said| said.contains("516.8-IX"))));
     // By hand, each alone.
@@ -75,7 +75,7 @@ fn a_standard_is_its_drops_one_by_one() {
         let attitude = Attitude::on(faces).expect("an attitude");
         let listed =
             assessment.landings.iter().find(|landing| landing.landing == DropName::On(attitude)).expect("a landing");
-        let alone = file(&on(key, faces)).assess().expect("an assessment");
+        let alone = clatter_assess::assess(&file(&on(key, faces))).expect("an assessment");
         let limits = alone.components.iter().flat_map(|component| &component.limits);
         for (limit, listed) in limits.zip(&listed.limits) {
             holds(listed.demand, limit, faces);
@@ -96,10 +96,10 @@ fn a_standard_is_its_drops_one_by_one() {
 #[test]
 fn a_list_of_drops_is_each_of_them() {
     let listed = on("face", "bottom").replace("\"bottom\"", "[\"bottom\", \"end-b\"]\ncorner = \"top back end-a\"");
-    let landings = file(&listed).assess().expect("an assessment").landings;
+    let landings = clatter_assess::assess(&file(&listed)).expect("an assessment").landings;
     let names: Vec<String> = landings.iter().map(|landing| landing.landing.to_string()).collect();
     assert_eq!(names, ["face bottom", "face end-b", "corner top back end-a"]);
-    let alone = file(&on("face", "end-b")).assess().expect("an assessment");
+    let alone = clatter_assess::assess(&file(&on("face", "end-b"))).expect("an assessment");
     let limits = alone.components.iter().flat_map(|component| &component.limits);
     limits.zip(&landings[1].limits).for_each(|(alone, listed)| holds(listed.demand, alone, "face end-b"));
     for (key, count) in [("face", 6), ("edge", 12), ("corner", 8)] {
@@ -118,13 +118,13 @@ fn drops_of_a_file_have_their_own_heights() {
     let tilted =
         "[[drop]]\nheight = \"1.22 m\"\ntilt = \"90 deg\"\ndirection = \"0 deg\"\nattitude_tolerance = \"2 deg\"\n";
     let demands = |text: &str| {
-        let assessment = file(text).assess().expect("an assessment");
+        let assessment = clatter_assess::assess(&file(text)).expect("an assessment");
         let of = |limits: &[clatter_assess::LandingLimit]| limits.iter().map(|l| l.demand).collect::<Vec<_>>();
         assessment.landings.iter().map(|landing| (landing.landing.to_string(), of(&landing.limits))).collect::<Vec<_>>()
     };
     let all = demands(&of(&format!("{corner}{slow}{tilted}")));
     for (drop, listed) in [corner, slow, tilted].into_iter().zip(&all) {
-        let alone = file(&of(drop)).assess().expect("an assessment");
+        let alone = clatter_assess::assess(&file(&of(drop))).expect("an assessment");
         assert_eq!(alone.landings[0].landing.to_string(), listed.0);
         let limits = alone.components.iter().flat_map(|component| &component.limits);
         limits.zip(&listed.1).for_each(|(alone, listed)| holds(*listed, alone, drop));
@@ -134,7 +134,7 @@ fn drops_of_a_file_have_their_own_heights() {
     assert_eq!((&tilted[0].1, standing.len()), (&standing[0].1, 1));
     // The same from another height is another drop.
     let twice = file(&of(&format!("{corner}{}", corner.replace("2 m", "1 m"))));
-    let governs = twice.assess().expect("an assessment").components[0].limits[0].demand;
+    let governs = clatter_assess::assess(&twice).expect("an assessment").components[0].limits[0].demand;
     assert_eq!(governs, all[0].1[0]);
 }
 
@@ -146,7 +146,7 @@ fn a_tilted_box_lands_on_what_is_lowest() {
     let part = "position = [\"0 mm\", \"0 mm\"]\nmount = \"hard\"\nvelocity_change_limit = \"99 m/s\"\n";
     let parts =
         ["y", "z"].map(|axis| format!("\n[[component]]\nname = \"{axis}\"\naxis = \"{axis}\"\n{part}")).concat();
-    let assessment = file(&format!("{text}{parts}")).assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file(&format!("{text}{parts}"))).expect("an assessment");
     let [y, z] = [2, 3].map(|n: usize| assessment.components[n].limits[0].demand.expect("an answer"));
     // The edge alone turns the box about the length, ρ² = 20² + 14²/12 mm²: its arm is (35 − 7)/√2 mm, its share 1/(1 + arm²/ρ²).
     let v = (2.0 * 9.806_65 * 1.22_f64).sqrt();
@@ -168,7 +168,7 @@ fn parts_are_struck_along_the_blow_unless_an_axis_is_named() {
     assert_eq!(axes(&plate.replace("height = \"2 mm\"\n", "")), [Axis::Z; 2]);
     let display = |axis: &str| {
         let text = text.replace("mount = \"hard\"", &format!("{axis}mount = \"hard\""));
-        let limit = file(&text).assess().expect("an assessment").components[0].limits[0].clone();
+        let limit = clatter_assess::assess(&file(&text)).expect("an assessment").components[0].limits[0].clone();
         let worst = limit.worst_case.expect("a drop");
         (limit.demand.expect("an answer"), worst.axis())
     };
@@ -192,8 +192,8 @@ fn a_box_on_its_bottom_is_a_plate() {
         let on_bottom = "height = \"1.22 m\"\nface = \"bottom\"\nattitude_tolerance = \"2 deg\"";
         let [plate, lying] = ["height = \"1.22 m\"\ntilt = [\"0 deg\", \"2 deg\"]", on_bottom].map(|drop| {
             let text = text.replace("standard = \"MIL-STD-810H/516.8-IV\"", drop);
-            let assessment =
-                file(&text.replace("height = \"2 mm\"\naxis = \"x\"\n", "")).assess().expect("an assessment");
+            let assessment = clatter_assess::assess(&file(&text.replace("height = \"2 mm\"\naxis = \"x\"\n", "")))
+                .expect("an assessment");
             let limits = assessment.components.iter().map(|component| &component.limits[0]);
             limits.map(|limit| limit.demand.expect("an answer")).collect::<Vec<_>>()
         });
@@ -226,7 +226,7 @@ fn masses_have_heights_in_a_box() {
         assert!((found / want - 1.0).abs() < 1e-9, "{found}, not {want}");
     }
     let demands = |text: &str| {
-        let assessment = file(text).assess().expect("an assessment");
+        let assessment = clatter_assess::assess(&file(text)).expect("an assessment");
         let limits = assessment.components.iter().map(|component| &component.limits[0]);
         limits.map(|limit| limit.demand.expect("an answer")).collect::<Vec<_>>()
     };
@@ -258,7 +258,7 @@ fn masses_have_heights_in_a_box() {
 #[test]
 fn a_box_that_lands_flat_on_its_end_is_one_mass() {
     let text = on("face", "end-a").replace("5 deg", "0 deg").replace("2 deg", "0 deg");
-    let assessment = file(&text).assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file(&text)).expect("an assessment");
     let battery = assessment.components[1].limits[0].demand.expect("an answer");
     // Slow beside the contact, it swings by (1 + e) v e^(−ζφ/tan φ)/ω, tan φ = √(1 − ζ²)/ζ.
     let (omega, zeta, v) = (TAU * 120.0, 0.1_f64, (2.0 * 9.806_65 * 1.22_f64).sqrt());
@@ -271,7 +271,7 @@ fn a_box_that_lands_flat_on_its_end_is_one_mass() {
 /// Single drops of the ranges of a file, this vertical turned off by no more than its tolerance: how many limits there are, and how many of
 /// them are exceeded by 2 %.
 fn hunted(file: &ProductFile, base: [f64; 3], name: &str, singles: u32, r: &mut Random) -> [u32; 2] {
-    let assessment = file.assess().expect("an assessment");
+    let assessment = clatter_assess::assess(file).expect("an assessment");
     let landing = file.landings[0];
     let (mut limits, mut passed) = (0, 0);
     for (component, assessed) in file.components.iter().zip(&assessment.components) {
@@ -368,7 +368,7 @@ fn a_box_that_stands_topples() {
         .replace("restitution = 0.4", "restitution = 0.12")
         .replace("position = [\"10 mm\", \"5 mm\"]", "position = [\"-60 mm\", \"5 mm\"]");
     let file = file(&text);
-    let display = file.assess().expect("an assessment").components.remove(0);
+    let display = clatter_assess::assess(&file).expect("an assessment").components.remove(0);
     let limit = &display.limits[0];
     let (demand, worst) = (limit.demand.expect("an answer"), limit.worst_case.expect("a drop"));
     // Falling takes it some √(L/g), 0.1 s.
@@ -418,7 +418,7 @@ fn no_single_drop_of_a_tilted_box_is_worse() {
 #[test]
 fn what_allows_far_more_is_safe() {
     let text = on("face", "bottom").replace("5000 gn", "30000 gn").replace("9 mm\"", "60 mm\"");
-    let assessment = file(&text).assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file(&text)).expect("an assessment");
     assert_eq!(assessment.verdict, Verdict::Safe, "{assessment:?}");
     let notes = assessment.components.iter().flat_map(|component| &component.limits[0].notes);
     assert!(notes.into_iter().all(|note| !matches!(note, Note::Tilt { .. })), "a box is at real tilt");
@@ -584,7 +584,7 @@ angular_velocity_change_limit = "900 rad/s"
 
 fn boards(text: &str) -> Vec<f64> {
     let (product, _) = text.split_once("[[component]]").expect("components");
-    let assessment = file(&format!("{product}{BOARD}")).assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file(&format!("{product}{BOARD}"))).expect("an assessment");
     assessment.components[0].limits.iter().map(|limit| limit.demand.expect("an answer")).collect()
 }
 
@@ -596,7 +596,7 @@ fn a_box_is_searched_on_all_sides_and_over_all_ranges() {
     // The part of the mirror image lies in front, and the box as it was.
     let mirrored = BOARD.replace("\"30 mm\"]", "\"-30 mm\"]");
     let (product, _) = text.split_once("[[component]]").expect("components");
-    let other = file(&format!("{product}{mirrored}")).assess().expect("an assessment");
+    let other = clatter_assess::assess(&file(&format!("{product}{mirrored}"))).expect("an assessment");
     for (limit, own) in other.components[0].limits.iter().zip(&own) {
         assert!((limit.demand.expect("an answer") / own - 1.0).abs() < 0.05, "{limit:?} beside {own}");
     }
@@ -617,7 +617,8 @@ fn a_box_is_searched_on_all_sides_and_over_all_ranges() {
 fn rebounds_of_a_box_leave_limits_undecided() {
     let text = on("face", "bottom").replace("5000 gn", "30000 gn");
     let (text, _) = text.split_once("[[component]]\nname = \"battery\"").expect("a second part");
-    let display = |text: &str| file(text).assess().expect("an assessment").components[0].limits[0].clone();
+    let display =
+        |text: &str| clatter_assess::assess(&file(text)).expect("an assessment").components[0].limits[0].clone();
     for (e, returns) in [("0.1", false), ("0.85", true)] {
         let text = text.replace("restitution = 0.4", &format!("restitution = {e}"));
         let told = display(&text);

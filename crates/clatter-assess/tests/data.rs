@@ -3,13 +3,16 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use clatter::End;
-use clatter_assess::design::{Bounds, Plane};
-use clatter_assess::fit::{self, Known, Measured, MeasuredStrike};
 use clatter_assess::{
-    Accuracy, Component, Damping, DataFault, Drop, DropRanges, EXAMPLE, Error, Fall, First, Law, Limit, LimitKind,
-    Limits, Model, Mount, Part, Product, ProductFile, RecordFile, Spread, answer, respond, scatter,
+    Accuracy, Part, answer,
+    design::{Bounds, Plane},
+    respond, scatter,
 };
 use clatter_flight::Body;
+use clatter_product::{
+    Component, Damping, DataFault, Drop, DropRanges, EXAMPLE, Error, Fall, First, Law, Limit, LimitKind, Limits, Model,
+    Mount, Product, ProductFile, RecordFile, Spread,
+};
 use clatter_shock::{DampingRatio, Suspension};
 use proptest::prelude::*;
 
@@ -232,15 +235,15 @@ fn record(file: &mut ProductFile, set: impl FnOnce(&mut RecordFile)) -> Result<(
 fn refusal(file: &ProductFile) -> Error {
     let error = file.check().expect_err("it is refused");
     let same = |other: Result<(), Error>| assert_eq!(format!("{other:?}"), format!("{:?}", Err::<(), _>(&error)));
-    same(file.assess().map(drop));
+    same(clatter_assess::assess(file).map(drop));
     let sampler = scatter::Sampler::new(file, settings());
     same(sampler.map(drop).map_err(of_scatter));
     same(scatter::extremes(file, &[]).map(drop).map_err(of_scatter));
     same(Plane::of(file, &Bounds::default()).map(drop).map_err(of_scatter));
     let assessment = phone_assessed();
-    same(file.remedies(&assessment, &Bounds::default(), 0.0).map(drop));
-    same(file.ladders(&assessment, 0.1).map(drop));
-    assert!(file.portraits(&assessment).is_empty(), "nothing is drawn");
+    same(clatter_assess::remedies(file, &assessment, &Bounds::default(), 0.0).map(drop));
+    same(clatter_assess::ladders(file, &assessment, 0.1).map(drop));
+    assert!(clatter_assess::portraits(file, &assessment).is_empty(), "nothing is drawn");
     error
 }
 
@@ -255,7 +258,7 @@ fn of_scatter(error: scatter::Error) -> Error {
 
 /// An assessment that was stopped at once.
 fn phone_assessed() -> clatter_assess::Assessment {
-    phone().assess_watched(&Accuracy::default(), &|_, _| false).expect("an answer")
+    clatter_assess::assess_watched(&phone(), &Accuracy::default(), &|_, _| false).expect("an answer")
 }
 
 #[test]
@@ -421,14 +424,14 @@ fn settings_are_checked() {
     let file = phone();
     for merge_s in [f64::NAN, f64::INFINITY, -1e-3] {
         let accuracy = Accuracy { merge_s, ..Accuracy::default() };
-        assert!(matches!(file.assess_to(&accuracy), Err(Error::Merge(_))), "{merge_s}");
+        assert!(matches!(clatter_assess::assess_to(&file, &accuracy), Err(Error::Merge(_))), "{merge_s}");
         let settings = scatter::Settings { merge_s, ..settings() };
         let error = scatter::Sampler::new(&file, settings).expect_err("no time");
         assert!(matches!(error, scatter::Error::Product(Error::Merge(_))), "{error}");
     }
     for tolerance in [f64::NAN, 0.0, -0.1, 0.6, f64::INFINITY] {
         let accuracy = Accuracy { tolerance, ..Accuracy::default() };
-        assert!(matches!(file.assess_to(&accuracy), Err(Error::Tolerance(_))), "{tolerance}");
+        assert!(matches!(clatter_assess::assess_to(&file, &accuracy), Err(Error::Tolerance(_))), "{tolerance}");
     }
     let e = scatter::extremes(&file, &[(file.product.body, 1.7)]).map_err(of_scatter);
     assert!(matches!(e, Err(Error::Bar(_))), "{e:?}");
@@ -451,7 +454,7 @@ fn bounds_of_a_design_are_checked() {
     ];
     let (file, assessment) = (phone(), phone_assessed());
     for bounds in wrong {
-        let error = file.remedies(&assessment, &bounds, 0.0).expect_err("no bounds");
+        let error = clatter_assess::remedies(&file, &assessment, &bounds, 0.0).expect_err("no bounds");
         assert!(matches!(error, Error::Setting { .. }), "{error}");
         assert!(matches!(Plane::of(&file, &bounds).map_err(of_scatter), Err(Error::Setting { .. })), "{bounds:?}");
     }
@@ -466,16 +469,17 @@ fn an_assessment_belongs_to_its_product() {
     others[1].components[1].name = "battery".to_owned();
     others[2].components[1].limits = file.components[1].limits.without(LimitKind::RattleSpace);
     for other in others {
-        let error = other.remedies(&assessment, &Bounds::default(), 0.0).expect_err("another product");
+        let error =
+            clatter_assess::remedies(&other, &assessment, &Bounds::default(), 0.0).expect_err("another product");
         assert_eq!(error, Error::OtherProduct("board".to_owned()));
-        assert_eq!(other.ladders(&assessment, 0.1).map(drop), Err(error));
-        assert!(other.portraits(&assessment).is_empty());
+        assert_eq!(clatter_assess::ladders(&other, &assessment, 0.1).map(drop), Err(error));
+        assert!(clatter_assess::portraits(&other, &assessment).is_empty());
     }
     let stranger = Component { name: "stranger".to_owned(), ..file.components[0].clone() };
-    let error = file.assess_one(&stranger, &Accuracy::default(), &|_, _| false).map(drop);
+    let error = clatter_assess::assess_one(&file, &stranger, &Accuracy::default(), &|_, _| false).map(drop);
     assert_eq!(error, Err(Error::OtherProduct("stranger".to_owned())));
     let bare = Component { limits: Limits::default(), ..file.components[0].clone() };
-    assert!(file.assess_one(&bare, &Accuracy::default(), &|_, _| false).is_err());
+    assert!(clatter_assess::assess_one(&file, &bare, &Accuracy::default(), &|_, _| false).is_err());
 }
 
 #[test]
@@ -525,31 +529,6 @@ fn single_drops_are_checked() {
     }
 }
 
-#[test]
-fn what_a_fit_is_told_is_checked() {
-    let sound = Known::from(&phone());
-    let strikes = [0.0, 2e-3, 3e-3, 9e-3].map(|time_s| MeasuredStrike { time_s, end: None }).to_vec();
-    let measured = [Measured::Strikes { strikes, deviation_s: Some(1e-5) }];
-    let mut wrong =
-        vec![Known { restitution: [0.5, 0.2], ..sound.clone() }, Known { tilt_rad: [0.0, 0.7], ..sound.clone() }];
-    for x in [f64::NAN, f64::INFINITY, -1.0] {
-        wrong.extend([
-            Known { restitution: [x, 0.5], ..sound.clone() },
-            Known { restitution: [0.2, x], ..sound.clone() },
-            Known { speed_m_s: [x, x], ..sound.clone() },
-            Known { tilt_rad: [0.0, x], ..sound.clone() },
-            Known { contact_time_s: Some([x, x]), ..sound.clone() },
-            Known { gravity_m_s2: x, ..sound.clone() },
-        ]);
-        assert!(matches!(fit::bounces(&[1.0, 1.4, 1.6, 1.7], x, None), Err(fit::Error::Known { .. })), "{x}");
-    }
-    assert_eq!(sound.check(), Ok(()));
-    for known in wrong {
-        let error = fit::fit(&known, &measured).expect_err("it is refused");
-        assert!(matches!(error, fit::Error::Known { .. }), "{known:?}: {error}");
-    }
-}
-
 /// For a long run: `PROPTEST_CASES=100000 cargo test --release -p clatter-assess --test all data::`.
 fn cases(default: u32) -> ProptestConfig {
     let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(default);
@@ -593,7 +572,7 @@ proptest! {
         // Whether the part is within the product is a rule of its own.
         let within = file.components[1].position_m.hi().abs() + 0.5 * file.components[1].extent_m <= 0.075 * (1.0 + 1e-9);
         let assessed = catch_unwind(AssertUnwindSafe(|| {
-            file.assess_watched(&Accuracy { tolerance: 0.1, ..Accuracy::default() }, &|done, _| done < budget)
+            clatter_assess::assess_watched(&file, &Accuracy { tolerance: 0.1, ..Accuracy::default() }, &|done, _| done < budget)
         }));
         let Ok(assessed) = assessed else { return Err(TestCaseError::fail(format!("a panic of {file:?}"))) };
         prop_assert_eq!(assessed.is_ok(), sound && within, "{:?}: {:?}", file, assessed);

@@ -1,10 +1,11 @@
 //! Changes that make a part safe: each one put into the file as it is printed and assessed again, against closed forms and
 //! against scans of what is nearer.
 
-use clatter_assess::design::{Bounds, Change, Lever, Outcome, Remedies, Together};
 use clatter_assess::{
-    Accuracy, ComponentAssessment, Damping, EXAMPLE, Law, LimitKind, Model, Mount, ProductFile, Spread, Verdict,
+    Accuracy, ComponentAssessment, Verdict,
+    design::{Bounds, Change, Lever, Outcome, Remedies, Together},
 };
+use clatter_product::{Damping, EXAMPLE, Law, LimitKind, Model, Mount, ProductFile, Spread};
 
 /// A number without the digits that a conversion adds.
 fn neat(x: f64) -> f64 {
@@ -95,19 +96,19 @@ impl Text {
     }
     fn remedies(&self, bounds: &Bounds, margin: f64) -> Remedies {
         let file = self.read();
-        let assessment = file.assess().expect("an assessment");
-        let mut remedies = file.remedies(&assessment, bounds, margin).expect("remedies");
+        let assessment = clatter_assess::assess(&file).expect("an assessment");
+        let mut remedies = clatter_assess::remedies(&file, &assessment, bounds, margin).expect("remedies");
         assert_eq!(remedies.len(), 1, "{assessment:?}");
         remedies.remove(0)
     }
     fn assessed(&self, accuracy: &Accuracy) -> ComponentAssessment {
-        self.read().assess_to(accuracy).expect("an assessment").components.remove(0)
+        clatter_assess::assess_to(&self.read(), accuracy).expect("an assessment").components.remove(0)
     }
     /// The part, assessed in the file with these changes, is what is told of it.
     fn is_told(&self, changes: &[Change], after: &ComponentAssessment, accuracy: &Accuracy) -> ComponentAssessment {
         let again = changes.iter().fold(self.clone(), |text, change| text.with(change)).assessed(accuracy);
         let file = self.read();
-        let (now, told) = (file.least_margin(&again), file.least_margin(after));
+        let (now, told) = (clatter_assess::least_margin(&file, &again), clatter_assess::least_margin(&file, after));
         // The same drops, of a file that has been written and read: but for roundings the same answers.
         assert!((now - told).abs() < 1e-9, "{changes:?}: {now}, told {told}");
         assert_eq!(again.verdict, after.verdict, "{changes:?}");
@@ -186,7 +187,7 @@ fn remedies_put_into_the_file_have_the_margin() {
             let has = |changes: &[Change], after: &ComponentAssessment| {
                 let again = text.is_told(changes, after, &Accuracy::default());
                 assert_eq!(again.verdict, Verdict::Safe, "{changes:?}");
-                let left = text.read().least_margin(&again);
+                let left = clatter_assess::least_margin(&text.read(), &again);
                 assert!(left >= margin, "{changes:?}: {left} of {margin}");
             };
             let mut found = 0;
@@ -206,7 +207,10 @@ fn remedies_put_into_the_file_have_the_margin() {
             if let Some(Together { changes, after }) = &remedies.nearest {
                 assert!(found == 0 && remedies.pair.is_none());
                 let again = text.is_told(changes, after, &Accuracy::default());
-                assert!(again.verdict != Verdict::Safe || text.read().least_margin(&again) < margin, "{again:?}");
+                assert!(
+                    again.verdict != Verdict::Safe || clatter_assess::least_margin(&text.read(), &again) < margin,
+                    "{again:?}"
+                );
                 nearest += 1;
             }
             assert!(found > 0 || remedies.pair.is_some() || remedies.nearest.is_some(), "{remedies:?}");
@@ -306,8 +310,8 @@ fn the_smallest_changes_of_a_hard_part_are_those_of_the_closed_form() {
         let bar = clatter::Bar::new(q, e).expect("a bar");
         v0 * bar.shocks_either(&clatter::Start::default()).at(((place_mm.abs() + 10.0) / 150.0).min(1.0))
     };
-    let assessment = file.assess_to(&accuracy).expect("an assessment");
-    let remedies = file.remedies(&assessment, &bounds, 0.0).expect("remedies").remove(0);
+    let assessment = clatter_assess::assess_to(&file, &accuracy).expect("an assessment");
+    let remedies = clatter_assess::remedies(&file, &assessment, &bounds, 0.0).expect("remedies").remove(0);
     for remedy in &remedies.levers {
         let [q, e] = [file.product.inertia_ratio(), 0.4];
         let (change, after) = match (&remedy.outcome, remedy.lever) {
@@ -381,7 +385,8 @@ fn no_smaller_change_is_enough() {
                 let to = std::array::from_fn(|n| change.from[n] + share * (change.to[n] - change.from[n]));
                 let tried = text.with(&Change { to, ..change });
                 let after = tried.assessed(&accuracy);
-                let enough = after.verdict == Verdict::Safe && tried.read().least_margin(&after) >= margin;
+                let enough =
+                    after.verdict == Verdict::Safe && clatter_assess::least_margin(&tried.read(), &after) >= margin;
                 assert!(!enough, "{to:?} is short of {change:?}");
                 scanned += 1;
             }
@@ -420,8 +425,8 @@ fn changes_are_found_from_beyond_the_bounds() {
 fn changes_are_of_the_model_that_was_asked_for() {
     let [_, drive, ..] = failing();
     let (file, accuracy) = (drive.read(), Accuracy { tolerance: 0.05, model: Some(Model::Map), ..Accuracy::default() });
-    let assessment = file.assess_to(&accuracy).expect("an assessment");
-    let remedies = file.remedies(&assessment, &Bounds::default(), 0.1).expect("remedies").remove(0);
+    let assessment = clatter_assess::assess_to(&file, &accuracy).expect("an assessment");
+    let remedies = clatter_assess::remedies(&file, &assessment, &Bounds::default(), 0.1).expect("remedies").remove(0);
     let mut changes = 0;
     for remedy in &remedies.levers {
         if let Outcome::Change { change, after } = &remedy.outcome {
@@ -456,7 +461,9 @@ drop = { speed = "4 m/s", tilt = "3 deg" }
 component = [{ name = "part", position = "30 mm", mount = "hard", velocity_change_limit = "0.1 m/s" }]
 "#;
     let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
-    let remedies = file.remedies(&file.assess().unwrap(), &Bounds::default(), 0.1).unwrap().remove(0);
+    let remedies = clatter_assess::remedies(&file, &clatter_assess::assess(&file).unwrap(), &Bounds::default(), 0.1)
+        .unwrap()
+        .remove(0);
     let bumper = remedies.levers.iter().find(|remedy| remedy.lever == Lever::ContactTime).expect("contacts");
     let Outcome::Nowhere { bounds } = bumper.outcome else { panic!("{bumper:?}") };
     for (bound, want) in bounds.into_iter().zip([0.2e-3, 2e-3]) {
@@ -535,8 +542,8 @@ fn a_told_change_is_what_an_assessment_of_the_changed_file_says() {
     let mut two_laws = 0;
     for (name, text) in worked() {
         let file = ProductFile::read(&text, name).unwrap_or_else(|faults| panic!("{faults}"));
-        let assessment = file.assess().unwrap();
-        let all = file.remedies(&assessment, &Bounds::default(), margin).unwrap();
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let all = clatter_assess::remedies(&file, &assessment, &Bounds::default(), margin).unwrap();
         let mut count = 0;
         for remedies in &all {
             let part = remedies.component;
@@ -547,8 +554,8 @@ fn a_told_change_is_what_an_assessment_of_the_changed_file_says() {
             let pair = remedies.pair.iter().map(|pair| (pair.changes.clone(), &pair.after));
             for (changes, told) in alone.chain(pair) {
                 let changed = changes.iter().fold(file.clone(), |file, change| changed(&file, part, change));
-                let after = changed.assess().unwrap().components.remove(part);
-                let (now, said) = (least_margin(&changed, &after), file.least_margin(told));
+                let after = clatter_assess::assess(&changed).unwrap().components.remove(part);
+                let (now, said) = (least_margin(&changed, &after), clatter_assess::least_margin(&file, told));
                 assert_eq!(after.verdict, Verdict::Safe, "{name}: {changes:?}");
                 // The same drops of a file that was written and read: but for roundings the same answers.
                 assert!((now - said).abs() < 1e-9, "{name}: {changes:?}: {now}, told {said}");

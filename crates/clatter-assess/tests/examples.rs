@@ -2,10 +2,8 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use clatter_assess::{
-    Accuracy, Assessment, Component, Drop, Limit, LimitAssessment, LimitKind, Model, Mount, Part, ProductFile, Verdict,
-    answer,
-};
+use clatter_assess::{Accuracy, Assessment, LimitAssessment, Part, Verdict, answer};
+use clatter_product::{Component, Drop, Limit, LimitKind, Model, Mount, ProductFile};
 use rayon::prelude::*;
 
 const PHONE: &str = include_str!("../../../tests/cases/bar-phone.toml");
@@ -24,7 +22,7 @@ fn limit<'a>(assessment: &'a Assessment, component: &str, kind: LimitKind) -> &'
 /// What instant impacts without gravity demand, to the four digits of the comments.
 fn is(file: &ProductFile, component: &str, kind: LimitKind, merge_s: f64, by_hand: f64) {
     let accuracy = Accuracy { model: Some(Model::Map), merge_s, ..Accuracy::default() };
-    let assessment = file.assess_to(&accuracy).expect("an assessment");
+    let assessment = clatter_assess::assess_to(file, &accuracy).expect("an assessment");
     let limit = limit(&assessment, component, kind);
     assert!((limit.demand.expect("an answer") / by_hand - 1.0).abs() < 2e-4, "{:?}, by hand {by_hand}", limit.demand);
     let worst = limit.worst_case.as_ref().expect("an answer");
@@ -113,7 +111,7 @@ fn utilization(drop: &Drop, component: &Component, limit: &Limit) -> f64 {
 fn brute_force_finds_the_same_worst_drop() {
     for text in [PHONE, TERMINAL, LAPTOP] {
         let file = read(text);
-        let assessment = file.assess().expect("an assessment");
+        let assessment = clatter_assess::assess(&file).expect("an assessment");
         let drops = drops(&file);
         for (component, assessed) in file.components.iter().zip(&assessment.components) {
             for (limit, assessed) in Limit::of(component).iter().zip(&assessed.limits) {
@@ -129,19 +127,19 @@ fn brute_force_finds_the_same_worst_drop() {
 fn a_search_that_is_stopped_calls_nothing_safe_but_by_energy() {
     let mut undecided = 0;
     for file in [PHONE, TERMINAL, LAPTOP].map(read) {
-        let whole = file.assess().expect("an assessment");
+        let whole = clatter_assess::assess(&file).expect("an assessment");
         let limits = |assessment: &Assessment| -> Vec<LimitAssessment> {
             assessment.components.iter().flat_map(|component| component.limits.clone()).collect()
         };
         let asked = AtomicUsize::new(0);
         let count = |_, _| asked.fetch_add(1, Ordering::Relaxed) < usize::MAX;
-        file.assess_watched(&Accuracy::default(), &count).expect("an assessment");
+        clatter_assess::assess_watched(&file, &Accuracy::default(), &count).expect("an assessment");
         let asked = asked.into_inner();
         // In the grid, the climbs, and while the worst cases are settled.
         for most in [0, 1, 10, 100, 300, asked - 20, asked - 6, asked - 3, asked - 2, asked - 1] {
             let followed = AtomicUsize::new(0);
             let watch = |_, _| followed.fetch_add(1, Ordering::Relaxed) < most;
-            let cut = file.assess_watched(&Accuracy::default(), &watch).expect("an assessment");
+            let cut = clatter_assess::assess_watched(&file, &Accuracy::default(), &watch).expect("an assessment");
             if followed.into_inner() <= most {
                 continue; // it came to its end
             }
@@ -169,9 +167,9 @@ fn a_search_that_is_stopped_calls_nothing_safe_but_by_energy() {
 #[test]
 fn the_numbers_of_the_example_are_those_of_their_sources() {
     use clatter_flight::{Contact, ContactLaw, Profile, Scene};
-    let text = clatter_assess::EXAMPLE;
+    let text = clatter_product::EXAMPLE;
     let says = |what: &str| assert!(text.contains(what), "{what}");
-    assert!((clatter_assess::STANDARD_GRAVITY_M_S2 - 9.806_65).abs() < 1e-15);
+    assert!((clatter_product::STANDARD_GRAVITY_M_S2 - 9.806_65).abs() < 1e-15);
     says("standard gravity, 9.80665 m/s2");
     // 53 % and 70 % of the energy, and 3 %.
     for (share, told) in [(0.53_f64, "0.73 to 0.84 "), (0.7, "0.73 to 0.84 "), (0.03, "0.17 ")] {

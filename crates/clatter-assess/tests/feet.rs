@@ -1,7 +1,10 @@
 //! Products that land on feet inside their edges.
 
-use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, Assessment, Limit, Model, ProductFile, Verdict, answer};
+use clatter_assess::{
+    Accuracy, Assessment, Verdict, answer,
+    scatter::{Sampler, Settings},
+};
+use clatter_product::{Limit, Model, ProductFile};
 
 /// A laptop of 300 mm × 210 mm on four feet 30 mm and 20 mm inside its edges; without its width a bar on two.
 const LAPTOP: &str = r#"
@@ -51,7 +54,7 @@ fn read(text: &str) -> ProductFile {
 }
 
 fn assess(text: &str) -> Assessment {
-    read(text).assess().expect("an assessment")
+    clatter_assess::assess(&read(text)).expect("an assessment")
 }
 
 fn demands(assessment: &Assessment) -> Vec<f64> {
@@ -81,9 +84,9 @@ fn feet_are_the_ends_of_a_shorter_product() {
 #[test]
 fn a_part_may_lie_beyond_the_feet() {
     let at_edge = bar(LAPTOP).replace("position = \"20 mm\"\nextent = \"60 mm\"", "position = \"150 mm\"");
-    let assessment = read(&at_edge.replace("contact_time = \"1 ms\"\ncontact_law = \"hysteretic\"\n", ""))
-        .assess()
-        .expect("an assessment");
+    let assessment =
+        clatter_assess::assess(&read(&at_edge.replace("contact_time = \"1 ms\"\ncontact_law = \"hysteretic\"\n", "")))
+            .expect("an assessment");
     let limit = &assessment.components[1].limits[0];
     let (worst, demand) = (limit.worst_case.as_ref().unwrap(), limit.demand.unwrap());
     let [a, b] = worst.drop.body.arms_m();
@@ -144,7 +147,7 @@ fn edges_that_press_in_the_clatter_are_answered() {
 #[test]
 fn a_part_swings_until_an_edge_comes_down() {
     let file = read(include_str!("missed/feet-soft.toml"));
-    let limit = &file.assess().expect("an assessment").components[0].limits[0];
+    let limit = &clatter_assess::assess(&file).expect("an assessment").components[0].limits[0];
     // An integration of its own has 0.056 m.
     assert!((limit.demand.expect("an answer") / 0.056 - 1.0).abs() < 0.02, "{limit:?}");
 }
@@ -233,7 +236,8 @@ fn a_model_with_less_physics_is_no_way_around() {
     let timed =
         EDGED.replace("restitution = 0.5", "restitution = 0.5, contact_time = \"1 ms\", contact_law = \"hysteretic\"");
     for (text, model) in [(EDGED, None), (&timed, Some(Model::FiniteTilt))] {
-        let assessment = read(text).assess_to(&Accuracy { model, ..Accuracy::default() }).expect("an assessment");
+        let assessment =
+            clatter_assess::assess_to(&read(text), &Accuracy { model, ..Accuracy::default() }).expect("an assessment");
         let why = assessment.components[0].limits[0].why_undecided().expect("undecided");
         assert!(why.contains("an edge beyond the feet comes down"), "{why}");
     }
@@ -241,7 +245,7 @@ fn a_model_with_less_physics_is_no_way_around() {
     // At a degree the edges stay up by instant impacts, and by contacts they come down.
     let text = bar(LAPTOP).replace("\"6 mm\"", "\"1.5 mm\"").replace("[\"1 deg\", \"8 deg\"]", "\"1 deg\"");
     let accuracy = Accuracy { model: Some(Model::FiniteTilt), ..Accuracy::default() };
-    let assessment = read(&text).assess_to(&accuracy).expect("an assessment");
+    let assessment = clatter_assess::assess_to(&read(&text), &accuracy).expect("an assessment");
     for part in &assessment.components {
         let limit = &part.limits[0];
         let worst = limit.worst_case.as_ref().expect("a drop");

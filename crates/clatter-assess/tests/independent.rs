@@ -13,8 +13,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::random::Random;
 use clatter::End;
-use clatter_assess::{Answer, ContactLaw, Drop, Limit, LimitKind, Model, Part, answer};
+use clatter_assess::{Answer, Part, answer};
 use clatter_flight::Body;
+use clatter_product::{ContactLaw, Drop, Limit, LimitKind, Model};
 use clatter_shock::{DampingRatio, Suspension};
 use plain::Plain;
 use rayon::prelude::*;
@@ -268,7 +269,7 @@ fn what_is_left_out_is_told() {
         let (coarse, fine) = match (at(1e-2), at(1e-5)) {
             (Ok(coarse), Ok(fine)) => (coarse, fine),
             // More strikes than are followed.
-            (_, Err(clatter_assess::Error::Unfinished)) => return None,
+            (_, Err(clatter_product::Error::Unfinished)) => return None,
             (coarse, fine) => panic!("{coarse:?} {fine:?} {drop:?}"),
         };
         let off = (coarse.value / fine.value - 1.0).abs();

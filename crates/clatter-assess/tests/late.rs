@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use clatter_assess::{Answer, ContactLaw, Drop, Limit, LimitKind, Model, Part, answer};
+use clatter_assess::{Answer, Part, answer};
 use clatter_flight::{Body, Contact, Scene};
+use clatter_product::{ContactLaw, Drop, Limit, LimitKind, Model};
 use clatter_shock::{DampingRatio, Suspension};
 
 use crate::safe::{G, close, limits, speed};

@@ -1,12 +1,13 @@
 //! Every kind of limit goes all the way: read, checked, assessed, drawn from, shown and repeated.
 
 use clatter::End;
-use clatter_assess::ladder::{Groups, Ladder};
-use clatter_assess::scatter::{Sampler, Settings};
 use clatter_assess::{
-    Accuracy, Body, Damping, Drop, Law, Limit, LimitKind, Model, Part, Place, ProductFile, Spread, Unit, Verdict,
-    answer, repeat,
+    Accuracy, Part, Verdict, answer,
+    ladder::{Groups, Ladder},
+    repeat,
+    scatter::{Sampler, Settings},
 };
+use clatter_product::{Body, Damping, Drop, Law, Limit, LimitKind, Model, Place, ProductFile, Spread, Unit};
 use clatter_shock::{DampingRatio, Suspension};
 
 /// A product of which one part has a limit of each kind, weak or strong.
@@ -57,10 +58,10 @@ fn every_kind_is_read_assessed_and_drawn() {
         let demand = |factor: f64, expected: Verdict| {
             let file = read(&product(kind, factor));
             assert_eq!(file.components[0].limits.kinds(), [kind]);
-            let assessment = file.assess().expect("an assessment");
+            let assessment = clatter_assess::assess(&file).expect("an assessment");
             let limit = &assessment.components[0].limits[0];
             assert_eq!((limit.limit, limit.verdict), (kind, expected), "{limit:?}");
-            let portrait = &file.portraits(&assessment)[0];
+            let portrait = &clatter_assess::portraits(&file, &assessment)[0];
             assert!(portrait.history.iter().any(|point| point.1 != 0.0), "{kind:?} is not drawn");
             let settings = Settings { samples: 200, seed: 1, confidence: 0.95, merge_s: 1e-12 };
             let scatter = Sampler::new(&file, settings).unwrap().run::<()>(false, &|| true, |_| Ok(())).unwrap();

@@ -1,10 +1,9 @@
-//! Tests of product files, their assessment, design, scatter and fit, in one program.
+//! Tests of product files, their assessment, design and scatter, in one program.
 
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
 mod anchored;
-mod bad_files;
 mod bodies;
 mod box_commands;
 mod boxes;
@@ -12,14 +11,12 @@ mod data;
 mod design;
 mod examples;
 mod feet;
-mod fit;
 mod independent;
 mod late;
 mod limits;
 mod missed;
 mod mutations;
 mod own_contacts;
-mod plan;
 mod plate_commands;
 mod plates;
 mod portrait;

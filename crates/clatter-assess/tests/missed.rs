@@ -1,9 +1,8 @@
 //! Worst drops that lie where few look: long after the first landing, and in narrow ranges of directions.
 
 use clatter::End;
-use clatter_assess::{
-    Assessment, Component, Drop, Limit, LimitAssessment, LimitKind, Model, Part, Place, ProductFile, Verdict, answer,
-};
+use clatter_assess::{Assessment, LimitAssessment, Part, Verdict, answer};
+use clatter_product::{Component, Drop, Limit, LimitKind, Model, Place, ProductFile};
 use clatter_shock::{DampingRatio, Suspension};
 
 fn read(text: &str) -> ProductFile {
@@ -27,7 +26,7 @@ fn suspension(frequency_hz: f64, ratio: f64) -> Suspension {
 /// asked standing: up to 88 % of the limit of a drop of its ranges, half a second after the first touch.
 #[test]
 fn a_box_that_seldom_falls_over_is_followed_to_its_face() {
-    let assessment = read(include_str!("missed/topples.toml")).assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&read(include_str!("missed/topples.toml"))).expect("an assessment");
     let limit = limit(&assessment, 1, LimitKind::RattleSpace);
     let share = limit.demand.expect("an answer") / limit.allowed;
     assert!(share > 0.7 && told(limit) > 0.88 * limit.allowed, "{share}, {limit:?}");
@@ -38,7 +37,7 @@ fn a_box_that_seldom_falls_over_is_followed_to_its_face() {
 #[test]
 fn a_bar_that_fails_after_thirteen_impacts_is_not_safe() {
     let file = read(include_str!("missed/after-thirteen.toml"));
-    let assessment = file.assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file).expect("an assessment");
     let limit = limit(&assessment, 2, LimitKind::Acceleration);
     assert_eq!(limit.verdict, Verdict::Unsafe, "{limit:?}");
     let drop = Drop {
@@ -65,7 +64,7 @@ fn a_bar_that_fails_after_thirteen_impacts_is_not_safe() {
 #[test]
 fn a_plate_is_searched_next_to_its_edges() {
     let file = read(include_str!("missed/plate-near-edge.toml"));
-    let assessment = file.assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file).expect("an assessment");
     let [length, width] = [0.257_983_781_f64, 0.171_250_911];
     let tie = (length / width).atan().to_degrees();
     let about = [0.0, tie, 90.0, 180.0 - tie, 180.0, 180.0 + tie, 270.0, 360.0 - tie];
@@ -85,7 +84,7 @@ fn a_plate_is_searched_next_to_its_edges() {
 
 /// The most that a part at either end of its frequencies and its place displaces.
 fn most(drop: &Drop, component: &Component) -> f64 {
-    let clatter_assess::Mount::Suspended { frequency_hz, damping } = component.mount else { panic!("a suspension") };
+    let clatter_product::Mount::Suspended { frequency_hz, damping } = component.mount else { panic!("a suspension") };
     let (limit, [least, _]) = (Limit::new(LimitKind::RattleSpace, 1.0), damping.ratios());
     let of = |at_m: [f64; 2], hz: f64| {
         let part = Part::at(Place::flat(at_m), Some(suspension(hz, least)));

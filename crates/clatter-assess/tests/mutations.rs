@@ -1,6 +1,7 @@
 //! Product files torn to pieces: never a panic, never a hang, and every fault has a place.
 
-use clatter_assess::{EXAMPLE, ProductFile, Verdict};
+use clatter_assess::Verdict;
+use clatter_product::{EXAMPLE, ProductFile};
 use proptest::prelude::*;
 
 const SEEDS: [&str; 5] = [
@@ -143,7 +144,7 @@ proptest! {
             bytes[digits[place.index(digits.len())]] = b'0' + digit;
         }
         if let Ok(file) = ProductFile::read(&String::from_utf8(bytes).unwrap(), "file")
-            && let Ok(assessment) = file.assess()
+            && let Ok(assessment) = clatter_assess::assess(&file)
         {
             for limit in assessment.components.iter().flat_map(|c| &c.limits) {
                 prop_assert!(limit.demand.is_none_or(|demand| demand >= 0.0) && limit.margin.is_none_or(|margin| !margin.is_nan()), "{limit:?}");

@@ -1,12 +1,12 @@
 //! Products whose ends or corners have contacts of their own.
 
 use clatter::End;
-use clatter_assess::design::{Bounds, Plane};
 use clatter_assess::{
-    Accuracy, Assessment, DataFault, Drop, Error, Limit, LimitKind, Model, OwnContact, OwnContacts, Part, Plan,
-    ProductFile, Verdict, answer,
+    Accuracy, Assessment, Part, Verdict, answer,
+    design::{Bounds, Plane},
 };
 use clatter_flight::Body;
+use clatter_product::{DataFault, Drop, Error, Limit, LimitKind, Model, OwnContact, OwnContacts, Plan, ProductFile};
 
 /// A drill of 300 mm on its side, a soft bumper at end b; the part is on that side of it.
 const BAR: &str = r#"
@@ -30,7 +30,7 @@ fn read(text: &str) -> ProductFile {
 }
 
 fn assess(text: &str) -> Assessment {
-    read(text).assess().expect("an assessment")
+    clatter_assess::assess(&read(text)).expect("an assessment")
 }
 
 fn demands(assessment: &Assessment) -> Vec<f64> {
@@ -204,7 +204,7 @@ fn demands_are_within_what_energy_allows() {
 fn what_takes_contacts_that_are_alike_says_so() {
     let file = read(BAR);
     let accuracy = Accuracy { model: Some(Model::Map), ..Accuracy::default() };
-    assert_eq!(file.assess_to(&accuracy).unwrap_err(), Error::OwnContacts(Model::Map));
+    assert_eq!(clatter_assess::assess_to(&file, &accuracy).unwrap_err(), Error::OwnContacts(Model::Map));
     let plane = Plane::of(&file, &Bounds::default()).unwrap_err().to_string();
     assert!(plane.contains("takes a product whose contacts are alike"), "{plane}");
     let mut lively = read(PLATE);

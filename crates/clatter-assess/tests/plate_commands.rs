@@ -1,12 +1,13 @@
 //! What `scatter`, the ladder of models and `design` say of plates.
 
 use crate::plates::file;
-use clatter_assess::design::{Bounds, Lever, Outcome};
-use clatter_assess::ladder::{Ladder, Rung};
-use clatter_assess::scatter::{Column, PlateAs, Progress, Sampler, Scatter, Settings, Varied};
 use clatter_assess::{
-    Body, Drop, Input, Law, Limit, LimitKind, Model, Part, Place, ProductFile, Side, Spread, Verdict, answer,
+    Part, Verdict, answer,
+    design::{Bounds, Lever, Outcome},
+    ladder::{Ladder, Rung},
+    scatter::{Column, PlateAs, Progress, Sampler, Scatter, Settings, Varied},
 };
+use clatter_product::{Body, Drop, Input, Law, Limit, LimitKind, Model, Place, ProductFile, Side, Spread};
 
 /// A board in a terminal whose place across it is not known well.
 const BOARD: &str = r#"
@@ -263,7 +264,7 @@ fn products_with_a_width_have_ladders() {
     let text = BOARD.replace("tilt = {", "direction = [\"20 deg\", \"40 deg\"]\ntilt = {");
     let of = |text: &str| {
         let file = file(text);
-        file.ladders(&file.assess().unwrap(), 0.05).unwrap()
+        clatter_assess::ladders(&file, &clatter_assess::assess(&file).unwrap(), 0.05).unwrap()
     };
     let masses = r#"masses = [
     { mass = "100 g", from = ["-75 mm", "-35 mm"], to = ["75 mm", "35 mm"] },
@@ -292,10 +293,10 @@ fn changes_of_plates_hold_when_assessed() {
         .replace("acceleration_limit = \"1400 gn\"\n", "")
         .replace("5.5 m/s", "4.5 m/s");
     let file = file(&text);
-    let before = file.assess().unwrap();
+    let before = clatter_assess::assess(&file).unwrap();
     assert_eq!(before.verdict, Verdict::Unsafe);
     let margin = 0.05;
-    let found = file.remedies(&before, &Bounds::default(), margin).unwrap();
+    let found = clatter_assess::remedies(&file, &before, &Bounds::default(), margin).unwrap();
     let levers: Vec<_> = found[0].levers.iter().map(|remedy| remedy.lever).collect();
     let limit = Lever::Limit(LimitKind::VelocityChange);
     let known = [
@@ -323,7 +324,7 @@ fn changes_of_plates_hold_when_assessed() {
             Lever::Limit(kind) => part.limits = part.limits.with(kind, to),
             other => panic!("{other:?} of a part that is mounted rigidly"),
         }
-        let after = changed.assess().unwrap();
+        let after = clatter_assess::assess(&changed).unwrap();
         let room = after.components[0].limits[0].margin.unwrap();
         assert!(after.verdict == Verdict::Safe && room >= margin, "{change:?}: {room}");
         held.push(remedy.lever);
@@ -352,7 +353,8 @@ fn a_part_is_tried_as_far_as_it_fits_on_the_plate() {
         // Every place changes its velocity by more: the product turns back.
         .replace("5.5 m/s", "1 m/s");
     let file = file(&text);
-    let found = file.remedies(&file.assess().unwrap(), &Bounds::default(), 0.0).unwrap();
+    let found =
+        clatter_assess::remedies(&file, &clatter_assess::assess(&file).unwrap(), &Bounds::default(), 0.0).unwrap();
     // Half of 150 mm less 30 mm, and of 70 mm less 20 mm; the range as a whole within it.
     for (lever, want) in [(Lever::Position, [-0.060, 0.057]), (Lever::Across, [-0.025, 0.023])] {
         let remedy = found[0].levers.iter().find(|remedy| remedy.lever == lever).unwrap();

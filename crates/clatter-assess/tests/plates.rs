@@ -1,8 +1,7 @@
 //! Products with a width: plates that land on any corner.
 
-use clatter_assess::{
-    Limit, LimitAssessment, LimitKind, Note, Part, Place, PlatePortrait, ProductFile, Verdict, answer,
-};
+use clatter_assess::{LimitAssessment, Note, Part, PlatePortrait, Verdict, answer};
+use clatter_product::{Limit, LimitKind, Place, ProductFile};
 
 /// A handheld terminal with a display, a board and a battery.
 const HANDHELD: &str = r#"
@@ -40,7 +39,7 @@ pub(crate) fn file(text: &str) -> ProductFile {
 }
 
 fn limits(text: &str) -> Vec<LimitAssessment> {
-    let assessment = file(text).assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file(text)).expect("an assessment");
     assessment.components.into_iter().flat_map(|component| component.limits).collect()
 }
 
@@ -180,9 +179,9 @@ fn a_box_at_real_tilt_says_nearly_the_same() {
 #[test]
 fn what_allows_more_is_safe() {
     let text = HANDHELD.replace("2000 gn", "9000 gn").replace("9 mm\"", "60 mm\"");
-    let assessment = file(&text).assess().expect("an assessment");
+    let assessment = clatter_assess::assess(&file(&text)).expect("an assessment");
     assert_eq!(assessment.verdict, Verdict::Safe);
-    let unsafe_one = file(&text.replace("9000 gn", "1000 gn")).assess().expect("an assessment");
+    let unsafe_one = clatter_assess::assess(&file(&text.replace("9000 gn", "1000 gn"))).expect("an assessment");
     assert_eq!(unsafe_one.verdict, Verdict::Unsafe);
     for limit in assessment.components.iter().flat_map(|component| &component.limits) {
         assert!(limit.bound.zip(limit.demand).is_none_or(|(bound, demand)| demand <= bound));
@@ -261,8 +260,8 @@ const EXAMPLE: &str = include_str!("../../../reports/examples/handheld-terminal.
 /// Each part with its tightest limit, as it is asked, and its portrait.
 fn portraits(text: &str) -> Vec<(LimitAssessment, Limit, PlatePortrait)> {
     let file = file(text);
-    let assessment = file.assess().expect("an assessment");
-    let portraits = file.portraits(&assessment).into_iter();
+    let assessment = clatter_assess::assess(&file).expect("an assessment");
+    let portraits = clatter_assess::portraits(&file, &assessment).into_iter();
     let drawn =
         portraits.zip(file.components.iter().zip(&assessment.components)).map(|(portrait, (part, assessed))| {
             let tightest = assessed.tightest().clone();
@@ -444,7 +443,7 @@ fn what_sinks_in_deeper_than_it_is_thick_is_undecided() {
              damping_ratio = 0.2\nrattle_space = \"2 mm\"\n"
         );
         let file = ProductFile::read(&text, "soft.toml").unwrap_or_else(|faults| panic!("{faults}"));
-        let assessment = file.assess().expect("an assessment");
+        let assessment = clatter_assess::assess(&file).expect("an assessment");
         let limit = &assessment.components[0].limits[0];
         (limit.verdict, limit.undecided.iter().map(ToString::to_string).collect::<String>())
     };

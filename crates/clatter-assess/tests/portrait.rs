@@ -2,10 +2,11 @@
 
 #![cfg(test)]
 
-use clatter_assess::design::{Bounds, Lever, Outcome};
 use clatter_assess::{
-    Accuracy, Assessment, Component, Limit, LimitKind, Model, Portrait, ProductFile, Spread, Verdict, answer,
+    Accuracy, Assessment, Portrait, Verdict, answer,
+    design::{Bounds, Lever, Outcome},
 };
+use clatter_product::{Component, Limit, LimitKind, Model, ProductFile, Spread};
 
 const EXAMPLES: [&str; 4] = [
     include_str!("../../../tests/cases/bar-phone.toml"),
@@ -17,8 +18,8 @@ const EXAMPLES: [&str; 4] = [
 fn drawn() -> impl Iterator<Item = (ProductFile, Assessment, Vec<Portrait>)> {
     EXAMPLES.into_iter().map(|text| {
         let file = ProductFile::read(text, "example.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment);
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let portraits = clatter_assess::portraits(&file, &assessment);
         (file, assessment, portraits)
     })
 }
@@ -33,8 +34,11 @@ component = [{ name = "board", position = ["-60 mm", "30 mm"], natural_frequency
 "#;
     let of = |text: &str| {
         let file = ProductFile::read(text, "plate.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        (assessment.components[0].tightest().limit, file.portraits(&assessment).remove(0).plate.unwrap())
+        let assessment = clatter_assess::assess(&file).unwrap();
+        (
+            assessment.components[0].tightest().limit,
+            clatter_assess::portraits(&file, &assessment).remove(0).plate.unwrap(),
+        )
     };
     let alone = |keep: &str| {
         let [acceleration, rattle, turn] = [
@@ -99,7 +103,7 @@ fn alone(file: &ProductFile, component: Component) -> ProductFile {
 }
 
 fn most_asked(file: &ProductFile) -> f64 {
-    let found = file.assess_to(&Accuracy::default()).unwrap();
+    let found = clatter_assess::assess_to(file, &Accuracy::default()).unwrap();
     let share = |limit: &clatter_assess::LimitAssessment| limit.demand.unwrap() / limit.allowed;
     found.components[0].limits.iter().map(share).fold(0.0, f64::max)
 }
@@ -122,7 +126,7 @@ fn zones_agree_with_an_assessment_of_their_ends() {
                 assert!(asked <= 1.02, "{} at {edge} m: {asked}", found.name);
                 let beyond = edge + out * 0.1 * length;
                 if beyond.abs() + half <= 0.5 * length {
-                    let verdict = at(beyond).assess().unwrap().verdict;
+                    let verdict = clatter_assess::assess(&at(beyond)).unwrap().verdict;
                     assert_ne!(verdict, Verdict::Safe, "{} at {beyond} m", found.name);
                     edges += 1;
                 }
@@ -137,7 +141,7 @@ fn zones_agree_with_an_assessment_of_their_ends() {
 fn places_that_are_enough_are_within_the_zone() {
     let mut places = 0;
     for (file, assessment, portraits) in drawn() {
-        for remedies in file.remedies(&assessment, &Bounds::default(), 0.1).unwrap() {
+        for remedies in clatter_assess::remedies(&file, &assessment, &Bounds::default(), 0.1).unwrap() {
             let place = remedies.levers.iter().find(|remedy| remedy.lever == Lever::Position).unwrap();
             let Outcome::Change { change, .. } = &place.outcome else { continue };
             let zone = portraits[remedies.component].zone_m;

@@ -3,7 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use clatter::End;
-use clatter_assess::{Accuracy, Doubt, LimitAssessment, LimitKind, Model, Note, ProductFile, Verdict};
+use clatter_assess::{Accuracy, Doubt, LimitAssessment, Note, Verdict};
+use clatter_product::{LimitKind, Model, ProductFile};
 
 pub(crate) const G: f64 = 9.806_65;
 
@@ -84,13 +85,13 @@ fn named(text: &str, law: &str) -> String {
 }
 
 fn assessed(text: &str, part: &str, accuracy: &Accuracy) -> Vec<LimitAssessment> {
-    let assessment = read(text).assess_to(accuracy).expect("an assessment");
+    let assessment = clatter_assess::assess_to(&read(text), accuracy).expect("an assessment");
     assessment.components.into_iter().find(|c| c.name == part).expect("the part").limits
 }
 
 /// The limits of the first part.
 pub(crate) fn limits(text: &str) -> Vec<LimitAssessment> {
-    read(text).assess().expect("an assessment").components.swap_remove(0).limits
+    clatter_assess::assess(&read(text)).expect("an assessment").components.swap_remove(0).limits
 }
 
 pub(crate) fn only(text: &str) -> LimitAssessment {
@@ -250,7 +251,7 @@ fn the_same_bytes_on_any_number_of_threads() {
     let file = read(ELASTIC);
     let [one, two, seven] = [1, 2, 7].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        let assessment = pool.install(|| file.assess()).expect("an assessment");
+        let assessment = pool.install(|| clatter_assess::assess(&file)).expect("an assessment");
         serde_json::to_string(&assessment).expect("JSON")
     });
     assert!(one == two && one == seven, "{one}\n{two}\n{seven}");
@@ -482,7 +483,7 @@ fn what_a_named_model_lacks_is_told_as_doubt() {
     let accuracy = Accuracy { model: Some(Model::Map), ..Accuracy::default() };
     let mut most = 0.0_f64;
     for text in [HANDHELD, LAPTOP, FLAT_500] {
-        let assessment = read(text).assess_to(&accuracy).expect("an assessment");
+        let assessment = clatter_assess::assess_to(&read(text), &accuracy).expect("an assessment");
         for limit in assessment.components.iter().flat_map(|component| &component.limits) {
             let off =
                 limit.notes.iter().find_map(|note| if let Note::Model { off, .. } = note { Some(*off) } else { None });

@@ -1,12 +1,11 @@
 //! Scatter against known probabilities, drops that are answered one by one, and itself on other threads.
 
 use crate::random::Random;
-use clatter_assess::scatter::{
-    Column, Probability, Progress, Sampler, Scatter, Settings, Varied, clopper_pearson, extremes,
-};
 use clatter_assess::{
-    Answer, Drop, Input, Limit, LimitKind, Model, Mount, Part, ProductFile, STANDARD_GRAVITY_M_S2, answer,
+    Answer, Part, answer,
+    scatter::{Column, Probability, Progress, Sampler, Scatter, Settings, Varied, clopper_pearson, extremes},
 };
+use clatter_product::{Drop, Input, Limit, LimitKind, Model, Mount, ProductFile, STANDARD_GRAVITY_M_S2};
 
 fn product(product: &str, drop: &str, parts: &str) -> ProductFile {
     let text = format!(
@@ -474,7 +473,7 @@ fn extremes_are_next_to_the_worst_of_an_assessment() {
         let contacts = body.contains("contact");
         assert_eq!(found.model, if contacts { Model::Compliant } else { Model::Map }, "{}", found.closed_form_error);
         let worst = found.worst[0][0].unwrap();
-        let limits = &file.assess().unwrap().components[0].limits;
+        let limits = &clatter_assess::assess(&file).unwrap().components[0].limits;
         let known = limits.iter().map(|limit| limit.demand.unwrap() / limit.allowed).fold(0.0, f64::max);
         assert!(worst < 1.02 * known && worst > 0.97 * known, "{worst}, not {known}: {body}");
     }

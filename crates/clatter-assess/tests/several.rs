@@ -1,8 +1,11 @@
 //! Several drops of a bar or a plate in one file, against each of them alone.
 
-use clatter_assess::design::{Bounds, Lever, Outcome};
-use clatter_assess::scatter::{Column, Progress, Sampler, Settings};
-use clatter_assess::{DropName, Error, Input, LimitAssessment, ProductFile, Spread, Verdict};
+use clatter_assess::{
+    LimitAssessment, Verdict,
+    design::{Bounds, Lever, Outcome},
+    scatter::{Column, Progress, Sampler, Settings},
+};
+use clatter_product::{DropName, Error, Input, ProductFile, Spread};
 
 const BAR: &str = r#"
 product = { name = "terminal", length = "140 mm", radius_of_gyration = "38 mm", restitution = [0.25, 0.4], contact_time = "0.4 ms" }
@@ -46,8 +49,8 @@ fn file(product: &str, falls: &[&str]) -> ProductFile {
 #[test]
 fn a_list_is_as_bad_as_the_worst_of_its_drops() {
     for (product, falls) in [(BAR, &FALLS[..]), (PLATE, &RISES[..])] {
-        let list = file(product, falls).assess().unwrap();
-        let alone: Vec<_> = falls.iter().map(|fall| file(product, &[fall]).assess().unwrap()).collect();
+        let list = clatter_assess::assess(&file(product, falls)).unwrap();
+        let alone: Vec<_> = falls.iter().map(|fall| clatter_assess::assess(&file(product, &[fall])).unwrap()).collect();
         for (i, component) in list.components.iter().enumerate() {
             for (k, limit) in component.limits.iter().enumerate() {
                 let of: Vec<&LimitAssessment> = alone.iter().map(|one| &one.components[i].limits[k]).collect();
@@ -135,9 +138,9 @@ fn an_easier_drop_changes_no_page() {
     let hard = file(&bar, &FALLS[..1]);
     let both = file(&bar, &[&easy, FALLS[0]]);
     let of = |file: &ProductFile| {
-        let assessment = file.assess().unwrap();
+        let assessment = clatter_assess::assess(file).unwrap();
         assert_eq!(assessment.verdict, Verdict::Unsafe);
-        file.portraits(&assessment)
+        clatter_assess::portraits(file, &assessment)
     };
     let (hard, both) = (of(&hard), of(&both));
     assert!(hard.iter().any(|portrait| portrait.zone_m.is_some()));
@@ -155,7 +158,8 @@ fn an_easier_drop_changes_no_page() {
 #[test]
 fn changes_hold_in_all_drops() {
     let list = file(BAR, &FALLS[..2]);
-    let found = list.remedies(&list.assess().unwrap(), &Bounds::default(), 0.1).unwrap();
+    let found =
+        clatter_assess::remedies(&list, &clatter_assess::assess(&list).unwrap(), &Bounds::default(), 0.1).unwrap();
     let mut held = 0;
     for part in &found {
         for remedy in &part.levers {
@@ -166,7 +170,7 @@ fn changes_hold_in_all_drops() {
                 let mut alone = file(BAR, &[fall]);
                 let limits = &mut alone.components[part.component].limits;
                 *limits = limits.with(kind, Spread::value(change.to[0]).unwrap());
-                let component = &alone.assess().unwrap().components[part.component];
+                let component = &clatter_assess::assess(&alone).unwrap().components[part.component];
                 assert_eq!(component.verdict, Verdict::Safe, "{change:?}");
                 component.limits.iter().find(|limit| limit.limit == kind).unwrap().margin.unwrap()
             });
@@ -196,9 +200,12 @@ fn what_a_list_is_not_is_told() {
     assert!(said.contains("more than one of `tilt`, `face`"), "{said}");
     // An assessment of other drops.
     let list = file(BAR, &FALLS);
-    let (all, one) = (list.assess().unwrap(), file(BAR, &FALLS[..1]));
-    assert!(one.portraits(&all).is_empty() && list.portraits(&one.assess().unwrap()).is_empty());
-    assert_eq!(one.remedies(&all, &Bounds::default(), 0.1).unwrap_err(), Error::OtherDrops);
+    let (all, one) = (clatter_assess::assess(&list).unwrap(), file(BAR, &FALLS[..1]));
+    assert!(
+        clatter_assess::portraits(&one, &all).is_empty()
+            && clatter_assess::portraits(&list, &clatter_assess::assess(&one).unwrap()).is_empty()
+    );
+    assert_eq!(clatter_assess::remedies(&one, &all, &Bounds::default(), 0.1).unwrap_err(), Error::OtherDrops);
     // Built in code as well.
     let mut both = file(BAR, &FALLS);
     both.landings[1].drop.gravity_m_s2 = 1.0;

@@ -1,7 +1,8 @@
 //! What one shock is, beside integrations that share nothing with this one.
 
-use clatter_assess::{Answer, Axis, ContactLaw, Drop, Limit, LimitKind, Model, Part, Place, answer};
+use clatter_assess::{Answer, Part, answer};
 use clatter_flight::{Block, BlockDrop, Body, Contact};
+use clatter_product::{Axis, ContactLaw, Drop, Limit, LimitKind, Model, Place};
 use serde_json::Value;
 
 const G: f64 = 9.806_65;

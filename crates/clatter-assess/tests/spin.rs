@@ -1,10 +1,11 @@
 //! Products that turn as they land, against the exact trains of `clatter`, mirror images, and laws.
 
 use clatter::{Bar, End, Start};
-use clatter_assess::scatter::{Column, Progress, Sampler, Settings};
 use clatter_assess::{
-    Body, Drop, Error, Input, Limit, LimitKind, Model, Part, Place, ProductFile, Side, Verdict, answer,
+    Part, Verdict, answer,
+    scatter::{Column, Progress, Sampler, Settings},
 };
+use clatter_product::{Body, Drop, Error, Input, Limit, LimitKind, Model, Place, ProductFile, Side};
 
 use crate::random::Random;
 
@@ -156,7 +157,7 @@ fn the_search_finds_an_end_of_the_spin() {
         "speed = \"3 m/s\", tilt = [\"2 deg\", \"6 deg\"], first = \"b\", spin = [\"-300 deg/s\", \"20 rad/s\"]",
         ", contact_time = \"0.3 ms\"",
     );
-    let found = &file.unwrap().assess().unwrap().components[0].limits[0];
+    let found = &clatter_assess::assess(&file.unwrap()).unwrap().components[0].limits[0];
     let worst = found.worst_case.unwrap();
     assert_eq!(worst.drop.spin_rad_s.to_bits(), 20.0_f64.to_bits(), "{worst:?}");
     // 1.3 (v + ω L) of a lone strike.
@@ -165,7 +166,7 @@ fn the_search_finds_an_end_of_the_spin() {
     assert!(worst.command().contains("\"spin_rad_s\":20.0,"), "{}", worst.command());
     let still =
         read("speed = \"3 m/s\", tilt = [\"2 deg\", \"6 deg\"], first = \"b\"", ", contact_time = \"0.3 ms\"").unwrap();
-    let still = &still.assess().unwrap().components[0].limits[0];
+    let still = &clatter_assess::assess(&still).unwrap().components[0].limits[0];
     assert!(still.demand.unwrap() < 0.8 * found.demand.unwrap(), "{still:?}");
 }
 
@@ -186,7 +187,7 @@ fn energy_allows_every_drop_that_turns() {
              component = [{{ name = \"part\", position = {at}, mount = \"hard\", velocity_change_limit = \"1 m/s\", angular_velocity_change_limit = \"1 rad/s\", acceleration_limit = \"1 gn\" }}]\n"
         );
         let file = ProductFile::read(&text, "p.toml").unwrap_or_else(|faults| panic!("{faults}"));
-        for limit in &file.assess().unwrap().components[0].limits {
+        for limit in &clatter_assess::assess(&file).unwrap().components[0].limits {
             let (demand, bound) = (limit.demand.unwrap(), limit.bound.unwrap());
             assert!(demand <= bound && limit.verdict == Verdict::Unsafe, "{n}: {limit:?}");
             tightest = tightest.max(demand / bound);
@@ -219,7 +220,7 @@ fn a_spin_that_nothing_answers_is_refused() {
     assert!(read("speed = \"3 m/s\", tilt = \"9 deg\", spin = \"-39.9 rad/s\"", timed).is_ok());
     // Without contact time where no strikes are one, by real tilt.
     let apart = read("speed = \"3 m/s\", tilt = \"9 deg\", spin = [\"-9 rad/s\", \"9 rad/s\"]", "").unwrap();
-    assert_eq!(apart.assess().unwrap().components[0].limits[0].model.bar, Model::FiniteTilt);
+    assert_eq!(clatter_assess::assess(&apart).unwrap().components[0].limits[0].model.bar, Model::FiniteTilt);
     let flat = Drop { is_flat: true, contact_time_s: None, ..bar(End::A, 1.0) };
     let said =
         answer(&flat, &Part::new(0.0, None), &Limit::new(LimitKind::VelocityChange, 1.0), Model::FiniteTilt, 0.01);

@@ -9,9 +9,8 @@ use std::fmt::Write as _;
 
 use crate::random::Random;
 use clatter::End;
-use clatter_assess::{
-    Component, Drop, Limit, LimitAssessment, Model, Mount, Part, Place, ProductFile, Side, Verdict, answer,
-};
+use clatter_assess::{LimitAssessment, Part, Verdict, answer};
+use clatter_product::{Component, Drop, Limit, Model, Mount, Place, ProductFile, Side};
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
@@ -188,7 +187,7 @@ struct Claimed {
 
 fn told(file: &ProductFile, r: &mut Random, singles: usize, at_real_tilt: bool) -> (f64, Vec<Claimed>) {
     let begun = std::time::Instant::now();
-    let assessment = file.assess().expect("an assessment");
+    let assessment = clatter_assess::assess(file).expect("an assessment");
     let took_s = begun.elapsed().as_secs_f64();
     let mut told = Vec::new();
     for (component, assessed) in file.components.iter().zip(assessment.components) {

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_answer::assess::{self, Answer};
-use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Component, ComponentAssessment, LARGEST_FILE, Model, ProductFile, Verdict};
+use clatter_assess::{Accuracy, ComponentAssessment, Verdict};
+use clatter_product::{Component, LARGEST_FILE, Model, ProductFile, units::Quantity};
 use clatter_report::Pages;
 use serde::Serialize;
 
@@ -152,7 +152,7 @@ impl Args {
     fn print(&self, answer: &Answer<'_>, pdf: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let Answer { file, assessment, measured, .. } = answer;
         let drawing = Counted::begin("drawing", 0);
-        let portraits = file.portraits(assessment);
+        let portraits = clatter_assess::portraits(file, assessment);
         drop(drawing);
         let remedies = {
             let changes = Counted::begin("changing", 0);
@@ -205,7 +205,7 @@ fn date(text: &str) -> Result<String, &'static str> {
 }
 
 /// Makes the assessment and counts its progress; at the end of the time it returns the verdicts by then.
-pub(crate) fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<Answer<'a>, clatter_assess::Error> {
+pub(crate) fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<Answer<'a>, clatter_product::Error> {
     let search = Counted::begin("searching", 0);
     assess::watched(file, accuracy, &|done, all| {
         search.of(done, all);
@@ -218,9 +218,9 @@ pub(crate) fn watched_one(
     file: &ProductFile,
     component: &Component,
     accuracy: &Accuracy,
-) -> Result<ComponentAssessment, clatter_assess::Error> {
+) -> Result<ComponentAssessment, clatter_product::Error> {
     let search = Counted::begin("searching", 0);
-    file.assess_one(component, accuracy, &|done, all| {
+    clatter_assess::assess_one(file, component, accuracy, &|done, all| {
         search.of(done, all);
         budget::go_on()
     })

@@ -15,7 +15,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use clatter_assess::units::{Dimension, TIME, Unit};
+use clatter_product::units::{Dimension, TIME, Unit};
 
 use crate::{Exit, progress};
 

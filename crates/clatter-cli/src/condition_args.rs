@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use clatter_assess::units::{FREQUENCY, TIME};
+use clatter_product::units::{FREQUENCY, TIME};
 use clatter_record::{Baseline, PRE_SHOCK_SHARE, Pass, Record};
 
 use crate::Failure;

@@ -12,9 +12,12 @@ use std::path::{Path, PathBuf};
 use clap::ValueHint;
 use clatter::design::Goal;
 use clatter_answer::design::Answer;
-use clatter_assess::design::{Bounds, Plane};
-use clatter_assess::{Accuracy, ProductFile};
+use clatter_assess::{
+    Accuracy,
+    design::{Bounds, Plane},
+};
 use clatter_figures::FigureError;
+use clatter_product::ProductFile;
 
 use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
@@ -195,7 +198,7 @@ impl Args {
         let assessment = assess::watched(file, &Accuracy::default())?.assessment;
         let remedies = {
             let changes = Counted::begin("changing", 0);
-            file.remedies_watched(&assessment, &bounds, self.margin, &|done, all| {
+            clatter_assess::remedies_watched(file, &assessment, &bounds, self.margin, &|done, all| {
                 changes.of(done, all);
                 budget::go_on()
             })?

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::ValueHint;
 use clatter::End;
 use clatter_answer::{DropInputs, Error};
-use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Drop, Input, Model, slip};
+use clatter_assess::Accuracy;
+use clatter_product::{Drop, Input, Model, slip, units::Quantity};
 
 use crate::inputs::{self, Law};
 use crate::numbers::given;

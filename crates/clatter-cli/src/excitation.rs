@@ -1,6 +1,6 @@
 //! This module reads the arguments of a command for the shocks on a component, and for its limits.
 
-use clatter_assess::units::{ACCELERATION, Dimension, FREQUENCY, LENGTH, Quantity, SPEED, TIME, Unit};
+use clatter_product::units::{ACCELERATION, Dimension, FREQUENCY, LENGTH, Quantity, SPEED, TIME, Unit};
 use clatter_shock::{
     Error, Frequencies, LimitCurve, Pulse, Pulses, STANDARD_GRAVITY_M_S2, Shape, ShockTable, VelocityShock,
 };

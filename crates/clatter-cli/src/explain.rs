@@ -5,8 +5,11 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_answer::explain::Answer;
-use clatter_assess::ladder::{Groups, LandingLadder, LeftOut, LimitLadder, Measured, ProductLadder};
-use clatter_assess::{Accuracy, ProductFile, units};
+use clatter_assess::{
+    Accuracy,
+    ladder::{Groups, LandingLadder, LeftOut, LimitLadder, Measured, ProductLadder},
+};
+use clatter_product::{ProductFile, units};
 
 use crate::columns::{Table, sentence};
 use crate::inputs::{self, Format};
@@ -72,7 +75,7 @@ pub(crate) fn measure(
     let file = assess::read(path, files, streams)?;
     let ladders = assess::watched(&file, &Accuracy::default()).and_then(|answer| {
         let _measuring = Counted::begin("measuring models", 0);
-        file.ladders(&answer.assessment, tolerance)
+        clatter_assess::ladders(&file, &answer.assessment, tolerance)
     });
     let ladders = ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))?;
     Ok((file, ladders))

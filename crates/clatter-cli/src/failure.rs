@@ -26,7 +26,7 @@ pub(crate) enum Failure {
     #[error("{}: {}", text::path(.path), text::visible(&.reason.to_string()))]
     List { path: PathBuf, reason: clatter_record::Error },
     #[error(transparent)]
-    Assess(#[from] clatter_assess::Error),
+    Assess(#[from] clatter_product::Error),
     #[error(transparent)]
     Flight(#[from] clatter_flight::Error),
     #[error(transparent)]

@@ -1,6 +1,6 @@
 //! This module reads how the shocks of a record are found.
 
-use clatter_assess::units::{ACCELERATION, Dimension, TIME};
+use clatter_product::units::{ACCELERATION, Dimension, TIME};
 use clatter_shock::Search;
 
 use crate::quantities::plain_or_typed;

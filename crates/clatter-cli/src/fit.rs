@@ -9,8 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgAction, ValueHint};
 use clatter_answer::Error;
 use clatter_answer::fit::{self, Answer, Question};
-use clatter_assess::units::Quantity;
-use clatter_assess::{LARGEST_FILE, ProductFile};
+use clatter_product::{LARGEST_FILE, ProductFile, units::Quantity};
 
 use crate::inputs::Format;
 use crate::measured;

@@ -26,9 +26,9 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         if is_standard(&self.file) {
-            return streams.out.write_all(clatter_assess::EXAMPLE.as_bytes()).map_err(Failure::Answer);
+            return streams.out.write_all(clatter_product::EXAMPLE.as_bytes()).map_err(Failure::Answer);
         }
-        output::create(&self.file, |file| file.write_all(clatter_assess::EXAMPLE.as_bytes())).map_err(|failure| {
+        output::create(&self.file, |file| file.write_all(clatter_product::EXAMPLE.as_bytes())).map_err(|failure| {
             match failure {
                 Failure::File { path, reason } if reason.kind() == ErrorKind::AlreadyExists => Failure::Exists(path),
                 other => other,

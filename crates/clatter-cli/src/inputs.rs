@@ -6,9 +6,12 @@ use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clatter::{Axis, Bar, End, Error, Mass, Plate, PlateStart, Start};
 pub(crate) use clatter_answer::letter;
-use clatter_assess::units::{Quantity, SHARE};
-use clatter_assess::{Accuracy, Model, OwnContact, Slip};
+use clatter_assess::Accuracy;
 use clatter_flight::{Contact, ContactLaw, Profile, Scene};
+use clatter_product::{
+    Model, OwnContact, Slip,
+    units::{Quantity, SHARE},
+};
 use clatter_shock::DampingRatio;
 
 use crate::Failure;
@@ -201,7 +204,7 @@ impl DampingArgs {
     }
     /// Returns a warning about a damping ratio that no part has.
     pub(crate) fn slip(&self) -> Option<Slip> {
-        self.damping.and_then(|ratio| clatter_assess::slip("damping_ratio", &Quantity::of_si(ratio.get())))
+        self.damping.and_then(|ratio| clatter_product::slip("damping_ratio", &Quantity::of_si(ratio.get())))
     }
     /// Returns the damping ratio; Q = 10 where none is given, as is usual in the field.
     pub(crate) fn ratio(&self) -> Result<DampingRatio, clatter_shock::Error> {
@@ -224,7 +227,7 @@ pub(crate) struct DampingListArgs {
 impl DampingListArgs {
     /// Returns a warning about a damping ratio that no part has.
     pub(crate) fn slip(&self) -> Option<Slip> {
-        self.damping.and_then(|ratio| clatter_assess::slip("damping_ratio", &Quantity::of_si(ratio.get())))
+        self.damping.and_then(|ratio| clatter_product::slip("damping_ratio", &Quantity::of_si(ratio.get())))
     }
     /// Returns the given damping ratios, at least one: Q = 10 where none is given.
     pub(crate) fn ratios(&self) -> Result<Vec<DampingRatio>, clatter_shock::Error> {
@@ -345,10 +348,10 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 /// Reads an axis of a box.
-pub(crate) fn axis_of_box() -> impl TypedValueParser<Value = clatter_assess::Axis> {
+pub(crate) fn axis_of_box() -> impl TypedValueParser<Value = clatter_product::Axis> {
     let names = ["x", "y", "z"].map(PossibleValue::new).into_iter();
     let any = PossibleValue::new("any").help("The magnitude, of a place on which a part is mounted rigidly");
-    PossibleValuesParser::new(names.chain([any])).map(|name| clatter_assess::Axis::of(&name))
+    PossibleValuesParser::new(names.chain([any])).map(|name| clatter_product::Axis::of(&name))
 }
 
 /// Reads the model by which a drop is followed; the models begin with the least physics.

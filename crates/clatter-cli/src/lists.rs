@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use clatter_assess::units::Dimension;
+use clatter_product::units::Dimension;
 use clatter_record::Cell;
 use clatter_shock::{LimitCurve, Pulse, Trial, VelocityShock};
 

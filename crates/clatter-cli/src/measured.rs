@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clatter_answer::Error;
 use clatter_answer::fit::{self, Data, DropRecords, List, Record};
-use clatter_assess::ProductFile;
-use clatter_assess::fit::{Known, MeasuredDrop};
+use clatter_fit::{Known, MeasuredDrop};
+use clatter_product::ProductFile;
 
 use crate::progress::Counted;
 use crate::record_args::RecordArgs;

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use clatter::End;
-use clatter_assess::units::{Quantity, Unit};
-use clatter_assess::{
-    Accuracy, Component, Damping, Drop, Fall, First, Input, Limit, LimitKind, Limits, Mount, Part, Place, ProductFile,
-    Spread, WorstCase,
+use clatter_assess::{Accuracy, Part, WorstCase};
+use clatter_product::{
+    Component, Damping, Drop, Fall, First, Input, Limit, LimitKind, Limits, Mount, Place, ProductFile, Spread,
+    units::{Quantity, Unit},
 };
 use clatter_shock::DampingRatio;
 

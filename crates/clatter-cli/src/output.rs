@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use clatter_answer::Versioned;
-use clatter_assess::ProductFile;
+use clatter_product::ProductFile;
 use same_file::Handle;
 use serde::Serialize;
 

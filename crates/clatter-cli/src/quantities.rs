@@ -2,8 +2,10 @@
 
 use clatter::{Mass, Start, center_and_gyration};
 pub(crate) use clatter_answer::neat;
-use clatter_assess::units::{ACCELERATION, ANGLE, Dimension, FREQUENCY, LENGTH, MASS, Quantity, SPEED, TIME, Unit};
-use clatter_assess::{Slip, outside};
+use clatter_product::{
+    Slip, outside,
+    units::{ACCELERATION, ANGLE, Dimension, FREQUENCY, LENGTH, MASS, Quantity, SPEED, TIME, Unit},
+};
 
 use crate::Failure;
 use crate::inputs::{self, number, part_of};
@@ -65,7 +67,7 @@ pub(crate) fn until(text: &str) -> Result<Quantity, String> {
 }
 
 pub(crate) fn spin(text: &str) -> Result<Quantity, String> {
-    clatter_assess::units::ANGULAR_VELOCITY.read(text)
+    clatter_product::units::ANGULAR_VELOCITY.read(text)
 }
 
 /// Reads the velocities of both ends; in v0, or with their units.

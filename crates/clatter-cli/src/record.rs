@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_answer::record::{self, Answer, Question, extremes, time_s};
-use clatter_assess::units::{ACCELERATION, FREQUENCY, TIME, Unit};
 use clatter_figures::{FigureError, Trace};
+use clatter_product::units::{ACCELERATION, FREQUENCY, TIME, Unit};
 use clatter_record::{Channel, Record, Series, TimeAxis, write_parquet};
 use clatter_shock::{Pulse, Shock};
 use serde::Serialize;

@@ -5,8 +5,10 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use clatter_answer::fit;
-use clatter_assess::RecordFile;
-use clatter_assess::units::{ACCELERATION, FREQUENCY};
+use clatter_product::{
+    RecordFile,
+    units::{ACCELERATION, FREQUENCY},
+};
 use clatter_record::{Options, Pick, Record, Units};
 
 use crate::progress::Counted;

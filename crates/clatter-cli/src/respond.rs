@@ -11,8 +11,8 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter::Bar;
-use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Axis, Model, OwnContact, Slip, slip};
+use clatter_assess::Accuracy;
+use clatter_product::{Axis, Model, OwnContact, Slip, slip, units::Quantity};
 use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
 use crate::drop_args::{DropArgs, IN_SI};

@@ -8,10 +8,8 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter_answer::scatter::Answer;
-use clatter_assess::Input;
-use clatter_assess::ProductFile;
 use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings};
-use clatter_assess::units::Quantity;
+use clatter_product::{Input, ProductFile, units::Quantity};
 
 use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};

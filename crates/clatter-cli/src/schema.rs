@@ -15,7 +15,7 @@ pub(crate) struct Args {}
 impl Args {
     #[expect(clippy::unused_self, reason = "all commands are run alike")]
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        serde_json::to_writer_pretty(&mut *streams.out, &clatter_assess::schema())
+        serde_json::to_writer_pretty(&mut *streams.out, &clatter_product::schema())
             .map_err(|error| Failure::Answer(error.into()))?;
         writeln!(streams.out).map_err(Failure::Answer)
     }

@@ -9,9 +9,8 @@ use std::io::{self, Write};
 
 use clap::ValueHint;
 use clatter_answer::simulate::{self, Answer, Question, bar};
-use clatter_assess::Model;
-use clatter_assess::units::Quantity;
 use clatter_flight::{Scene, Stop};
+use clatter_product::{Model, units::Quantity};
 use serde::Serialize;
 
 use crate::drop_args::{DropArgs, ExtraArgs, IN_SI, Setup};

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::ValueHint;
 use clatter_answer::study::{Shard, Study};
-use clatter_assess::{LARGEST_FILE, Plan, ProductFile};
+use clatter_product::{LARGEST_FILE, Plan, ProductFile};
 use clatter_record::{RowGroupWriter, RowGroups};
 use serde::Serialize;
 

@@ -13,7 +13,7 @@
 
 use std::path::Path;
 
-pub(crate) use clatter_assess::{visible, visible_lines};
+pub(crate) use clatter_product::{visible, visible_lines};
 use unicode_width::UnicodeWidthStr;
 
 /// Returns the name of a file, or of standard input.

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::ValueHint;
-use clatter_assess::ProductFile;
 use clatter_assess::ladder::{LimitLadder, Measured, ProductLadder};
+use clatter_product::ProductFile;
 
 use crate::columns::sentence;
 use crate::input::is_standard;

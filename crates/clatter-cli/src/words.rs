@@ -2,7 +2,7 @@
 
 pub(crate) use clatter_answer::drop_in_words as drop;
 use clatter_answer::significant;
-use clatter_assess::{Unit, units};
+use clatter_product::{Unit, units};
 
 /// Writes a value in the unit that it was written in, or else in the customary one.
 pub(crate) fn in_words(unit: Unit, written: Option<&units::Unit>, value: f64) -> String {

@@ -6,8 +6,10 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use clatter_assess::ProductFile;
-use clatter_assess::units::{ACCELERATION, ANGULAR_VELOCITY, Dimension, LENGTH, SPEED};
+use clatter_product::{
+    ProductFile,
+    units::{ACCELERATION, ANGULAR_VELOCITY, Dimension, LENGTH, SPEED},
+};
 use serde_json::Value;
 
 /// A box on one face, and two drops of a bar.

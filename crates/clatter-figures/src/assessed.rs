@@ -1,6 +1,7 @@
 //! An assessed product with its parts.
 
-use clatter_assess::{Assessment, Component, ComponentAssessment, Portrait, ProductFile};
+use clatter_assess::{Assessment, ComponentAssessment, Portrait};
+use clatter_product::{Component, ProductFile};
 
 use crate::{Area, FigureError, Place, plan, product};
 
@@ -8,10 +9,10 @@ use crate::{Area, FigureError, Place, plan, product};
 /// of each part, which `portraits` hold; other portraits may be left out.
 ///
 /// ```
-/// use clatter_assess::{EXAMPLE, ProductFile};
+/// use clatter_product::{EXAMPLE, ProductFile};
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
-/// let assessment = file.assess()?;
-/// let drawn = clatter_figures::assessed(&file, &assessment, &file.portraits(&assessment))?;
+/// let assessment = clatter_assess::assess(&file)?;
+/// let drawn = clatter_figures::assessed(&file, &assessment, &clatter_assess::portraits(&file, &assessment))?;
 /// assert!(drawn.contains(">display<"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -1,8 +1,8 @@
 //! One drop in time: heights, velocity shocks, and pulses where contacts take time.
 
-use clatter_assess::STANDARD_GRAVITY_M_S2;
 use clatter_flight::history::{Forces, Row};
 use clatter_flight::{Stop, Strike};
+use clatter_product::STANDARD_GRAVITY_M_S2;
 
 use crate::FigureError;
 use crate::axis::{Axis, three};

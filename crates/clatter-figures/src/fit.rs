@@ -1,8 +1,8 @@
 //! Measured beside computed: strikes, heights and accelerations of one drop.
 
 use clatter::End;
-use clatter_assess::STANDARD_GRAVITY_M_S2;
-use clatter_assess::fit::{Fit, RecordFit};
+use clatter_fit::{Fit, RecordFit};
+use clatter_product::STANDARD_GRAVITY_M_S2;
 
 use crate::FigureError;
 use crate::axis::Axis;
@@ -27,7 +27,7 @@ const COMPUTED: Ink = Ink::line(RUST, 0.9);
 /// touch.
 ///
 /// ```
-/// use clatter_assess::fit::bounces;
+/// use clatter_fit::bounces;
 /// let found = bounces(&[1.0, 1.4, 1.6, 1.7], 9.81, Some(1e-4))?;
 /// assert!(clatter_figures::fit(&found)?.contains("measured"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -1,8 +1,8 @@
 //! Error over cost: the error of every model on one drop and its time, with a ring around the cheapest within the
 //! tolerance.
 
-use clatter_assess::Model;
 use clatter_assess::ladder::{Ladder, Measured, Rung};
+use clatter_product::Model;
 
 use crate::FigureError;
 use crate::axis::{Axis, step_up, tick};

@@ -8,8 +8,9 @@ mod part;
 mod plate;
 
 use clatter::End;
-use clatter_assess::{Assessment, Component, ComponentAssessment, LimitAssessment, LimitKind, Portrait, Verdict};
+use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, Portrait, Verdict};
 use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
+use clatter_product::{Component, LimitKind};
 use serde_json::{Value, json};
 
 use crate::Pages;
@@ -220,16 +221,16 @@ fn share<'a>(((_, assessed), portrait): &Part<'_>, name: &'a str) -> Share<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_assess::ProductFile;
     use clatter_assess::design::{Bounds, Outcome, Remedies, Remedy};
+    use clatter_product::ProductFile;
 
     /// A bar.
     const EXAMPLE: &str = include_str!("../../../tests/cases/bar-handheld.toml");
 
     fn pages(text: &str, to: &std::path::Path) -> lopdf::Document {
         let file = ProductFile::read(text, "test.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment);
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let portraits = clatter_assess::portraits(&file, &assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,
@@ -270,11 +271,11 @@ mod tests {
     #[test]
     fn a_part_is_told_what_would_make_it_safe() {
         let file = ProductFile::read(include_str!("../../../tests/cases/bar-laptop.toml"), "laptop.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        let found = file.remedies(&assessment, &Bounds::default(), 0.1).unwrap();
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let found = clatter_assess::remedies(&file, &assessment, &Bounds::default(), 0.1).unwrap();
         let told = |remedies: &[Remedies]| {
             let (file, assessment) = (&file, &assessment);
-            let portraits = &file.portraits(assessment)[..];
+            let portraits = &clatter_assess::portraits(file, assessment)[..];
             let pages = Pages { file, assessment, portraits, remedies, measured: &[], path: "laptop.toml", date: None };
             let data = data(&files(&pages).unwrap());
             data["parts"].as_array().unwrap().iter().map(|part| part["changes"].clone()).collect::<Vec<_>>()
@@ -308,8 +309,8 @@ mod tests {
     #[test]
     fn a_page_says_what_was_found_of_each_part() {
         let file = ProductFile::read(include_str!("../../../tests/cases/bar-laptop.toml"), "laptop.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment);
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let portraits = clatter_assess::portraits(&file, &assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,
@@ -345,12 +346,12 @@ mod tests {
             let text = EXAMPLE.replace("\"1000 gn\"", &format!("\"{limit} m/s2\""));
             ProductFile::read(&text, "test.toml").unwrap()
         };
-        let asked = file(1e4).assess().unwrap().components[1].limits[0].demand.unwrap();
+        let asked = clatter_assess::assess(&file(1e4)).unwrap().components[1].limits[0].demand.unwrap();
         let close = file(1.005 * asked);
-        let assessment = close.assess().unwrap();
+        let assessment = clatter_assess::assess(&close).unwrap();
         let camera = &assessment.components[1];
         assert_eq!(camera.limits[0].verdict, Verdict::Undecided, "{camera:?}");
-        let portraits = close.portraits(&assessment);
+        let portraits = clatter_assess::portraits(&close, &assessment);
         let pages = Pages {
             file: &close,
             assessment: &assessment,
@@ -402,7 +403,7 @@ mod tests {
     fn what_exceeds_its_limit_is_told_on_the_first_page_with_its_share() {
         let dir = tempfile::tempdir().unwrap();
         let text = include_str!("../../../tests/cases/bar-laptop.toml");
-        let found = ProductFile::read(text, "laptop.toml").unwrap().assess().unwrap();
+        let found = clatter_assess::assess(&ProductFile::read(text, "laptop.toml").unwrap()).unwrap();
         let shares = found.components.iter().flat_map(|c| &c.limits).map(|l| l.demand.unwrap() / l.allowed);
         let share = clatter_figures::three(100.0 * shares.fold(0.0, f64::max));
         let pdf = pages(text, &dir.path().join("report.pdf"));
@@ -425,8 +426,8 @@ mod tests {
         });
         let head = EXAMPLE.split("[[component]]").next().unwrap();
         let file = ProductFile::read(&(head.to_owned() + &many.collect::<String>()), "many.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment);
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let portraits = clatter_assess::portraits(&file, &assessment);
         let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
         let files =
             files(&Pages { file, assessment, portraits, remedies: &[], measured: &[], path: "many.toml", date: None })
@@ -441,10 +442,10 @@ mod tests {
     /// Strikes of the paper's reference bar at e = 0.3, as in the tests of `clatter-cli`; and what no computed drop explains.
     #[test]
     fn measured_drops_have_a_section_and_what_they_contradict_stands_on_the_first_page() {
-        use clatter_assess::fit::{Known, Measured, MeasuredDrop, MeasuredStrike, fit};
+        use clatter_fit::{Known, Measured, MeasuredDrop, MeasuredStrike, fit};
         let file = ProductFile::read(EXAMPLE, "test.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment);
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let portraits = clatter_assess::portraits(&file, &assessment);
         let strike = |(time_s, end)| MeasuredStrike { time_s, end: Some(end) };
         let times = [(0.0, End::A), (1.2121e-3, End::B), (1.682_85e-3, End::A), (34.386e-3, End::B)];
         let measured = Measured::Strikes { strikes: times.map(strike).into(), deviation_s: Some(1e-6) };
@@ -502,8 +503,8 @@ mod tests {
             .replace("name = \"crystal\"", "name = \"ῥ∰ά\"")
             .replace("name = \"display\"", "name = \"display \u{488}\"");
         let file = ProductFile::read(&text, "test.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment);
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let portraits = clatter_assess::portraits(&file, &assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,

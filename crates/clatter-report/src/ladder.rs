@@ -34,9 +34,9 @@ fn of_limit(limit: &LimitLadder, tolerance: f64) -> Panel<'_> {
 mod tests {
     use super::*;
     use crate::frame::stay_within_their_frame;
-    use clatter_assess::ladder::Ladder;
-    use clatter_assess::{Drop, Limit, LimitKind, Part};
+    use clatter_assess::{Part, ladder::Ladder};
     use clatter_flight::Body;
+    use clatter_product::{Drop, Limit, LimitKind};
     use clatter_shock::{DampingRatio, Suspension};
 
     /// A flat drop, a dead one and a lively one: errors beyond all scales, times that differ little.

@@ -19,8 +19,8 @@ pub mod words;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use clatter_assess::design::Remedies;
-use clatter_assess::{Assessment, ProductFile};
+use clatter_assess::{Assessment, design::Remedies};
+use clatter_product::ProductFile;
 
 pub use file::{create, differ_by_case_alone, directory_of, is_protected, place_of, replace, takes_files};
 pub use leftovers::remove_leftovers;
@@ -44,7 +44,7 @@ pub enum ReportError {
     #[error("{0}")]
     Typst(String),
     /// A file could not be written or read.
-    #[error("{}: {source}", clatter_assess::visible(&path.display().to_string()))]
+    #[error("{}: {source}", clatter_product::visible(&path.display().to_string()))]
     Io {
         /// The file.
         path: PathBuf,
@@ -69,7 +69,7 @@ pub struct Pages<'a> {
     /// that finds its changes.
     pub remedies: &'a [Remedies],
     /// The measured drops of the product; the pages have a section for each.
-    pub measured: &'a [clatter_assess::fit::MeasuredDrop],
+    pub measured: &'a [clatter_fit::MeasuredDrop],
     /// The path that the product was read from, as the pages print it.
     pub path: &'a str,
     /// The day that the pages print, if any.
@@ -84,11 +84,11 @@ pub struct Pages<'a> {
 ///
 /// ```no_run
 /// // typst may have to be installed first
-/// use clatter_assess::{EXAMPLE, ProductFile};
+/// use clatter_product::{EXAMPLE, ProductFile};
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
-/// let assessment = file.assess()?;
-/// let portraits = file.portraits(&assessment);
-/// let remedies = file.remedies(&assessment, &clatter_assess::design::Bounds::default(), 0.1)?;
+/// let assessment = clatter_assess::assess(&file)?;
+/// let portraits = clatter_assess::portraits(&file, &assessment);
+/// let remedies = clatter_assess::remedies(&file, &assessment, &clatter_assess::design::Bounds::default(), 0.1)?;
 /// let (file, assessment, portraits, remedies) = (&file, &assessment, &portraits, &remedies);
 /// let pages = clatter_report::Pages { file, assessment, portraits, remedies, measured: &[], path: "example.toml", date: None };
 /// clatter_report::write_assessment(&pages, "report.pdf".as_ref(), &mut |_| ())?;
@@ -139,9 +139,9 @@ pub fn assessment_pdf(
 /// cheapest model within the tolerance is ringed. A model whose error is below that of the reference stands in a strip at the foot.
 ///
 /// ```
-/// use clatter_assess::{EXAMPLE, ProductFile};
+/// use clatter_product::{EXAMPLE, ProductFile};
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
-/// let ladders = file.ladders(&file.assess()?, 0.01)?;
+/// let ladders = clatter_assess::ladders(&file, &clatter_assess::assess(&file)?, 0.01)?;
 /// assert!(clatter_report::ladder_svg(&ladders)?.contains("plate"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

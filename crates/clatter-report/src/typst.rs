@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-use clatter_assess::visible_lines;
+use clatter_product::visible_lines;
 
 use crate::ReportError;
 use crate::leftovers::Listed;

@@ -1,7 +1,7 @@
 //! This module writes numbers, limits and names in running text.
 
 use clatter::End;
-use clatter_assess::{Model, Spread, Unit};
+use clatter_product::{Model, Spread, Unit};
 
 use clatter_figures::three;
 
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn ranges_of_no_length_are_values() {
-        let tilt = Spread::new(0.0, 0.1, clatter_assess::Law::Range).unwrap();
+        let tilt = Spread::new(0.0, 0.1, clatter_product::Law::Range).unwrap();
         assert_eq!(range(&tilt, 1e-3, "mrad"), "0 to 100 mrad");
         assert_eq!(range(&Spread::value(-0.02).unwrap(), 1e-3, "mm"), "−20 mm");
         assert_eq!(span([0.3, 0.4], 1.0, ""), "0.3 to 0.4");

@@ -1,7 +1,8 @@
 //! The worked products as bars, as plates in any direction of tilt, and as boxes that land on their bottom.
 
-use clatter_assess::{Attitude, Landing, Law, LimitKind, ProductFile, Side, Spread, Verdict};
+use clatter_assess::Verdict;
 use clatter_flight::ContactLaw;
+use clatter_product::{Attitude, Landing, Law, LimitKind, ProductFile, Side, Spread};
 use serde_json::{Value, json};
 
 use crate::Error;
@@ -72,7 +73,11 @@ pub(crate) fn rows() -> Result<Vec<Row>, Error> {
     let mut rows = Vec::new();
     for product in &PRODUCTS {
         let files = product.files()?;
-        let [bar, plate, lying] = [files[0].assess()?, files[1].assess()?, files[2].assess()?];
+        let [bar, plate, lying] = [
+            clatter_assess::assess(&files[0])?,
+            clatter_assess::assess(&files[1])?,
+            clatter_assess::assess(&files[2])?,
+        ];
         for ((bar, plate), lying) in bar.components.iter().zip(&plate.components).zip(&lying.components) {
             for ((one, two), three) in bar.limits.iter().zip(&plate.limits).zip(&lying.limits) {
                 let limits = [one, two, three];

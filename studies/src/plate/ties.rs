@@ -1,8 +1,9 @@
 //! Corners that land at one instant, or nearly, by rigid impacts and by contacts that take time.
 
 use clatter::{Bar, Corner, End, Plate, PlateStart, Start};
-use clatter_assess::{Drop, Limit, LimitKind, Model, Part, Place, answer};
+use clatter_assess::{Part, answer};
 use clatter_flight::{Contact, ContactLaw, PlateScene};
+use clatter_product::{Drop, Limit, LimitKind, Model, Place};
 use rayon::prelude::*;
 
 use super::E;

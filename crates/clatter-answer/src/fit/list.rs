@@ -4,8 +4,9 @@
 use std::io::Read;
 
 use clatter::End;
-use clatter_assess::fit::{self, MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredHeights, MeasuredStrike};
-use clatter_assess::{ProductFile, RecordFile, visible};
+use clatter_fit as fit;
+use clatter_fit::{MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredHeights, MeasuredStrike};
+use clatter_product::{ProductFile, RecordFile, visible};
 use clatter_record::{Cell, Options, names_columns, read_list};
 
 use super::{Data, DropRecords, Record};

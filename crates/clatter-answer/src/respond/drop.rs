@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use clatter_answer::respond::drop;
-//! use clatter_assess::{Body, Drop, Model, Place};
+//! use clatter_product::{Body, Drop, Model, Place};
 //! // A place at end b of a phone, 140 mm long, that falls at 4.43 m/s and a tilt of 5°.
 //! let fall = Drop::new(Body::new(0.14, 0.0404)?, 4.43, 5_f64.to_radians(), 0.3);
 //! let answer = drop::answer(&drop::Question::new(fall, Model::FiniteTilt, Place::flat([0.07, 0.0])))?;
@@ -14,7 +14,8 @@
 //! # Ok::<(), clatter_answer::Error>(())
 //! ```
 
-use clatter_assess::{Axis, Case, Drop, Limit, Model, Part, Place, Swings};
+use clatter_assess::{Case, Part, Swings};
+use clatter_product::{Axis, Drop, Limit, Model, Place};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
@@ -110,8 +111,8 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_assess::Axis;
     use clatter_flight::{Block, BlockDrop};
+    use clatter_product::Axis;
     use clatter_shock::DampingRatio;
 
     /// A soft part without damping on a box that is set down swings under its weight, by twice its static deflection, and by no more

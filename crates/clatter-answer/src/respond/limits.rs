@@ -1,6 +1,7 @@
 //! This module answers one drop of any body: its effect on a part and at its place, and its demand on the limits of the part.
 
-use clatter_assess::{Drop, LimitKind, Model, Part, Place, Unit};
+use clatter_assess::Part;
+use clatter_product::{Drop, LimitKind, Model, Place, Unit};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
@@ -54,7 +55,7 @@ pub(super) struct OneDrop<'a> {
     /// The part; none that is mounted rigidly.
     pub(super) suspension: Option<Suspension>,
     /// Limits that are held against the drop.
-    pub(super) limits: Option<&'a [clatter_assess::Limit]>,
+    pub(super) limits: Option<&'a [clatter_product::Limit]>,
     /// A table whose half-sine is to do the same to the part.
     pub(super) shock_table: Option<ShockTable>,
 }
@@ -95,8 +96,8 @@ pub struct AtPlace {
 }
 
 /// Makes a limit that allows or forbids nothing: the value alone counts.
-fn unlimited(kind: LimitKind) -> clatter_assess::Limit {
-    clatter_assess::Limit::new(kind, 1.0)
+fn unlimited(kind: LimitKind) -> clatter_product::Limit {
+    clatter_product::Limit::new(kind, 1.0)
 }
 
 /// Returns the largest value, or 0 where nothing acts on the place.
@@ -107,22 +108,22 @@ fn value(largest: Option<Largest>) -> Json {
 impl OneDrop<'_> {
     fn answer(
         &self,
-        limit: &clatter_assess::Limit,
+        limit: &clatter_product::Limit,
         part: &Part,
-    ) -> Result<clatter_assess::Answer, clatter_assess::Error> {
+    ) -> Result<clatter_assess::Answer, clatter_product::Error> {
         clatter_assess::answer(&self.drop, part, limit, self.model, self.tolerance)
     }
 
     /// Returns the demand on a limit at a place; none where nothing acts there, or where the demand is not known.
     fn felt(
         &self,
-        limit: &clatter_assess::Limit,
+        limit: &clatter_product::Limit,
         place: &Part,
         part: Option<Suspension>,
     ) -> Result<Option<clatter_assess::Answer>, Error> {
         let suspension = part.filter(|_| limit.is_response());
         match self.answer(limit, &Part { suspension, ..*place }) {
-            Err(clatter_assess::Error::Unfinished | clatter_assess::Error::Contact) => Ok(None),
+            Err(clatter_product::Error::Unfinished | clatter_product::Error::Contact) => Ok(None),
             answer => Ok(Some(answer?)),
         }
     }
@@ -182,7 +183,7 @@ impl OneDrop<'_> {
     }
 
     /// Answers every limit at the worst of these places.
-    fn limits(&self, limits: &[clatter_assess::Limit], places: &[Place]) -> Result<Vec<Limit>, Error> {
+    fn limits(&self, limits: &[clatter_product::Limit], places: &[Place]) -> Result<Vec<Limit>, Error> {
         let mut found = Vec::with_capacity(limits.len());
         for limit in limits {
             let mut worst: Option<Limit> = None;

@@ -1,6 +1,7 @@
 //! This module holds the common content of all answers about a part: peaks, single shocks for comparison, the equivalent pulse.
 
-use clatter_assess::{Answer, Unit};
+use clatter_assess::Answer;
+use clatter_product::Unit;
 use clatter_shock::{
     DampingRatio, EquivalentPulse, ImpulseFactors, Response, STANDARD_GRAVITY_M_S2, ShockTable, Suspension,
     covering_condition,

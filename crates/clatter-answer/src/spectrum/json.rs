@@ -1,6 +1,6 @@
 //! This module writes a spectrum for programs.
 
-use clatter_assess::units::Unit;
+use clatter_product::units::Unit;
 use clatter_record::{Channel, Finding, TimeAxis};
 use clatter_shock::{EnvelopingPulse, LimitCurve, Margin, RequiredSpectrum, Spectrum};
 use serde::{Serialize, Serializer};

@@ -1,7 +1,7 @@
 //! This module holds the answer of a study, and its JSON.
 
-use clatter_assess::scatter::Scatter;
-use clatter_assess::{LimitKind, ProductFile, Unit, Verdict};
+use clatter_assess::{Verdict, scatter::Scatter};
+use clatter_product::{LimitKind, ProductFile, Unit};
 use serde::{Serialize, Serializer};
 
 use super::Study;
@@ -148,7 +148,7 @@ impl Serialize for Answer<'_> {
         AnswerJson {
             study: if plan.search { "search" } else { "scatter" },
             product,
-            grid: plan.grid.iter().map(clatter_assess::GridAxis::name).collect(),
+            grid: plan.grid.iter().map(clatter_product::GridAxis::name).collect(),
             members: self.members.iter().map(|member| MemberJson::new(member, self.target)).collect(),
         }
         .serialize(serializer)

@@ -1,7 +1,10 @@
 //! This module takes in all rows of a study, in order, and makes its answer.
 
-use clatter_assess::scatter::{PartRow, Recount};
-use clatter_assess::{Component, LimitKind, ProductFile, Verdict};
+use clatter_assess::{
+    Verdict,
+    scatter::{PartRow, Recount},
+};
+use clatter_product::{Component, LimitKind, ProductFile};
 
 use super::answer::{Answer, Member, Outcome, SearchedLimit};
 use super::{Error, Study, in_si};

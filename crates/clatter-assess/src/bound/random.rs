@@ -1,16 +1,18 @@
 //! Holds the bound against drops of random products: every body, posture, axis and law, contacts of their own, spin.
 
+use crate::assess::ranges_of;
 use std::fmt::Write;
 
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use super::bound;
+use crate::Accuracy;
 use crate::engine::{Part, PlaceHistory, answer};
 use crate::model::follow;
 use crate::search::Coordinates;
-use crate::{Accuracy, Axis, Limit, LimitKind, ProductFile};
 use clatter_flight::{Followed, Until};
+use clatter_product::{Axis, Limit, LimitKind, ProductFile};
 
 /// Numbers by the generator of Knuth's MMIX, from 0 to 1.
 struct Random(u64);
@@ -119,7 +121,7 @@ fn tightest(seed: u64) -> Option<([f64; 5], String)> {
     let text = product(&mut r);
     let file = ProductFile::read(&text, "random.toml").ok()?;
     let (listed, component) = (file.listed(), &file.components[0]);
-    let ranges = file.ranges_of(&listed[0].drop, listed[0].base, &Accuracy::default());
+    let ranges = ranges_of(&file, &listed[0].drop, listed[0].base, &Accuracy::default());
     let shares = std::array::from_fn(|_| r.unit());
     let flat = Coordinates { shares, ..ranges.middle(component) };
     let drop = ranges.single(&Coordinates { first: r.one_of(ranges.firsts()), ..flat });
@@ -142,7 +144,7 @@ fn later(seed: u64) -> Option<([f64; 2], String)> {
     let text = product(&mut r);
     let file = ProductFile::read(&text, "random.toml").ok()?;
     let (listed, component) = (file.listed(), &file.components[0]);
-    let ranges = file.ranges_of(&listed[0].drop, listed[0].base, &Accuracy::default());
+    let ranges = ranges_of(&file, &listed[0].drop, listed[0].base, &Accuracy::default());
     let shares = std::array::from_fn(|_| r.unit());
     let drop = ranges.single(&Coordinates { shares, ..ranges.middle(component) });
     let up = follow(&drop, ranges.model, 0.01, Until::Lands).ok().filter(Followed::is_early)?;

@@ -1,6 +1,7 @@
 //! This module defines the levers that a designer can change, the bounds of a change, and its effect.
 
-use crate::{Component, ComponentAssessment, Error, LimitKind, Mount, Product, Spread, units};
+use crate::ComponentAssessment;
+use clatter_product::{Component, Error, LimitKind, Mount, Product, units};
 
 /// One thing that a designer can change while all else stays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -220,27 +221,4 @@ pub struct Remedies {
     pub pair: Option<Together>,
     /// The nearest result, where no two levers are enough either.
     pub nearest: Option<Together>,
-}
-
-impl Product {
-    /// Returns the product with another inertia ratio: the radius of gyration that has it, the arms as they are.
-    ///
-    /// # Formula
-    /// q² (L_a² + ρ²)(L_b² + ρ²) = (L_a L_b − ρ²)², a quadratic in ρ², whose smaller root has q > 0.
-    ///
-    /// # Errors
-    /// [`Error::Bar`] unless −1 < q ≤ 1.
-    pub fn with_inertia_ratio(&self, q: f64) -> Result<Self, Error> {
-        clatter::Bar::new(q, 0.0)?;
-        let [a, b] = self.body.arms_m();
-        let (product, squares) = (a * b, a * a + b * b);
-        let less = (1.0 - q) * (1.0 + q);
-        let half = product + 0.5 * q * q * squares;
-        // half² − (1 − q²)² P², without cancellation for small q
-        let root = (0.5 * q * q * squares + product * q * q).max(0.0).sqrt() * (half + product * less).max(0.0).sqrt();
-        let larger = half + root;
-        let square = if q > 0.0 { product * product * less / larger } else { larger / less };
-        let rho = square.sqrt();
-        Ok(Self { body: self.body_with(rho)?, gyration_m: Spread::value(rho)?, ..self.clone() })
-    }
 }

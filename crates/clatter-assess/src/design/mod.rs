@@ -8,4 +8,5 @@ mod values;
 
 pub use lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
 pub use plane::{Border, Plane, PlaneComponent};
-pub use remedies::STEPS;
+pub use remedies::{STEPS, remedies, remedies_watched};
+pub use trial::least_margin;

@@ -6,9 +6,8 @@ use clatter::contour::Point;
 use clatter::design::{Goal, region};
 
 use super::lever::Bounds;
-use crate::quantity::Source;
 use crate::scatter::{Error, extremes};
-use crate::{Component, First, Limit, Model, ProductFile};
+use clatter_product::{Component, First, Limit, Model, ProductFile, Source};
 
 /// The design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1 of a product.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,7 +68,7 @@ impl Plane {
     ///
     /// # Examples
     /// ```
-    /// use clatter_assess::ProductFile;
+    /// use clatter_product::ProductFile;
     /// use clatter_assess::design::{Bounds, Plane};
     /// let bounds = Bounds { q: [0.5, 0.55], e: [0.3, 0.35], ..Bounds::default() };
     /// let bar = r#"

@@ -6,9 +6,10 @@ use rayon::prelude::*;
 
 use super::lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
 use super::trial::Breakers;
-use crate::quantity::Source;
+use super::trial::{is_enough, is_known_enough};
 use crate::search::Watch;
-use crate::{Accuracy, Assessment, Component, ComponentAssessment, Error, Mount, ProductFile, Verdict};
+use crate::{Accuracy, Assessment, ComponentAssessment, Verdict};
+use clatter_product::{Component, Error, Mount, ProductFile, Source};
 
 /// Steps from bound to bound in which safe values are looked for; an island of safety narrower than one may be missed.
 pub const STEPS: u32 = 48;
@@ -19,91 +20,94 @@ const TRIES: u32 = 8;
 /// Steps from the present values to the best ones of two levers together.
 const SHARES: u32 = 16;
 
-impl ProductFile {
-    /// Finds, for every component that is not safe with a margin, and every lever alone, the smallest change that makes it so; where none
-    /// does, the best pair of changes, or how near one gets.
-    ///
-    /// # Method
-    /// Values are tried outward from the present one, in steps of 1/48 of the bounds (frequencies: of their logarithm); the
-    /// step in which safety begins is bisected to 1/256. Every value is rounded before it is assessed to what can be specified,
-    /// as [`Change::to`] says: [`assess_to`](Self::assess_to) finds the part safe with the margin, of the file with the value as it is
-    /// printed; by both contact laws where contacts take time and the file names none. No mass is put outside of the body, ρ² ≤ `L_a L_b`.
-    /// A value is passed over at once where a drop that broke the part before still does, and a search for its worst drop is left as soon
-    /// as one breaks it: what takes its time is to find nothing. So the first value that no known drop breaks is searched, and what breaks
-    /// it tells of the next. Two levers go from their present values to the best of each together.
-    ///
-    /// A box is searched in all of its drops, one after the other, until one breaks the part.
-    ///
-    /// # Limitation
-    /// A safe stretch narrower than a step may be missed. Of pairs only those on the way to the best value of each lever are
-    /// looked at.
-    ///
-    /// # Errors
-    /// Those of [`check`](Self::check), [`Bounds::check`] and [`Accuracy::check`]; [`Error::OtherProduct`] for an assessment of another
-    /// product; [`Error::Number`] for a margin that is negative or not finite.
-    pub fn remedies(&self, assessment: &Assessment, bounds: &Bounds, margin: f64) -> Result<Vec<Remedies>, Error> {
-        self.remedies_watched(assessment, bounds, margin, &|_, _| true)
-    }
+/// Finds, for every component that is not safe with a margin, and every lever alone, the smallest change that makes it so; where none
+/// does, the best pair of changes, or how near one gets.
+///
+/// # Method
+/// Values are tried outward from the present one, in steps of 1/48 of the bounds (frequencies: of their logarithm); the
+/// step in which safety begins is bisected to 1/256. Every value is rounded before it is assessed to what can be specified,
+/// as [`Change::to`] says: [`assess_to`](crate::assess_to) finds the part safe with the margin, of the file with the value as it is
+/// printed; by both contact laws where contacts take time and the file names none. No mass is put outside of the body, ρ² ≤ `L_a L_b`.
+/// A value is passed over at once where a drop that broke the part before still does, and a search for its worst drop is left as soon
+/// as one breaks it: what takes its time is to find nothing. So the first value that no known drop breaks is searched, and what breaks
+/// it tells of the next. Two levers go from their present values to the best of each together.
+///
+/// A box is searched in all of its drops, one after the other, until one breaks the part.
+///
+/// # Limitation
+/// A safe stretch narrower than a step may be missed. Of pairs only those on the way to the best value of each lever are
+/// looked at.
+///
+/// # Errors
+/// Those of [`ProductFile::check`], [`Bounds::check`] and [`Accuracy::check`]; [`Error::OtherProduct`] for an assessment of another
+/// product; [`Error::Number`] for a margin that is negative or not finite.
+pub fn remedies(
+    file: &ProductFile,
+    assessment: &Assessment,
+    bounds: &Bounds,
+    margin: f64,
+) -> Result<Vec<Remedies>, Error> {
+    remedies_watched(file, assessment, bounds, margin, &|_, _| true)
+}
 
-    /// Finds the same, watched. Where `watch` says to stop, the results so far are returned: levers that were not tried to their end are
-    /// [`Outcome::Stopped`].
-    ///
-    /// # Errors
-    /// As [`remedies`](Self::remedies).
-    pub fn remedies_watched(
-        &self,
-        assessment: &Assessment,
-        bounds: &Bounds,
-        margin: f64,
-        watch: Watch<'_>,
-    ) -> Result<Vec<Remedies>, Error> {
-        if !(margin >= 0.0 && margin.is_finite()) {
-            return Err(Error::Number(margin));
-        }
-        self.check()?;
-        bounds.check()?;
-        assessment.accuracy.check()?;
-        assessment.is_of(self)?;
-        let wanting = |c: &ComponentAssessment| !self.is_enough(c, margin);
-        let failing = assessment.components.iter().enumerate().filter(|(_, found)| wanting(found));
-        let levers = |i: usize| Lever::of(&self.product, &self.components[i]);
-        let tasks: Vec<_> =
-            failing.flat_map(|(i, found)| levers(i).into_iter().map(move |lever| (i, found, lever))).collect();
-        // Each lever of each component is tried alone, and then together with the others.
-        let (all, done) = (2 * tasks.len(), AtomicUsize::new(0));
-        let go_on = || watch(done.load(Ordering::Relaxed).min(all), all);
-        let does = |steps: usize| {
-            done.fetch_add(steps, Ordering::Relaxed);
-        };
-        let case = |i: usize| {
-            let component = &self.components[i];
-            let accuracy = assessment.accuracy;
-            Case { file: self, number: i, component, accuracy, bounds, margin, go_on: &go_on }
-        };
-        let solve = |&(i, found, lever): &(usize, &ComponentAssessment, Lever)| {
-            let outcome = if go_on() { case(i).solve(lever, found) } else { Err(Error::Stopped) };
-            does(1);
-            Remedy { lever, outcome: outcome.unwrap_or(Outcome::Stopped) }
-        };
-        let solved: Vec<Remedy> = tasks.par_iter().map(solve).collect();
-        let mut solved = solved.into_iter();
-        let of_part = |of_one: &[(usize, &ComponentAssessment, Lever)]| {
-            let levers = solved.by_ref().take(of_one.len()).collect();
-            Remedies { component: of_one[0].0, levers, pair: None, nearest: None }
-        };
-        let parts: Vec<_> = tasks.chunk_by(|a, b| a.0 == b.0).map(of_part).collect();
-        let together = |part: Remedies| {
-            let found = &assessment.components[part.component];
-            let settled = |remedy: &Remedy| matches!(remedy.outcome, Outcome::Change { .. } | Outcome::Stopped);
-            let (mut pair, mut nearest) = (None, None);
-            if !part.levers.iter().any(settled) && go_on() {
-                (pair, nearest) = case(part.component).together(&part.levers, found).unwrap_or_default();
-            }
-            does(part.levers.len());
-            Remedies { pair, nearest, ..part }
-        };
-        Ok(parts.into_par_iter().map(together).collect())
+/// Finds the same, watched. Where `watch` says to stop, the results so far are returned: levers that were not tried to their end are
+/// [`Outcome::Stopped`].
+///
+/// # Errors
+/// As [`remedies`].
+pub fn remedies_watched(
+    file: &ProductFile,
+    assessment: &Assessment,
+    bounds: &Bounds,
+    margin: f64,
+    watch: Watch<'_>,
+) -> Result<Vec<Remedies>, Error> {
+    if !(margin >= 0.0 && margin.is_finite()) {
+        return Err(Error::Number(margin));
     }
+    file.check()?;
+    bounds.check()?;
+    assessment.accuracy.check()?;
+    assessment.is_of(file)?;
+    let wanting = |c: &ComponentAssessment| !is_enough(file, c, margin);
+    let failing = assessment.components.iter().enumerate().filter(|(_, found)| wanting(found));
+    let levers = |i: usize| Lever::of(&file.product, &file.components[i]);
+    let tasks: Vec<_> =
+        failing.flat_map(|(i, found)| levers(i).into_iter().map(move |lever| (i, found, lever))).collect();
+    // Each lever of each component is tried alone, and then together with the others.
+    let (all, done) = (2 * tasks.len(), AtomicUsize::new(0));
+    let go_on = || watch(done.load(Ordering::Relaxed).min(all), all);
+    let does = |steps: usize| {
+        done.fetch_add(steps, Ordering::Relaxed);
+    };
+    let case = |i: usize| {
+        let component = &file.components[i];
+        let accuracy = assessment.accuracy;
+        Case { file, number: i, component, accuracy, bounds, margin, go_on: &go_on }
+    };
+    let solve = |&(i, found, lever): &(usize, &ComponentAssessment, Lever)| {
+        let outcome = if go_on() { case(i).solve(lever, found) } else { Err(Error::Stopped) };
+        does(1);
+        Remedy { lever, outcome: outcome.unwrap_or(Outcome::Stopped) }
+    };
+    let solved: Vec<Remedy> = tasks.par_iter().map(solve).collect();
+    let mut solved = solved.into_iter();
+    let of_part = |of_one: &[(usize, &ComponentAssessment, Lever)]| {
+        let levers = solved.by_ref().take(of_one.len()).collect();
+        Remedies { component: of_one[0].0, levers, pair: None, nearest: None }
+    };
+    let parts: Vec<_> = tasks.chunk_by(|a, b| a.0 == b.0).map(of_part).collect();
+    let together = |part: Remedies| {
+        let found = &assessment.components[part.component];
+        let settled = |remedy: &Remedy| matches!(remedy.outcome, Outcome::Change { .. } | Outcome::Stopped);
+        let (mut pair, mut nearest) = (None, None);
+        if !part.levers.iter().any(settled) && go_on() {
+            (pair, nearest) = case(part.component).together(&part.levers, found).unwrap_or_default();
+        }
+        does(part.levers.len());
+        Remedies { pair, nearest, ..part }
+    };
+    Ok(parts.into_par_iter().map(together).collect())
 }
 
 /// One part that is to be made safe.
@@ -189,9 +193,10 @@ impl Case<'_> {
                     // The second lever is of use where it takes a smaller share.
                     if *least > 1 { self.first(least - 1, None, &at, &mut breakers)? } else { None }
                 } else {
-                    let room = nearest.as_ref().map(|nearest| self.file.least_margin(&nearest.after).min(self.margin));
+                    let room =
+                        nearest.as_ref().map(|nearest| crate::least_margin(self.file, &nearest.after).min(self.margin));
                     let Some(all) = self.with_room(&at(SHARES), room, &mut breakers)? else { continue };
-                    if !self.file.is_known_enough(&all, self.margin) {
+                    if !is_known_enough(self.file, &all, self.margin) {
                         self.nearer(&mut nearest, &changes(SHARES), &all);
                         continue;
                     }
@@ -221,7 +226,7 @@ impl Case<'_> {
         let mut order: Vec<(f64, u32)> = (0..=TRIES).rev().map(asked).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(u32, ComponentAssessment)> = None;
-        let room = |after: &ComponentAssessment| self.file.least_margin(after);
+        let room = |after: &ComponentAssessment| crate::least_margin(self.file, after);
         for (_, k) in order {
             let least = best.as_ref().map(|(_, best)| room(best));
             let Some(after) = self.with_room(&[(lever, at(k))], least, breakers)? else { continue };
@@ -250,7 +255,7 @@ impl Case<'_> {
     /// Keeps the changes that leave the largest margin. Of a limit without an answer nobody knows how near it is.
     fn nearer(&self, nearest: &mut Option<Together>, changes: &[Change], after: &ComponentAssessment) {
         let unknown = after.limits.iter().any(|l| l.verdict == Verdict::Undecided && l.uncertainty.is_infinite());
-        let room = |after: &ComponentAssessment| self.file.least_margin(after);
+        let room = |after: &ComponentAssessment| crate::least_margin(self.file, after);
         if !unknown && nearest.as_ref().is_none_or(|last| room(after) > room(&last.after)) {
             *nearest = Some(Together { changes: changes.to_vec(), after: Box::new(after.clone()) });
         }

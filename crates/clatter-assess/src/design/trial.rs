@@ -2,31 +2,31 @@
 
 use super::lever::Lever;
 use super::remedies::Case;
-use crate::assess::{Breaker, Found, Listed};
+use crate::assess::ranges_of;
+use crate::assess::{Breaker, Found, assess_these};
 use crate::search::{Ranges, Task};
-use crate::{ComponentAssessment, Error, Limit, LimitAssessment, ProductFile, Verdict, WorstCase};
+use crate::{ComponentAssessment, LimitAssessment, Verdict, WorstCase};
+use clatter_product::{Error, Limit, Listed, ProductFile};
 
-impl ProductFile {
-    /// Returns the least margin of a part that was assessed, allowed/demand − 1: by both contact laws where contacts take time and the file
-    /// names none, for a verdict counts with both then; infinite where no drop was answered.
-    #[must_use]
-    pub fn least_margin(&self, found: &ComponentAssessment) -> f64 {
-        let of = |limit: &LimitAssessment| {
-            let other = limit.other_law.filter(|_| self.product.contact_law.is_none());
-            other.map_or(f64::INFINITY, |other| limit.allowed / other - 1.0).min(limit.room())
-        };
-        found.limits.iter().map(of).fold(f64::INFINITY, f64::min)
-    }
+/// Returns the least margin of a part that was assessed, allowed/demand − 1: by both contact laws where contacts take time and the file
+/// names none, for a verdict counts with both then; infinite where no drop was answered.
+#[must_use]
+pub fn least_margin(file: &ProductFile, found: &ComponentAssessment) -> f64 {
+    let of = |limit: &LimitAssessment| {
+        let other = limit.other_law.filter(|_| file.product.contact_law.is_none());
+        other.map_or(f64::INFINITY, |other| limit.allowed / other - 1.0).min(limit.room())
+    };
+    found.limits.iter().map(of).fold(f64::INFINITY, f64::min)
+}
 
-    /// Returns whether a part is safe with a margin.
-    pub(super) fn is_enough(&self, found: &ComponentAssessment, margin: f64) -> bool {
-        found.verdict == Verdict::Safe && self.least_margin(found) >= margin
-    }
+/// Returns whether a part is safe with a margin.
+pub(super) fn is_enough(file: &ProductFile, found: &ComponentAssessment, margin: f64) -> bool {
+    found.verdict == Verdict::Safe && least_margin(file, found) >= margin
+}
 
-    /// Returns the same where every margin is known: of a change, drops that nothing answers show nothing.
-    pub(super) fn is_known_enough(&self, found: &ComponentAssessment, margin: f64) -> bool {
-        self.is_enough(found, margin) && found.limits.iter().all(|limit| limit.margin.is_some())
-    }
+/// Returns the same where every margin is known: of a change, drops that nothing answers show nothing.
+pub(super) fn is_known_enough(file: &ProductFile, found: &ComponentAssessment, margin: f64) -> bool {
+    is_enough(file, found, margin) && found.limits.iter().all(|limit| limit.margin.is_some())
 }
 
 /// The same share but for roundings.
@@ -87,7 +87,7 @@ impl Case<'_> {
     }
 
     fn ranges<'b>(&self, file: &'b ProductFile, listed: &'b Listed) -> Ranges<'b> {
-        file.ranges_of(&listed.drop, listed.base, &self.accuracy)
+        ranges_of(file, &listed.drop, listed.base, &self.accuracy)
     }
 
     /// Returns the law by which a drop breaks the part.
@@ -152,7 +152,7 @@ impl Case<'_> {
     ) -> Result<Option<ComponentAssessment>, Error> {
         let by_other = if self.file.product.contact_law.is_some() { f64::INFINITY } else { most };
         let part = &changed.file.components[self.number];
-        let found = changed.file.assess_these(&[part], &self.accuracy, [most, by_other], &|_, _| (self.go_on)());
+        let found = assess_these(&changed.file, &[part], &self.accuracy, [most, by_other], &|_, _| (self.go_on)());
         if !(self.go_on)() {
             return Err(Error::Stopped);
         }
@@ -180,7 +180,7 @@ impl Case<'_> {
     ) -> Result<Option<Box<ComponentAssessment>>, Error> {
         let Some(changed) = self.with(values) else { return Ok(None) };
         let found = self.searched(&changed, most(self.margin) * ALIKE, breakers)?;
-        Ok(found.filter(|found| self.file.is_known_enough(found, self.margin)).map(Box::new))
+        Ok(found.filter(|found| is_known_enough(self.file, found, self.margin)).map(Box::new))
     }
 
     /// Finds the first step of those up to `last` that makes the part safe with the margin, where the steps before fail and those after do

@@ -2,7 +2,7 @@
 
 use super::lever::{Change, Lever};
 use super::remedies::Case;
-use crate::{Damping, Law, Mount, Product, ProductFile, Spread};
+use clatter_product::{Damping, Law, Mount, Product, ProductFile, Spread};
 
 impl Case<'_> {
     /// Returns the present value, low and high end.

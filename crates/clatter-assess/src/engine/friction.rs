@@ -5,9 +5,8 @@ use clatter_shock::Suspension;
 
 use super::PlaceHistory;
 use super::later::slowest;
-use crate::Limit;
 use crate::bound::FRICTION;
-use crate::quantity::Source;
+use clatter_product::{Limit, Source};
 
 impl PlaceHistory<'_> {
     /// Returns [`friction`](Self::friction) of the part that it adds most to; of a limit that is no response there are none.

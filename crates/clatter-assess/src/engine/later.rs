@@ -4,9 +4,8 @@ use clatter_flight::Followed;
 use clatter_shock::Suspension;
 
 use super::{PlaceHistory, kept_arms};
-use crate::Limit;
 use crate::bound::box_acceleration;
-use crate::quantity::Source;
+use clatter_product::{Limit, Source};
 
 /// The bounds on strikes at a place after a motion was left, by the energy left.
 pub(super) struct Later {
@@ -181,8 +180,8 @@ mod tests {
     use super::*;
     use clatter_flight::{Axis, Body, Drop, Place, Side, Until};
 
-    use crate::Model;
     use crate::model::follow;
+    use clatter_product::Model;
 
     /// Returns a box of 120 mm × 80 mm × 20 mm with these radii of gyration of its mass along length and width, that lands flat at 2 m/s.
     fn lying([along, gyration_m]: [f64; 2], restitution: f64) -> Drop {
@@ -231,7 +230,7 @@ mod tests {
         let drop = lying([0.04, 0.025], 0.5);
         let up = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let place = PlaceHistory::new(&up, Place { axis: Axis::X, ..Place::default() }).unwrap();
-        let limit = Limit::new(crate::LimitKind::RattleSpace, 1e-3);
+        let limit = Limit::new(clatter_product::LimitKind::RattleSpace, 1e-3);
         let part = Suspension::from_hz(40.0, clatter_shock::DampingRatio::new(0.05).unwrap()).unwrap();
         let asked = place.answer_or_nothing(&limit, Some(&part)).unwrap();
         // It comes down with e v = 1 m/s: on its end that would be one blow of (1 + e) e v, by which the part swings v/ω, less e^(−ζ π/2).
@@ -247,7 +246,7 @@ mod tests {
         let up = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let on = follow(&drop, Model::Compliant, 0.01, Until::Past(0.3)).unwrap();
         let [up, on] = [&up, &on].map(|followed| PlaceHistory::new(followed, Place::default()).unwrap());
-        let limit = Limit::new(crate::LimitKind::RattleSpace, 1e-3);
+        let limit = Limit::new(clatter_product::LimitKind::RattleSpace, 1e-3);
         let mut tightest = 0.0_f64;
         for n in 0..60 {
             let hz = 20.0 + 0.5 * f64::from(n);
@@ -273,7 +272,7 @@ mod tests {
         let drop = bar(0.3, 0.6);
         let part = Suspension::from_hz(1.0, clatter_shock::DampingRatio::new(0.0).unwrap()).unwrap();
         let hangs = drop.gravity_m_s2 / (part.omega() * part.omega());
-        let limit = Limit::new(crate::LimitKind::RattleSpace, hangs);
+        let limit = Limit::new(clatter_product::LimitKind::RattleSpace, hangs);
         let up = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let weights = (up.carried_m_s2(&Place::default()), up.weight_to_come_m_s2());
         assert!(up.is_early() && weights == (0.0, 9.81), "{} {weights:?} {:?}", up.is_early(), up.stop());

@@ -4,12 +4,11 @@ use serde::Serialize;
 
 use super::plate::{BEYOND_PEAK, BLOCK, along_length, measured, reason};
 use super::{Groups, Ladder, Reference, Rung, cheapest, with};
-use crate::Model;
-use crate::assess::Listed;
 use crate::engine::{Part, answer};
 use crate::model::follow;
-use crate::{Assessment, DropName, Error, LandingLimit, Limit, ProductFile};
+use crate::{Assessment, LandingLimit};
 use clatter_flight::{Axis, Body, Drop, Place, Side, Until};
+use clatter_product::{DropName, Error, Limit, Listed, Model, ProductFile};
 
 /// One drop of a box: how late its last corner may come, compared with a contact, and the limit with least room.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,39 +39,36 @@ impl LandingLadder {
     }
 }
 
-impl ProductFile {
-    /// Returns the range of motions that the tolerance leaves open for each drop of a box.
-    pub(super) fn landing_ladders(&self, assessment: &Assessment) -> Vec<LandingLadder> {
-        let Some((faces_m, [shortest, longest])) = self.product.body.faces_m().zip(self.product.contact_times_s())
-        else {
-            return Vec::new();
-        };
-        let sides = faces_m.map(|[low, high]| low + high);
-        let listed = self.listed();
-        let attitudes = self.landings.iter().filter_map(|landing| landing.attitude);
-        let each = attitudes.zip(&listed).zip(&assessment.landings);
-        each.map(|((attitude, Listed { drop, .. }), assessed)| {
-            // Corners that are landed on lie along the sides that are level.
-            let level = attitude.level(faces_m);
-            let reach_m = level.iter().fold(0.0, |all, axis| libm::hypot(all, sides[*axis]));
-            let [slow, _] = drop.speeds_m_s();
-            // So slowly its farthest corner comes down, turned up as fast as it may be.
-            let far_m = faces_m.iter().fold(0.0, |all, [low, high]| libm::hypot(all, low.max(*high)));
-            let slow = slow - drop.fastest_rad_s() * far_m;
-            let tolerance = drop.tilt_rad.hi();
-            let as_one = libm::asin((shortest * slow / reach_m).min(1.0));
-            LandingLadder {
-                landing: assessed.landing,
-                corners: 1 << level.len(),
-                tolerance_deg: tolerance.to_degrees(),
-                last_corner_s: [0.0, reach_m * libm::sin(tolerance) / slow],
-                contact_time_s: [shortest, longest],
-                as_one_to_deg: (as_one < tolerance).then(|| as_one.to_degrees()),
-                tightest: assessed.tightest().cloned(),
-            }
-        })
-        .collect()
-    }
+/// Returns the range of motions that the tolerance leaves open for each drop of a box.
+pub(super) fn landing_ladders(file: &ProductFile, assessment: &Assessment) -> Vec<LandingLadder> {
+    let Some((faces_m, [shortest, longest])) = file.product.body.faces_m().zip(file.product.contact_times_s()) else {
+        return Vec::new();
+    };
+    let sides = faces_m.map(|[low, high]| low + high);
+    let listed = file.listed();
+    let attitudes = file.landings.iter().filter_map(|landing| landing.attitude);
+    let each = attitudes.zip(&listed).zip(&assessment.landings);
+    each.map(|((attitude, Listed { drop, .. }), assessed)| {
+        // Corners that are landed on lie along the sides that are level.
+        let level = attitude.level(faces_m);
+        let reach_m = level.iter().fold(0.0, |all, axis| libm::hypot(all, sides[*axis]));
+        let [slow, _] = drop.speeds_m_s();
+        // So slowly its farthest corner comes down, turned up as fast as it may be.
+        let far_m = faces_m.iter().fold(0.0, |all, [low, high]| libm::hypot(all, low.max(*high)));
+        let slow = slow - drop.fastest_rad_s() * far_m;
+        let tolerance = drop.tilt_rad.hi();
+        let as_one = libm::asin((shortest * slow / reach_m).min(1.0));
+        LandingLadder {
+            landing: assessed.landing,
+            corners: 1 << level.len(),
+            tolerance_deg: tolerance.to_degrees(),
+            last_corner_s: [0.0, reach_m * libm::sin(tolerance) / slow],
+            contact_time_s: [shortest, longest],
+            as_one_to_deg: (as_one < tolerance).then(|| as_one.to_degrees()),
+            tightest: assessed.tightest().cloned(),
+        }
+    })
+    .collect()
 }
 
 /// Returns the same drop as one of the plate that the face of a box is, with its part; none of an edge, of a corner, of a part that does

@@ -1,11 +1,10 @@
 //! The rungs of a plate: the bar along its length, the plate of small tilt, the box with full rotation.
 
 use super::{FINER, Groups, Ladder, Measured, Reference, Rung, cheapest, percent, time, with};
-use crate::Model;
 use crate::engine::{Answer, Part, answer, of_followed};
 use crate::model::follow;
-use crate::{Error, Limit};
 use clatter_flight::{Drop, Followed, Until};
+use clatter_product::{Error, Limit, Model};
 
 /// The time until which a box is followed, over the time of the peak that the plate of small tilt has.
 pub(super) const BEYOND_PEAK: f64 = 1.5;

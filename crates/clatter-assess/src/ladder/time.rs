@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use crate::Error;
+use clatter_product::Error;
 
 /// The machine on which times were taken.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

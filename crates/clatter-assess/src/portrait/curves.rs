@@ -5,8 +5,9 @@ use clatter::End;
 use super::Point;
 use super::drops::{Drops, Places, Tilt, along, corners, held, parts, with};
 use crate::search::Ranges;
-use crate::{Component, Limit, LimitAssessment, WorstCase};
+use crate::{LimitAssessment, WorstCase};
 use clatter_flight::Until;
+use clatter_product::{Component, Limit};
 
 /// Returns a curve for each end that may touch first: at each tilt the drop with the largest demand of those followed. These are the
 /// `shared` ones, at the ends of the ranges, and those with the speed, spin, restitution and contact time of the worst case; the worst case

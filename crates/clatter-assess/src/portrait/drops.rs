@@ -4,13 +4,12 @@ use std::sync::OnceLock;
 
 use clatter_shock::{DampingRatio, Suspension};
 
-use crate::Model;
 use crate::engine::PlaceHistory;
-use crate::inputs::{Input, Row, searched};
 use crate::model::follow;
 use crate::search::Ranges;
-use crate::{Component, Limit, Mount, Part, WorstCase};
+use crate::{Part, WorstCase};
 use clatter_flight::{Drop, Followed, Place, Until};
+use clatter_product::{Component, Input, Limit, Model, Mount, Row, searched};
 
 /// Steps of the tilt over its range; they are twice as close at its low end as at its high end.
 const STEPS: u32 = 40;

@@ -8,10 +8,10 @@ use clatter_shock::Suspension;
 use super::Point;
 use crate::engine::PlaceHistory;
 use crate::model::follow;
-use crate::quantity::Source;
 use crate::search::rough_to_rad_s;
-use crate::{Component, ComponentAssessment, Limit, LimitAssessment, LimitKind, Part, Product, WorstCase};
+use crate::{ComponentAssessment, LimitAssessment, Part, WorstCase};
 use clatter_flight::{Drop, Followed, Place, Until};
+use clatter_product::{Component, Limit, LimitKind, Source};
 
 /// Directions of the curve, and of them one in so many for the map.
 const DIRECTIONS: u32 = 72;
@@ -71,18 +71,6 @@ impl PlaceMap {
     #[must_use]
     pub fn share(&self, column: usize, row: usize) -> f64 {
         self.shares[row * self.along_m.len() + column]
-    }
-}
-
-impl Product {
-    /// Returns the plate as flights take it, corner a at (−, −); none of a bar.
-    #[must_use]
-    pub fn plate(&self) -> Option<clatter_flight::Plate> {
-        let (width, [left, right]) = (self.body.width.as_ref()?, self.body.arms_m());
-        let [front, back] = width.ends_m;
-        let gyration = [self.body.gyration_m(), width.gyration_m];
-        let plate = clatter_flight::Plate::new([left, right, front, back], gyration).ok()?;
-        plate.with_product_of_inertia(self.body.products_m2[0]).ok()
     }
 }
 

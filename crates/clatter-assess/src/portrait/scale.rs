@@ -1,6 +1,7 @@
 //! This module compares the result of the assessment for a limit with the drops of the pictures.
 
-use crate::{ComponentAssessment, LimitAssessment, LimitKind, Verdict};
+use crate::{ComponentAssessment, LimitAssessment, Verdict};
+use clatter_product::LimitKind;
 
 /// The factor between the demand of the assessment and the largest demand of the drops of the pictures at the part's own place: its search
 /// climbs to the worst drop, and it adds what that may miss, and the demand of rebounds and of another contact law. Other places are

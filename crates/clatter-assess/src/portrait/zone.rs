@@ -2,7 +2,8 @@
 
 use super::drops::{Places, View, parts};
 use super::scale::Scale;
-use crate::{Component, ComponentAssessment, Limit, LimitAssessment};
+use crate::{ComponentAssessment, LimitAssessment};
+use clatter_product::{Component, Limit};
 
 /// Places along the product, from end to end.
 pub(super) const PLACES: u32 = 33;

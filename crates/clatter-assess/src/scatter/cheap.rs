@@ -10,8 +10,7 @@ use clatter::{Bar, End, Impact, Start};
 use clatter_shock::{VelocityShock, VelocityShocks};
 
 use super::sample::{PartSample, Sample};
-use crate::quantity::Source;
-use crate::{Drop, Error};
+use clatter_product::{Drop, Error, Source};
 
 /// A train is left where a strike is this share of the first, or after so many.
 const SMALL: f64 = 1e-3;
@@ -75,8 +74,9 @@ fn of_part(drop: &Drop, train: &[Impact], part: &PartSample) -> Result<f64, Erro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Inside, Limit, LimitKind, Model, Part};
+    use crate::Part;
     use clatter_flight::Body;
+    use clatter_product::{Inside, Limit, LimitKind, Model};
     use clatter_shock::{DampingRatio, Suspension};
     use proptest::prelude::*;
 

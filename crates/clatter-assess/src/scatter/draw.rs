@@ -1,6 +1,6 @@
 //! A value of a quantity from a uniform number: the inverse of its distribution.
 
-use crate::{Law, Spread};
+use clatter_product::{Law, Spread};
 
 /// The value of a spread quantity that a share of all values stays below.
 ///

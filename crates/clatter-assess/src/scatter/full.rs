@@ -5,10 +5,9 @@ use std::f64::consts::PI;
 use super::SampleDemand;
 use super::sample::PartSample;
 use crate::engine::PlaceHistory;
-use crate::model::{Model, follow};
-use crate::quantity::Source;
-use crate::{Drop, Error, Limit, LimitKind};
+use crate::model::follow;
 use clatter_flight::{Followed, Until};
+use clatter_product::{Drop, Error, Limit, LimitKind, Model, Source};
 
 /// The tolerance to which a sample is answered. A coarser answer costs no less: more samples are left open and followed once more.
 const TOLERANCE: f64 = 0.005;

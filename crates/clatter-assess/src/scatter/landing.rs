@@ -2,7 +2,7 @@
 
 use super::tally::Count;
 use super::{OfPart, Probability, SampleDemand};
-use crate::DropName;
+use clatter_product::DropName;
 
 /// The result of one of several drops.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,7 +91,7 @@ fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Error;
+    use clatter_product::Error;
 
     /// A sequence that holds where it was answered is not answered if one drop is not; one that has failed has failed.
     #[test]

@@ -47,7 +47,7 @@ mod tally;
 
 use rayon::prelude::*;
 
-use crate::{Component, DropName, Input, LimitKind, Model, ProductFile};
+use clatter_product::{Component, DropName, Input, LimitKind, Model, ProductFile};
 use landing::sequence;
 use sample::{Inputs, Sample};
 use tally::Block;
@@ -65,7 +65,7 @@ pub use sample::Varied;
 pub enum Error {
     /// The product or a part.
     #[error(transparent)]
-    Product(#[from] crate::Error),
+    Product(#[from] clatter_product::Error),
     /// A number of samples or a confidence that makes no sense.
     #[error("{name} = {value} is not {allowed}")]
     Setting {
@@ -128,7 +128,7 @@ pub struct Scatter {
     /// Samples in which a component was not answered. They count as failures, except for the upper ends of intervals.
     pub unanswered: u64,
     /// The reason why the first of them was not.
-    pub reason: Option<crate::Error>,
+    pub reason: Option<clatter_product::Error>,
     /// Samples in which what an answer may be off by decides whether all survive, as of [`ComponentScatter`].
     pub open: u64,
     /// The components, in the order of the file.
@@ -265,7 +265,7 @@ struct Answers {
 }
 
 /// The demand on a part, or the reason why it is not answered.
-type OfPart = Result<SampleDemand, crate::Error>;
+type OfPart = Result<SampleDemand, clatter_product::Error>;
 
 /// Samples of one block; sums are made within blocks and then over blocks, in order.
 const BLOCK: u64 = 1024;

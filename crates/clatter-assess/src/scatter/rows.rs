@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::sample::Sample;
 use super::tally::Block;
 use super::{Answers, Column, OfPart, SampleDemand, Sampler, Scatter};
-use crate::LimitKind;
+use clatter_product::LimitKind;
 
 /// The demand of a sample on a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +19,7 @@ pub struct PartRow {
     pub utilization: f64,
     /// True where the error bound decides if the part survives.
     pub open: bool,
-    /// The limits that do not hold, in the order of its [limits](crate::Limits::kinds).
+    /// The limits that do not hold, in the order of its [limits](clatter_product::Limits::kinds).
     pub exceeded: [bool; LimitKind::ALL.len()],
 }
 
@@ -126,7 +126,11 @@ impl Recount {
         let count = sampler.components.len();
         let reason = |i: usize| {
             let asked: Option<&OfPart> = again.parts.iter().chain(again.landings.iter().flatten()).nth(i);
-            asked.and_then(|asked| asked.as_ref().err()).or(known).cloned().unwrap_or(crate::Error::Unfinished)
+            asked
+                .and_then(|asked| asked.as_ref().err())
+                .or(known)
+                .cloned()
+                .unwrap_or(clatter_product::Error::Unfinished)
         };
         let each = asked.iter().enumerate();
         let mut parts: Vec<OfPart> =

@@ -9,12 +9,10 @@ use clatter_shock::Suspension;
 use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error, PlateAs};
-use crate::assess::Listed;
-use crate::attitude::Base;
-use crate::component::places;
-use crate::inputs::INPUTS;
-use crate::quantity::Source;
-use crate::{Component, Damping, Input, Inside, Law, Limit, LimitKind, Mount, Product, ProductFile, Spread};
+use clatter_product::{
+    Base, Component, Damping, INPUTS, Input, Inside, Law, Limit, LimitKind, Listed, Mount, Product, ProductFile,
+    Source, Spread, places,
+};
 
 /// An input that varies from sample to sample; parts are given by their index in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -206,7 +204,7 @@ impl PartSample {
         let along = &self.reaches_m[0];
         if along[0] < along[1] { along } else { &along[..1] }
     }
-    /// Places at which a drop with contacts is answered, as [`Component::places_m`](crate::Component::places_m).
+    /// Places at which a drop with contacts is answered, as [`Component::places_m`](clatter_product::Component::places_m).
     pub(super) fn spots(&self) -> Vec<Place> {
         let places = places(self.reaches_m, self.limits.iter().map(|limit| limit.kind));
         places.into_iter().map(|at_m| self.inside.place(at_m)).collect()
@@ -243,7 +241,7 @@ impl Finder {
                 for (hz, given) in
                     [(frequency_hz.lo(), damping.spread().lo()), (frequency_hz.hi(), damping.spread().hi())]
                 {
-                    Suspension::from_hz(hz, damping.ratio(given)?).map_err(crate::Error::from)?;
+                    Suspension::from_hz(hz, damping.ratio(given)?).map_err(clatter_product::Error::from)?;
                 }
                 let frequency = self.drawn(Varied::Frequency(i), &frequency_hz, &of)?;
                 Some((frequency, self.drawn(Varied::Damping(i), damping.spread(), &of)?, damping))
@@ -294,7 +292,7 @@ impl Inputs {
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         file.check()?;
         crate::verdict::merge(merge_s)?;
-        file.check_apart(merge_s).map_err(crate::Error::from)?;
+        file.check_apart(merge_s).map_err(clatter_product::Error::from)?;
         let (product, drop, listed) = (&file.product, &file.drop, file.listed());
         let mut finder = Finder::default();
         let is_bar = !product.body.is_wide();
@@ -359,7 +357,7 @@ impl Inputs {
     }
 
     /// Draws sample k of a seed.
-    pub(super) fn draw(&self, seed: u64, k: u64, sample: &mut Sample) -> Result<(), crate::Error> {
+    pub(super) fn draw(&self, seed: u64, k: u64, sample: &mut Sample) -> Result<(), clatter_product::Error> {
         let stream = Stream::new(seed, k);
         for (uniform, input) in sample.uniforms.iter_mut().zip(&self.varied) {
             *uniform = stream.at(input.number());

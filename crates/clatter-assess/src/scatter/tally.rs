@@ -3,7 +3,7 @@
 use super::drivers::Sums;
 use super::landing::{LandingTally, sequence};
 use super::{Answers, ComponentScatter, Driver, Inputs, Probability, SampleDemand, clopper_pearson};
-use crate::{Component, Error, Limit};
+use clatter_product::{Component, Error, Limit};
 
 /// Verdicts on samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

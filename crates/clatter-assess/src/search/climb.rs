@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::{Candidate, Task, Work, fastest_rad_s, rough_to_rad_s};
 use crate::engine::{PlaceHistory, of_followed};
-use crate::{Error, Mount};
 use clatter_flight::{Followed, Until};
+use clatter_product::{Error, Mount};
 
 /// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
 pub(super) const NEAR: f64 = 0.8;
@@ -258,9 +258,11 @@ pub(super) fn starts(found: &mut [Candidate]) -> Vec<Candidate> {
 mod tests {
     use super::super::ranges::Coordinates;
     use super::*;
+    use crate::Accuracy;
+    use crate::assess::ranges;
     use crate::engine::Answer;
-    use crate::{Accuracy, Limit, ProductFile, Unit};
     use clatter::End;
+    use clatter_product::{Limit, ProductFile, Unit};
 
     /// Real tilt shifts the demand on a plate: the box of the same product is followed in drops next to the worst one too, and next to the
     /// other drops from which the search climbed.
@@ -272,7 +274,7 @@ drop = { speed = "3 m/s", tilt = ["2 deg", "14 deg"], direction = "20 deg" }
 component = [{ name = "part", position = ["70 mm", "30 mm"], mount = "hard", velocity_change_limit = "9 m/s" }]
 "#;
         let file = ProductFile::read(text, "plate.toml").unwrap_or_else(|faults| panic!("{faults}"));
-        let (ranges, component) = (file.ranges(&Accuracy::default()), &file.components[0]);
+        let (ranges, component) = (ranges(&file, &Accuracy::default()), &file.components[0]);
         let task = Task { component, limit: Limit::of(component)[0] };
         let at = |tilt: f64| {
             let mut shares = [0.0; AXES];

@@ -4,7 +4,7 @@ use clatter_shock::Suspension;
 
 use super::Coordinates;
 use crate::engine::{Answer, Part};
-use crate::{Component, Error};
+use clatter_product::{Component, Error};
 
 /// A drop and a part with a demand.
 #[derive(Debug, Clone, Copy)]

@@ -8,8 +8,7 @@ use super::ranges::{
 use clatter::End;
 
 use super::{GOLDEN, Task};
-use crate::Mount;
-use crate::inputs::searched;
+use clatter_product::{Mount, searched};
 
 /// Tilts of the grid at least and at most.
 const TILTS: [f64; 2] = [12.0, 128.0];

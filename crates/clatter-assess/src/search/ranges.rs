@@ -4,12 +4,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use clatter::End;
 
-use crate::Model;
-use crate::attitude::Base;
-use crate::inputs::searched;
+use crate::WorstCase;
 use crate::search::{Candidate, Task};
-use crate::{Component, ContactLaw, DropRanges, Mount, Product, Spread, WorstCase};
 use clatter_flight::Drop;
+use clatter_product::{Base, Component, ContactLaw, DropRanges, Model, Mount, Product, Spread, searched};
 
 /// The place of a drop and a part in the ranges.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -259,10 +257,20 @@ fn image(direction_rad: f64, [along, across]: [bool; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Model;
+    use crate::Accuracy;
+    use crate::assess::ranges;
     use crate::engine::Part;
-    use crate::{Accuracy, ProductFile};
+    use clatter_product::{Model, ProductFile};
     use clatter_shock::{DampingRatio, Suspension};
+
+    /// No two inputs, and none of those of a part, are searched along one axis.
+    #[test]
+    fn every_axis_is_searched_once() {
+        let mut axes: Vec<usize> = searched().map(|(_, search)| search.axis).collect();
+        axes.extend([FREQUENCY, DAMPING, DIRECTION]);
+        axes.sort_unstable();
+        assert_eq!(axes, (0..AXES).collect::<Vec<_>>());
+    }
 
     /// A drop of the ranges is found in them where it was taken from, each range from its least to its most.
     #[test]
@@ -273,7 +281,7 @@ drop = { speed = ["2 m/s", "4 m/s"], tilt = ["1 deg", "9 deg"], spin = ["-2 rad/
 component = [{ name = "part", position = "30 mm", natural_frequency = ["80 Hz", "120 Hz"], damping_ratio = [0.02, 0.1], rattle_space = "9 mm" }]
 "#;
         let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
-        let (ranges, component) = (file.ranges(&Accuracy::default()), &file.components[0]);
+        let (ranges, component) = (ranges(&file, &Accuracy::default()), &file.components[0]);
         let place = Coordinates {
             first: End::B,
             flat: false,

@@ -2,10 +2,10 @@
 
 use super::ranges::{Coordinates, RESTITUTION, Ranges};
 use super::{Candidate, Task, Worst};
-use crate::Error;
 use crate::engine::{Answer, of_followed};
 use crate::model::follow;
 use clatter_flight::Until;
+use clatter_product::Error;
 
 /// Worst cases that are answered to the tolerance, early ones and late ones.
 const TRIES: usize = 8;

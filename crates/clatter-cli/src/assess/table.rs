@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use clatter_answer::assess::Answer;
 use clatter_assess::{
-    Accuracy, Assessment, Assumed, Component, ComponentAssessment, Input, LandingAssessment, LimitAssessment,
-    ProductFile, Verdict, repeat,
+    Accuracy, Assessment, Assumed, ComponentAssessment, LandingAssessment, LimitAssessment, Verdict, repeat,
 };
+use clatter_product::{Component, Input, ProductFile};
 
 use crate::columns::{Table, sentence};
 use crate::numbers::given;

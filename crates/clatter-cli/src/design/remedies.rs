@@ -4,8 +4,11 @@ use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Write};
 
 use clatter_answer::design::Answer;
-use clatter_assess::design::{Change, Lever, Outcome, Remedies, Remedy, Together};
-use clatter_assess::{ComponentAssessment, Model, ProductFile, Verdict};
+use clatter_assess::{
+    ComponentAssessment, Verdict,
+    design::{Change, Lever, Outcome, Remedies, Remedy, Together},
+};
+use clatter_product::{Model, ProductFile};
 
 use crate::numbers::{digits, figures, given};
 use crate::text::{field, shown};
@@ -44,12 +47,12 @@ impl Found<'_> {
     /// Describes the margin of a changed part in words.
     fn left(&self, after: &ComponentAssessment) -> String {
         let undecided = if after.verdict == Verdict::Safe { "" } else { ", not safe" };
-        format!("then {}{undecided}", in_percent(self.0.file.least_margin(after)))
+        format!("then {}{undecided}", in_percent(clatter_assess::least_margin(self.0.file, after)))
     }
 
     /// Returns the cells that follow lever and unit in a row.
     fn cells(&self, outcome: &str, Change { from, to, .. }: &Change, after: &ComponentAssessment) -> String {
-        let numbers = [from[0], from[1], to[0], to[1], self.0.file.least_margin(after)].map(digits);
+        let numbers = [from[0], from[1], to[0], to[1], clatter_assess::least_margin(self.0.file, after)].map(digits);
         format!("{outcome},{}", numbers.join(","))
     }
 
@@ -118,7 +121,8 @@ impl Found<'_> {
 
     fn part(&self, part: &Remedies, out: &mut dyn Write) -> io::Result<()> {
         let Some(component) = self.0.assessment.components.get(part.component) else { return Ok(()) };
-        let (verdict, before) = (component.verdict.name(), in_percent(self.0.file.least_margin(component)));
+        let (verdict, before) =
+            (component.verdict.name(), in_percent(clatter_assess::least_margin(self.0.file, component)));
         writeln!(out, "\n{} ({verdict}, {before})", shown(&component.name, 60))?;
         let width = part.levers.iter().map(|remedy| remedy.lever.words().len()).max().unwrap_or(0);
         let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
@@ -168,7 +172,8 @@ impl Found<'_> {
         writeln!(out, "component,margin,lever,unit,outcome,from_lo,from_hi,to_lo,to_hi,margin_after")?;
         for part in &self.0.remedies {
             let Some(component) = self.0.assessment.components.get(part.component) else { continue };
-            let before = format!("{},{}", field(&component.name), digits(self.0.file.least_margin(component)));
+            let before =
+                format!("{},{}", field(&component.name), digits(clatter_assess::least_margin(self.0.file, component)));
             for Remedy { lever, outcome } in &part.levers {
                 let rest = match outcome {
                     Outcome::Change { change, after } => self.cells("change", change, after),

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use clatter_answer::fit::{Answer, Question};
-use clatter_assess::fit::Estimate;
+use clatter_fit::Estimate;
 
 use crate::inputs::letter;
 use crate::text::{self, shown};

@@ -6,9 +6,12 @@ use std::path::Path;
 use clatter_answer::respond::drop::{self, Answer, Question};
 use clatter_answer::respond::{AtPlace, Factors, Largest, Peaks};
 use clatter_answer::{Error, Json};
-use clatter_assess::units::{Quantity, TIME};
-use clatter_assess::{Case, Drop as Falls, LimitKind, Model, OwnContacts, Place, Unit};
+use clatter_assess::Case;
 use clatter_flight::LEAST_OF_BLOCKS;
+use clatter_product::{
+    Drop as Falls, LimitKind, Model, OwnContacts, Place, Unit,
+    units::{Quantity, TIME},
+};
 use clatter_shock::Suspension;
 
 use super::peaks::{Shocks, doubts, equivalent_table};
@@ -96,7 +99,7 @@ impl Args {
     }
 
     /// Returns the given feet that the product lands on, or its own.
-    fn feet(&self, fall: &Falls) -> Result<Option<clatter_assess::Feet>, Failure> {
+    fn feet(&self, fall: &Falls) -> Result<Option<clatter_product::Feet>, Failure> {
         let Some([x, y, height_m]) = self.feet_m else { return Ok(fall.body.feet) };
         if fall.is_solid() {
             return Err(Failure::Usage("--feet-m are those of a bar or a plate: a box lands on any of its sides"));
@@ -104,7 +107,7 @@ impl Args {
         if y != 0.0 && !fall.body.is_wide() {
             return Err(Failure::Usage("--feet-m=X,Y,HEIGHT of a bar has Y = 0: it goes on along its length alone"));
         }
-        Ok(Some(clatter_assess::Feet { inset_m: [x, y], height_m }))
+        Ok(Some(clatter_product::Feet { inset_m: [x, y], height_m }))
     }
 
     /// Returns the given contacts of their own, or those of the product.

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use clatter_answer::Json;
 use clatter_answer::respond::Limit;
-use clatter_assess::{LimitKind, Unit};
+use clatter_product::{LimitKind, Unit};
 
 use crate::columns::Table;
 use crate::one_drop::PartSetup;

@@ -6,7 +6,7 @@ use std::path::Path;
 use clatter::Start;
 use clatter_answer::Error;
 use clatter_answer::respond::{self, Answer, BarAnswer, Excitation, Extreme, Question};
-use clatter_assess::units::Quantity;
+use clatter_product::units::Quantity;
 use clatter_shock::{Suspension, VelocityShocks};
 use serde::Serialize;
 

@@ -6,7 +6,7 @@ use clatter_answer::scatter::Answer;
 use clatter_assess::scatter::{
     ComponentScatter, Driver, LandingComponent, PlateAs, Probability, Scatter, Settings, Varied,
 };
-use clatter_assess::{Input, ProductFile};
+use clatter_product::{Input, ProductFile};
 
 use super::name_of;
 use crate::columns::{Table, sentence};

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use clatter::Corner;
 use clatter_answer::simulate::plate::{Answer, Impact};
-use clatter_assess::Model;
 use clatter_flight::{PlateScene, Stop};
+use clatter_product::Model;
 
 use super::Args;
 use super::table::of_strike;

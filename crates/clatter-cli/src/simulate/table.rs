@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use clatter_answer::simulate::bar::Impact;
-use clatter_assess::Model;
 use clatter_flight::{Model as Physics, Stop};
+use clatter_product::Model;
 
 use super::Drop;
 use crate::columns;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use clatter_answer::shape_name;
 use clatter_answer::spectrum::{Measured, Part, largest, outermost};
-use clatter_assess::units::ACCELERATION;
+use clatter_product::units::ACCELERATION;
 use clatter_record::Channel;
 use clatter_shock::{Deviation, EnvelopingPulse, LimitCurve, Margin, Spectrum};
 

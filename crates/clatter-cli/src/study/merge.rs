@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_answer::study::{Answer, Merge, Parts, Study};
-use clatter_assess::Plan;
+use clatter_product::Plan;
 use clatter_record::RowGroups;
 
 use super::table;

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use clatter_answer::scatter;
 use clatter_answer::study::{Answer, Member, Outcome, SearchedLimit};
-use clatter_assess::scatter::ComponentScatter;
-use clatter_assess::{GridAxis, Verdict};
+use clatter_assess::{Verdict, scatter::ComponentScatter};
+use clatter_product::GridAxis;
 
 use crate::columns::{Table, sentence};
 use crate::numbers::{digits, figures, given};

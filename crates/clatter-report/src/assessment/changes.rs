@@ -1,7 +1,10 @@
 //! This module describes the changes that would make a part safe with a margin, as `clatter design` finds them.
 
-use clatter_assess::design::{Change, Lever, Outcome, Remedies, Remedy};
-use clatter_assess::{Component, ComponentAssessment, ProductFile, Verdict};
+use clatter_assess::{
+    ComponentAssessment, Verdict,
+    design::{Change, Lever, Outcome, Remedies, Remedy},
+};
+use clatter_product::{Component, ProductFile};
 use serde_json::{Value, json};
 
 use crate::words::percent;
@@ -62,7 +65,7 @@ pub(super) fn changes(of: Of<'_>, assessed: &ComponentAssessment, found: Option<
         (0, None) => "No change is known to be enough.".to_owned(),
         (0, Some(together)) => {
             changes.clone_from(&together.changes);
-            let margin = percent(of.file.least_margin(&together.after));
+            let margin = percent(clatter_assess::least_margin(of.file, &together.after));
             match (&found.pair, &changes[..]) {
                 (Some(_), _) => {
                     format!("No single change is enough; these two together are, with a margin of {margin}.")
@@ -102,7 +105,7 @@ pub(super) fn changes(of: Of<'_>, assessed: &ComponentAssessment, found: Option<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_assess::{LimitKind, ProductFile};
+    use clatter_product::{LimitKind, ProductFile};
 
     #[test]
     fn values_have_the_digits_and_units_of_the_file() {

@@ -1,10 +1,10 @@
 //! This module describes the inputs of an assessment in words: the product, its drop, how a part is held.
 
-use clatter_assess::{
-    Assessment, Axis, Component, Damping, DropRanges, Fall, First, Mount, OwnContact, ProductFile, Side, Spread,
-    optional_inputs,
-};
+use clatter_assess::Assessment;
 use clatter_figures::{model_words as model, three};
+use clatter_product::{
+    Axis, Component, Damping, DropRanges, Fall, First, Mount, OwnContact, ProductFile, Side, Spread, optional_inputs,
+};
 
 use crate::Pages;
 use crate::words::{end, millimeters, place, range, span, sure_name};
@@ -189,7 +189,7 @@ fn drop(file: &ProductFile) -> String {
     if file.landings.iter().any(|landing| landing.drop.fall != file.drop.fall) {
         let speeds = file.landings.iter().map(|landing| landing.drop.speeds_m_s());
         let widest = speeds.reduce(|[lo, hi], [slow, fast]| [lo.min(slow), hi.max(fast)]).unwrap_or_default();
-        let is_high = |landing: &clatter_assess::Landing| matches!(landing.drop.fall, Fall::HeightM(_));
+        let is_high = |landing: &clatter_product::Landing| matches!(landing.drop.fall, Fall::HeightM(_));
         let each = if file.landings.iter().all(is_high) { "each from its own height" } else { "each for itself" };
         return format!("{each}, at {}", span(widest, 1.0, "m/s"));
     }
@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn what_the_file_gives_is_told() {
         let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();
-        let assessment = file.assess().unwrap();
+        let assessment = clatter_assess::assess(&file).unwrap();
         let pages = Pages {
             file: &file,
             assessment: &assessment,

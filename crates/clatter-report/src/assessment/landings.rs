@@ -1,7 +1,8 @@
 //! This module writes the pages about several drops, and about a box that lands on faces, edges and corners.
 
-use clatter_assess::{Assessment, Landing, LandingAssessment, ProductFile, Spread};
+use clatter_assess::{Assessment, LandingAssessment};
 use clatter_figures::three;
+use clatter_product::{Landing, ProductFile, Spread};
 use serde_json::{Value, json};
 
 use super::inputs::first;

@@ -1,8 +1,8 @@
 //! This module shows measured drops next to the computed ones that are nearest.
 
-use clatter_assess::ProductFile;
-use clatter_assess::fit::{Comparison, Estimate, Fit, MeasuredDrop, RecordFit};
 use clatter_figures::{FigureError, fit, model_words, three, two};
+use clatter_fit::{Comparison, Estimate, Fit, MeasuredDrop, RecordFit};
+use clatter_product::ProductFile;
 use clatter_record::{Between, Channel, Record};
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum};
 use serde_json::{Value, json};
@@ -119,7 +119,7 @@ fn said_of_peaks(drop: usize, record: usize, found: &RecordFit) -> Value {
     let curve = &found.curves[0];
     let peak = |i: usize| curve.iter().map(|row| row[i].abs()).fold(0.0, f64::max);
     let [measured, computed] = [peak(1), peak(2)];
-    let unit = clatter_assess::Unit::MeterPerSecondSquared;
+    let unit = clatter_product::Unit::MeterPerSecondSquared;
     json!({
         "file": both(curve).map(|_| spectra_of(drop, record)),
         "measured": shown(unit, measured),

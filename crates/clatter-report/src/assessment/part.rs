@@ -1,9 +1,8 @@
 //! This module writes the page of one part.
 
-use clatter_assess::{
-    Component, ComponentAssessment, DropName, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase, repeat,
-};
+use clatter_assess::{ComponentAssessment, LimitAssessment, Portrait, Verdict, WorstCase, repeat};
 use clatter_figures::{is_drawn, three};
+use clatter_product::{Component, DropName, Model, ProductFile};
 use serde_json::{Value, json};
 
 use super::changes::{Of, changes};

@@ -1,12 +1,11 @@
 //! This module holds the figures and the texts of the pages that only a plate has.
 
-use clatter_assess::{
-    Component, ComponentAssessment, CornerStrike, LimitAssessment, LimitKind, PlaceMap, PlatePortrait, WorstCase,
-};
+use clatter_assess::{ComponentAssessment, CornerStrike, LimitAssessment, PlaceMap, PlatePortrait, WorstCase};
 use clatter_figures::{
     Area, FigureError, HeatMap, Landing, Place, Strike, heat_map, is_drawn, landing, over_direction, plan as draw,
     reach_m, three,
 };
+use clatter_product::{Component, LimitKind};
 use serde_json::{Value, json};
 
 use super::{Part, title};
@@ -226,7 +225,7 @@ mod tests {
     use super::super::files;
     use super::*;
     use crate::Pages;
-    use clatter_assess::ProductFile;
+    use clatter_product::ProductFile;
 
     const PLATE: &str = include_str!("../../../../reports/examples/handheld-terminal.toml");
 
@@ -244,8 +243,8 @@ mod tests {
         let text =
             PLATE.replace("tilt = [\"1 deg\", \"12 deg\"]", "tilt = \"3 deg\"\ndirection = [\"20 deg\", \"50 deg\"]");
         let file = ProductFile::read(&text, "plate.toml").unwrap();
-        let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment);
+        let assessment = clatter_assess::assess(&file).unwrap();
+        let portraits = clatter_assess::portraits(&file, &assessment);
         let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
         let pages = Pages { file, assessment, portraits, remedies: &[], measured: &[], path: "plate.toml", date: None };
         let files = files(&pages).unwrap();

@@ -49,14 +49,15 @@ fn each_way_fails_for_a_warning_a_fault_and_what_no_screen_reader_could_read() {
 #[test]
 fn both_ways_set_the_same_assessment() {
     let (Some(command), Some(wheel)) = (&*COMMAND, &*WHEEL) else { return };
-    let product = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "example.toml").unwrap();
-    let assessed = product.assess().unwrap();
-    let portraits = product.portraits(&assessed);
+    let product = clatter_product::ProductFile::read(clatter_product::EXAMPLE, "example.toml").unwrap();
+    let assessed = clatter_assess::assess(&product).unwrap();
+    let portraits = clatter_assess::portraits(&product, &assessed);
     let pages = Pages {
         file: &product,
         assessment: &assessed,
         portraits: &portraits,
-        remedies: &product.remedies(&assessed, &clatter_assess::design::Bounds::default(), 0.1).unwrap(),
+        remedies: &clatter_assess::remedies(&product, &assessed, &clatter_assess::design::Bounds::default(), 0.1)
+            .unwrap(),
         measured: &[],
         path: "example.toml",
         date: None,
