@@ -9,6 +9,7 @@
 //! Drops are first followed until the body comes down after its clatter. Where the energy left then may bring a part above the
 //! worst found, they are followed for longer, and so are drops of a sequence that spreads evenly over all ranges.
 
+mod budgets;
 mod climb;
 mod edges;
 mod found;
@@ -24,9 +25,10 @@ use rayon::prelude::*;
 
 use crate::engine::{Part, PlaceHistory, once};
 use crate::model::follow;
+use budgets::{CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, NEAR, REBOUNDS, SAMPLE, SAMPLE_OF_BOX};
 use clatter_flight::{Drop, Followed, Place, Until};
 use clatter_product::{Component, Error, Limit, Model, Mount, Source};
-use climb::{CLIMBS, NEAR, starts};
+use climb::starts;
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
@@ -71,23 +73,8 @@ impl Task<'_> {
     }
 }
 
-/// Natural frequencies within a range in one drop, besides the end of it, at least and at most.
-const FREQUENCIES: [f64; 2] = [2.0, 16.0];
-/// The same in drops that are followed for longer, at least.
-const FREQUENCIES_LATE: u32 = 4;
-/// Frequencies in one turn of a part between the first two strikes: its demand goes up and down with its phase at the second.
-const IN_A_TURN: f64 = 4.0;
 /// The golden ratio: multiples of it spread evenly from 0 to 1.
 const GOLDEN: f64 = 0.618_033_988_749_895;
-/// Where rebounds count a plate is followed to so many times the moment at which it has bounced clear, at first and at last.
-const REBOUNDS: [f64; 2] = [3.0, 6.0];
-/// Drops that are followed besides those of the grid where rebounds count: with contacts that take time, and by instant impacts, which
-/// cost a tenth.
-const SAMPLE: [usize; 2] = [128, 512];
-/// The same of a box, until its energy allows little more: shared among all drops that it is put through, and of each at least.
-const SAMPLE_OF_BOX: [usize; 2] = [96, 8];
-/// About as many drops are followed in a climb.
-const CLIMB: usize = 72;
 /// Drops that are followed side by side, knowing the worst of those before.
 const WAVE: usize = 64;
 

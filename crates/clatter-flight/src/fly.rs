@@ -129,7 +129,8 @@ impl Followed {
                     Until::Past(time_s) => time_s.max(clatter_s),
                     Until::Rebounded | Until::Over => drop.settled_s(),
                 };
-                let block = drop.block_drop()?.with_time_limit_s(until_s)?.with_impact_limit(PRESSES_OF_BOX);
+                let block = drop.block_drop()?.with_precision(precision)?;
+                let block = block.with_time_limit_s(until_s)?.with_impact_limit(PRESSES_OF_BOX);
                 let block = if until == Until::Rebounded { block.with_enough(LATE) } else { block };
                 (Course::Solid(BlockMotion::new(&block, &drop.contacts_of_block()?)?), 0.0)
             }
@@ -170,13 +171,13 @@ impl Followed {
         Ok(followed)
     }
 
-    /// Follows a drop of a plate as one of the box that it is at real tilt, until a time. The corners of its bottom alone land, however far
+    /// Follows a drop of a plate as one of the box that it is at real tilt, to a tolerance, until a time. The corners of its bottom alone land, however far
     /// they sink in.
     ///
     /// # Errors
     /// [`Error::ContactTime`] and [`Error::NoBox`], and others for a box that is not followed so.
-    pub fn as_block(drop: &Drop, until_s: f64) -> Result<Self, Error> {
-        let block = drop.block_drop()?.with_time_limit_s(until_s)?;
+    pub fn as_block(drop: &Drop, tolerance: f64, until_s: f64) -> Result<Self, Error> {
+        let block = drop.block_drop()?.with_precision(PRECISION * tolerance)?.with_time_limit_s(until_s)?;
         let motion = BlockMotion::new(&block, &drop.contacts_of_block()?)?;
         let largest_m_s = motion.flight.largest_m_s();
         Ok(Self { drop: *drop, motion: Course::Solid(motion), precision: 0.0, is_early: false, largest_m_s })

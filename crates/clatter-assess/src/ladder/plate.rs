@@ -17,7 +17,7 @@ impl Ladder {
         let peak = of_followed(&follow(drop, Model::Compliant, tolerance, Until::Over)?, part, limit)?;
         // All are followed as far, and once.
         let until_s = (BEYOND_PEAK * peak.time_s).max(drop.clatter_s());
-        let as_block = || Ok(Followed::as_block(drop, until_s)?);
+        let as_block = || Ok(Followed::as_block(drop, tolerance, until_s)?);
         let until = |drop| follow(drop, Model::Compliant, tolerance, Until::Past(until_s));
         let block = as_block().and_then(|block| of_followed(&block, part, limit)).ok();
         let (fullest, exact) = match block {

@@ -1,5 +1,9 @@
 //! This module climbs from drops with a large demand to those with the largest.
 
+use super::budgets::{
+    AS_BLOCK, BEYOND_PEAK, BOX_REACH, BOX_TRIES, CLIMB_HALVINGS, CLIMBS, CLOSER, DIRECTION_STEP, EDGES_REACH,
+    EDGES_TRIES, FACE_TRIES, LATE_REACH, LATE_TRIES, LATER, NEAR, NEXT,
+};
 use super::grid::halton;
 use super::ranges::{AXES, Coordinates, DAMPING, DIRECTION, FREQUENCY, Ranges, TILT};
 use rayon::prelude::*;
@@ -8,32 +12,6 @@ use super::{Candidate, Task, Work, fastest_rad_s, rough_to_rad_s};
 use crate::engine::{PlaceHistory, of_followed};
 use clatter_flight::{Followed, Until};
 use clatter_product::{Error, Mount};
-
-/// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
-pub(super) const NEAR: f64 = 0.8;
-pub(super) const CLIMBS: usize = 6;
-/// The range and the number of the tries of a climb after rebounds, with contacts that take time and by instant impacts; one of a part that
-/// responds to the shape of pulses.
-const LATE_REACH: f64 = 0.5;
-const LATE_TRIES: [u32; 2] = [160, 480];
-const EDGES_REACH: f64 = 0.1;
-const EDGES_TRIES: u32 = 96;
-/// The same of a box.
-const BOX_REACH: f64 = 0.3;
-const BOX_TRIES: u32 = 24;
-const FACE_TRIES: u32 = 72;
-/// The time over that of its first peak to which a climb after rebounds follows.
-const LATER: f64 = 2.0;
-/// The range of the last try of a climb over that of the first.
-const CLOSER: f64 = 0.004;
-/// The first step of a climb in the direction, as a share of its range: beyond it another drop of the grid is close.
-const DIRECTION_STEP: f64 = 0.125;
-/// Drops of a box next to a worst drop of a plate, how far from it as a share of the ranges, and until how far beyond its peak.
-const AS_BLOCK: u32 = 24;
-const NEXT: f64 = 0.04;
-const BEYOND_PEAK: f64 = 1.5;
-/// Halvings of the steps of a climb.
-const HALVINGS: u32 = 6;
 
 impl Ranges<'_> {
     /// Returns whether the demand changes by edges or steps where contacts meet.
@@ -68,7 +46,7 @@ impl Ranges<'_> {
         shrink[DIRECTION] = self.shrinking(&start.place);
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
-        for _ in 0..HALVINGS {
+        for _ in 0..CLIMB_HALVINGS {
             if free[FREQUENCY] {
                 best = Self::at_ends_of_frequency(task, best, &here, fastest);
             }
@@ -104,7 +82,7 @@ impl Ranges<'_> {
     /// Returns the factor on the steps in the direction of a climb, so that the last moves the touch of no corner by more than a part
     /// of a contact: next to a landing on an edge, and where two corners come down in turn, the demand changes with that.
     fn shrinking(&self, place: &Coordinates) -> f64 {
-        libm::pow(self.turn_in_contact(place) / DIRECTION_STEP, f64::from(HALVINGS - 1).recip()).clamp(0.25, 0.5)
+        libm::pow(self.turn_in_contact(place) / DIRECTION_STEP, f64::from(CLIMB_HALVINGS - 1).recip()).clamp(0.25, 0.5)
     }
 
     /// Returns the part at both ends of its natural frequencies in the same drop, where its demand is larger: strikes that come in step
@@ -204,7 +182,7 @@ impl Ranges<'_> {
         let of = |place: &Coordinates| -> Result<f64, Error> {
             let drop = self.single(place);
             let until_s = (BEYOND_PEAK * at.answer.time_s).max(drop.clatter_s());
-            let followed = Followed::as_block(&drop, until_s)?;
+            let followed = Followed::as_block(&drop, self.tolerance, until_s)?;
             followed.check_depth()?;
             let part = Candidate { place: *place, ..*at }.part_there(task.component);
             Ok(of_followed(&followed, &part, &task.limit)?.utilization())

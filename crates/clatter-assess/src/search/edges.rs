@@ -3,13 +3,9 @@
 use rayon::prelude::*;
 
 use super::Work;
+use super::budgets::{EDGE_HALVINGS, EVENTS};
 use super::ranges::{AXES, Coordinates, DIRECTION, Ranges, TILT};
 use clatter_flight::{Followed, Until};
-
-/// The number of times that the space between two tilts of the grid is halved about such an edge.
-const HALVINGS: u32 = 8;
-/// Touches and partings that are put in order. Later ones are small.
-const EVENTS: usize = 6;
 
 /// The first touches and partings of a drop in their order: which end, and whether it parts.
 #[derive(PartialEq, Clone)]
@@ -55,7 +51,7 @@ impl Ranges<'_> {
     }
 
     fn close_in(&self, Edge { axis, sides: [mut near, mut far], order }: Edge, work: &Work<'_>) -> [Coordinates; 2] {
-        for _ in 0..HALVINGS {
+        for _ in 0..EDGE_HALVINGS {
             let middle = near.with(axis, 0.5 * (near.shares[axis] + far.shares[axis]));
             let Some(found) = self.order(&middle, work) else { break };
             if found == order { near = middle } else { far = middle }

@@ -2,6 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
+use super::budgets::{
+    ALONG_EDGE, AROUND, AROUND_FACE, DROPS_OF_PLATE, LINES, LINES_A_QUARTER, OVERLAPS, OVERLAPS_A_QUARTER,
+    PART_OF_CONTACT, PHASE, TILTS, TILTS_OF_FACE, TURNED_AT, TURNED_NEXT_TO_FLAT,
+};
 use super::ranges::{
     AXES, CONTACT, Coordinates, DAMPING, DIRECTION, FREQUENCY, RESTITUTION, Ranges, SPEED, SPIN, TILT,
 };
@@ -10,34 +14,10 @@ use clatter::End;
 use super::{GOLDEN, Task};
 use clatter_product::{Mount, searched};
 
-/// Tilts of the grid at least and at most.
-const TILTS: [f64; 2] = [12.0, 128.0];
-/// Phase by which the stiffest part turns between the first strikes of neighboring tilts, in rad.
-const PHASE: f64 = 0.8;
 const SQRT_3: f64 = 1.732_050_807_568_877;
 const SQRT_7: f64 = 2.645_751_311_064_59;
 const SQRT_11: f64 = 3.316_624_790_355_4;
 const SQRT_13: f64 = 3.605_551_275_463_989;
-/// Tilts in a contact time, and contact times over which tilts lie so closely: where contacts overlap, velocity shocks change by steps.
-const OVERLAPS: [f64; 2] = [12.0, 4.0];
-/// Tilts at which a plate is turned, as shares of the root of the range; where it ends flat, which has no direction, not at its end.
-const TURNED_AT: [f64; 3] = [1.0, 0.6, 0.0];
-const TURNED_NEXT_TO_FLAT: f64 = 0.2;
-/// Directions in which a box is turned off its edge or corner, and off its face, which clatters: there at more tilts too, as shares of
-/// the root; and tilts along an edge to either side.
-const AROUND: u32 = 8;
-const AROUND_FACE: u32 = 16;
-const ALONG_EDGE: u32 = 32;
-const TILTS_OF_FACE: [f64; 6] = [1.0, 0.87, 0.72, 0.58, 0.44, 0.3];
-/// Directions of a plate in which they lie so, in each quarter of a turn.
-const OVERLAPS_A_QUARTER: u32 = 4;
-/// Lines of drops over the tilt of a plate besides those that land on an edge, and for each quarter of a turn.
-const LINES: u32 = 6;
-const LINES_A_QUARTER: u32 = 3;
-/// Drops of the grid of a plate that may rise to several directions, at least.
-const DROPS_OF_PLATE: usize = 1024;
-/// Part of a contact by which the second corner comes later next to a landing on an edge.
-const PART_OF_CONTACT: f64 = 0.25;
 /// The places of the drops of the grid along a range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Level {

@@ -1,16 +1,12 @@
 //! The worst of what a search reached, answered to the tolerance.
 
+use super::budgets::{NARROWED, TRIES};
 use super::ranges::{Coordinates, RESTITUTION, Ranges};
 use super::{Candidate, Task, Worst};
 use crate::engine::{Answer, of_followed};
 use crate::model::follow;
 use clatter_flight::Until;
 use clatter_product::Error;
-
-/// Worst cases that are answered to the tolerance, early ones and late ones.
-const TRIES: usize = 8;
-/// The number of times that the space between two places of an extended part is halved about the worst.
-const NARROWED: usize = 7;
 
 /// Returns the largest demand of any of these after rebounds.
 fn late_most(reached: &[Candidate]) -> f64 {
