@@ -8,16 +8,16 @@
 //! how late the last corner may come ([`LandingLadder`]). Errors are the same from run to run; times are of the machine that [`Machine`]
 //! names.
 
-mod block;
-mod plate;
+mod bodies;
+mod landing;
 mod time;
 
 use serde::{Serialize, Serializer};
 
-pub use block::LandingLadder;
+pub use landing::LandingLadder;
 pub use time::Machine;
 
-use crate::engine::{Part, answer};
+use crate::engine::{Answer, Part, answer};
 use crate::model::follow;
 use crate::verdict::{number, number_or_null};
 use crate::{Assessment, WorstCase};
@@ -185,31 +185,59 @@ impl Ladder {
     /// # Ok::<(), clatter_assess::Error>(())
     /// ```
     pub fn measure(drop: &Drop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
-        if drop.is_solid() {
-            return Self::of_box(drop, part, limit, tolerance);
-        }
-        if drop.body.is_wide() {
-            return Self::of_plate(drop, part, limit, tolerance);
-        }
-        let fullest = Model::fullest(drop);
-        let exact = answer(drop, part, limit, fullest, FINER * tolerance)?;
-        let says = |model: &Model| *model <= fullest && (*model != Model::NetChange || part.suspension.is_some());
-        let mut models = Vec::new();
-        for model in Model::ALL.into_iter().filter(says) {
-            // A model that refuses the drop is left out: an endless train has no net change.
-            let Ok((found, seconds)) = time::measured(|| answer(drop, part, limit, model, tolerance)) else { continue };
-            let strikes =
-                if model < Model::Map { 0 } else { follow(drop, model, tolerance, Until::Over)?.struck_s().len() };
-            let error = (found.utilization() / exact.utilization() - 1.0).abs();
-            models.push(Measured { model: Rung::Model(model), value: found.value, error, seconds, strikes });
-        }
-        let groups = Groups::of(drop, part)?;
-        let fullest = Rung::Model(fullest);
-        let cheapest = cheapest(&models, tolerance).unwrap_or(fullest);
-        let reason = reason(&models, cheapest, tolerance, &groups);
-        let reference = Reference { model: fullest, value: exact.value, tolerance: FINER * tolerance };
-        Ok(Self { unit: exact.unit, reference, models, cheapest, reason, groups })
+        let of = if drop.body.is_wide() {
+            bodies::compared(drop, part, limit, tolerance)?
+        } else {
+            models_of_bar(drop, part, limit, tolerance)?
+        };
+        let groups = Groups::of(&of.drop, &of.part)?;
+        let Compared { unit, reference, models, plate_lacks, .. } = of;
+        let cheapest = cheapest(&models, tolerance).unwrap_or(reference.model);
+        let reason = reason(&models, cheapest, tolerance, &groups, plate_lacks);
+        Ok(Self { unit, reference, models, cheapest, reason, groups })
     }
+}
+
+/// Models or bodies on one drop.
+struct Compared {
+    unit: Unit,
+    reference: Reference,
+    models: Vec<Measured>,
+    /// The drop and the part of which the dimensionless groups are: of a box those of the plate that its face is.
+    drop: Drop,
+    part: Part,
+    /// What the plate of small tilt lacks, and why a box has nothing to be compared with.
+    plate_lacks: String,
+}
+
+/// Compares the models on a drop of a bar.
+fn models_of_bar(drop: &Drop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Compared, Error> {
+    let fullest = Model::fullest(drop);
+    let exact = answer(drop, part, limit, fullest, FINER * tolerance)?;
+    let says = |model: &Model| *model <= fullest && (*model != Model::NetChange || part.suspension.is_some());
+    let one = |model: Model| {
+        let strikes = || match model {
+            Model::NetChange | Model::LargestShock => Ok(0),
+            _ => Ok(follow(drop, model, tolerance, Until::Over)?.struck_s().len()),
+        };
+        measured(Rung::Model(model), &exact, &|| answer(drop, part, limit, model, tolerance), &strikes)
+    };
+    // A model that refuses the drop is left out: an endless train has no net change.
+    let models = Model::ALL.into_iter().filter(says).filter_map(|model| one(model).ok()).collect();
+    let reference = Reference { model: Rung::Model(fullest), value: exact.value, tolerance: FINER * tolerance };
+    Ok(Compared { unit: exact.unit, reference, models, drop: *drop, part: *part, plate_lacks: String::new() })
+}
+
+/// Measures one of them next to the exact answer.
+fn measured(
+    model: Rung,
+    exact: &Answer,
+    answer: &dyn Fn() -> Result<Answer, Error>,
+    strikes: &dyn Fn() -> Result<usize, Error>,
+) -> Result<Measured, Error> {
+    let (found, seconds) = time::measured(answer)?;
+    let error = (found.utilization() / exact.utilization() - 1.0).abs();
+    Ok(Measured { model, value: found.value, error, seconds, strikes: strikes()? })
 }
 
 impl Groups {
@@ -252,13 +280,20 @@ fn percent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }
 
-/// Returns the reason why the next cheaper model is too coarse: the physics that it lacks, as a number.
-fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) -> String {
-    let coarser = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance);
-    let Some(coarser) = coarser else {
+/// Returns the reason why the next cheaper one is too coarse: the physics that it lacks, as a number.
+fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups, plate_lacks: String) -> String {
+    if models.iter().all(|m| m.model == Rung::Block) {
+        return "no bar and no plate lands so, or moves the part along this axis".to_owned();
+    }
+    let Some(coarser) = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance) else {
+        let off = models.iter().find(|m| m.model == cheapest).map_or(f64::INFINITY, |m| m.error);
         return match cheapest {
             Rung::Model(Model::NetChange) => with("the clatter is short beside the period", "ω t_N", groups.train),
             Rung::Model(Model::LargestShock) => with("one shock decides", "ζωΔt", groups.damping),
+            Rung::Bar => {
+                let width = with("its width does nothing here", "h_y/h_x", groups.across);
+                format!("{width}; bar is off by {}", percent(off))
+            }
             model => format!("{} is the cheapest here", model.name()),
         };
     };
@@ -267,11 +302,13 @@ fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) 
         Rung::Model(Model::LargestShock) => with("shocks add up", "ζωΔt", groups.damping),
         Rung::Model(Model::Map) => with("gravity counts", "g h0/v0²", Some(groups.gravity)),
         Rung::Model(Model::Ballistic) => with("real tilt counts", "φ²", Some(groups.geometry)),
-        _ if groups.overlap.is_some_and(|x| x > 1.0) => with("contacts overlap", "τ/Δt", groups.overlap),
-        _ if groups.pulse.is_none() => {
+        Rung::Bar => with("it turns about its length too, as no bar does", "h_y/h_x", groups.across),
+        Rung::Plate | Rung::Block => plate_lacks,
+        Rung::Model(_) if groups.overlap.is_some_and(|x| x > 1.0) => with("contacts overlap", "τ/Δt", groups.overlap),
+        Rung::Model(_) if groups.pulse.is_none() => {
             with("the force has the shape that the contact gives it", "τ/Δt", groups.overlap)
         }
-        _ => with("pulses are no velocity shocks", "ωτ", groups.pulse),
+        Rung::Model(_) => with("pulses are no velocity shocks", "ωτ", groups.pulse),
     };
     format!("{}; {} is off by {}", lacks, coarser.model.name(), percent(coarser.error))
 }
@@ -308,6 +345,6 @@ pub fn ladders(file: &ProductFile, assessment: &Assessment, tolerance: f64) -> R
         }
     }
     let (product, machine) = (assessment.product.clone(), Machine::here());
-    let landings = block::landing_ladders(file, assessment);
+    let landings = landing::landing_ladders(file, assessment);
     Ok(ProductLadder { product, tolerance, machine, limits, left_out, landings })
 }
