@@ -18,10 +18,10 @@
 use std::convert::Infallible;
 
 use clatter_assess::scatter::{
-    ComponentScatter, Driver, Error, LandingComponent, LandingScatter, PlateAs, Probability, Sampler, Scatter,
-    Settings, Varied,
+    ComponentScatter, Driver, LandingComponent, LandingScatter, PlateAs, Probability, Sampler, Scatter, Settings,
+    Varied,
 };
-use clatter_product::{Component, DropName, Model, ProductFile};
+use clatter_product::{Component, DropName, Error, Model, ProductFile};
 use serde::{Serialize, Serializer};
 
 use crate::Json;

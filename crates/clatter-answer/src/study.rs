@@ -49,10 +49,7 @@ pub enum Error {
     /// The faults of the plan or of its product.
     #[error(transparent)]
     Faults(#[from] Faults),
-    /// A product of which nothing is drawn.
-    #[error(transparent)]
-    Scatter(#[from] clatter_assess::scatter::Error),
-    /// A product that is not assessed.
+    /// A product of which nothing is drawn, or that is not assessed.
     #[error(transparent)]
     Assess(#[from] clatter_product::Error),
     /// Boxes of one grid that do not go through the same drops.

@@ -237,9 +237,9 @@ fn refusal(file: &ProductFile) -> Error {
     let same = |other: Result<(), Error>| assert_eq!(format!("{other:?}"), format!("{:?}", Err::<(), _>(&error)));
     same(clatter_assess::assess(file).map(drop));
     let sampler = scatter::Sampler::new(file, settings());
-    same(sampler.map(drop).map_err(of_scatter));
-    same(scatter::extremes(file, &[]).map(drop).map_err(of_scatter));
-    same(Plane::of(file, &Bounds::default()).map(drop).map_err(of_scatter));
+    same(sampler.map(drop));
+    same(scatter::extremes(file, &[]).map(drop));
+    same(Plane::of(file, &Bounds::default()).map(drop));
     let assessment = phone_assessed();
     same(clatter_assess::remedies(file, &assessment, &Bounds::default(), 0.0).map(drop));
     same(clatter_assess::ladders(file, &assessment, 0.1).map(drop));
@@ -249,11 +249,6 @@ fn refusal(file: &ProductFile) -> Error {
 
 fn settings() -> scatter::Settings {
     scatter::Settings { samples: 10, seed: 1, confidence: 0.95, merge_s: 1e-3 }
-}
-
-fn of_scatter(error: scatter::Error) -> Error {
-    let scatter::Error::Product(error) = error else { unreachable!("{error}") };
-    error
 }
 
 /// An assessment that was stopped at once.
@@ -427,13 +422,13 @@ fn settings_are_checked() {
         assert!(matches!(clatter_assess::assess_to(&file, &accuracy), Err(Error::Merge(_))), "{merge_s}");
         let settings = scatter::Settings { merge_s, ..settings() };
         let error = scatter::Sampler::new(&file, settings).expect_err("no time");
-        assert!(matches!(error, scatter::Error::Product(Error::Merge(_))), "{error}");
+        assert!(matches!(error, Error::Merge(_)), "{error}");
     }
     for tolerance in [f64::NAN, 0.0, -0.1, 0.6, f64::INFINITY] {
         let accuracy = Accuracy { tolerance, ..Accuracy::default() };
         assert!(matches!(clatter_assess::assess_to(&file, &accuracy), Err(Error::Tolerance(_))), "{tolerance}");
     }
-    let e = scatter::extremes(&file, &[(file.product.body, 1.7)]).map_err(of_scatter);
+    let e = scatter::extremes(&file, &[(file.product.body, 1.7)]);
     assert!(matches!(e, Err(Error::Bar(_))), "{e:?}");
 }
 
@@ -456,7 +451,7 @@ fn bounds_of_a_design_are_checked() {
     for bounds in wrong {
         let error = clatter_assess::remedies(&file, &assessment, &bounds, 0.0).expect_err("no bounds");
         assert!(matches!(error, Error::Setting { .. }), "{error}");
-        assert!(matches!(Plane::of(&file, &bounds).map_err(of_scatter), Err(Error::Setting { .. })), "{bounds:?}");
+        assert!(matches!(Plane::of(&file, &bounds), Err(Error::Setting { .. })), "{bounds:?}");
     }
 }
 

@@ -31,8 +31,6 @@ pub(crate) enum Failure {
     Flight(#[from] clatter_flight::Error),
     #[error(transparent)]
     Question(#[from] clatter_answer::Error),
-    #[error(transparent)]
-    Scatter(#[from] clatter_assess::scatter::Error),
     /// Arguments that are right one by one and wrong together.
     #[error("{0}")]
     Usage(&'static str),
@@ -77,7 +75,6 @@ impl From<clatter_answer::study::Error> for Failure {
         use clatter_answer::study::Error;
         match error {
             Error::Faults(faults) => Self::Product(faults.to_string()),
-            Error::Scatter(error) => Self::Scatter(error),
             other => Self::Wrong(other.to_string()),
         }
     }

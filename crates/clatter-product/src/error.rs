@@ -98,6 +98,11 @@ pub enum Error {
     /// A method that takes only bars.
     #[error("{0} takes a product without `width`")]
     OfBars(&'static str),
+    /// A normal distribution whose range lies where it has no values.
+    #[error(
+        "{0}: less than 1 in 1e200 values of its normal distribution lie in its range: give a range around the mean"
+    )]
+    Tail(String),
     /// A model of the contact, in a product without contact time.
     #[error("this model needs the contact time, and none is known")]
     Contact,

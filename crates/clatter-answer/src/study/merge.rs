@@ -24,7 +24,7 @@ impl<'a> Merge<'a> {
     /// Begins with the first row; the intervals are to hold with this confidence.
     ///
     /// # Errors
-    /// [`Error::Scatter`] for a confidence that makes no sense.
+    /// [`Error::Assess`] for a confidence that makes no sense.
     pub fn new(study: &'a Study, confidence: f64) -> Result<Self, Error> {
         let mut merge = Self { study, confidence, next: 0, counting: None, members: Vec::new() };
         if !study.plan.search {

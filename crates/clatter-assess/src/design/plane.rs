@@ -6,8 +6,8 @@ use clatter::contour::Point;
 use clatter::design::{Goal, region};
 
 use super::lever::Bounds;
-use crate::scatter::{Error, extremes};
-use clatter_product::{Component, First, Limit, Model, ProductFile, Source};
+use crate::scatter::extremes;
+use clatter_product::{Component, Error, First, Limit, Model, ProductFile, Source};
 
 /// The design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1 of a product.
 #[derive(Debug, Clone, PartialEq)]

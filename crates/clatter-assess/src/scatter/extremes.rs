@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::full::{self, FollowedDrops, LEAST};
 use super::philox::Stream;
 use super::sample::{PartSample, Sample};
-use super::{Error, SampleDemand, cheap};
-use clatter_product::{Component, Drop, Input, Limit, MERGE_S, Model, Mount, ProductFile, Spread, searched};
+use super::{SampleDemand, cheap};
+use clatter_product::{Component, Drop, Error, Input, Limit, MERGE_S, Model, Mount, ProductFile, Spread, searched};
 
 /// The worst at every point of a plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +49,7 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
     file.check_bar("the plane of q and e")?;
     file.check_alike("the plane of q and e")?;
     for &(_, e) in points {
-        clatter::Restitution::new(e).map_err(clatter_product::Error::from)?;
+        clatter::Restitution::new(e)?;
     }
     let mut parts = Vec::new();
     for component in &file.components {
@@ -89,8 +89,8 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
 
 /// Returns the largest factor, less 1, between the demands of both models on the parts of a drop; infinite where the fuller one has no
 /// answer.
-fn error(cheap: &[f64], full: &[Result<SampleDemand, clatter_product::Error>]) -> f64 {
-    let of = |(cheap, full): (&f64, &Result<SampleDemand, clatter_product::Error>)| {
+fn error(cheap: &[f64], full: &[Result<SampleDemand, Error>]) -> f64 {
+    let of = |(cheap, full): (&f64, &Result<SampleDemand, Error>)| {
         let Ok(full) = full else { return f64::INFINITY };
         let [least, most] = full.within;
         if most <= 0.0 && *cheap <= 0.0 {
@@ -121,7 +121,7 @@ fn two(spread: &Spread) -> Vec<f64> {
 }
 
 /// Returns a component at the ends of its ranges.
-fn variants(component: &Component) -> Result<Vec<PartSample>, clatter_product::Error> {
+fn variants(component: &Component) -> Result<Vec<PartSample>, Error> {
     let mut suspensions = vec![None];
     if let Mount::Suspended { frequency_hz, damping } = &component.mount {
         suspensions.clear();

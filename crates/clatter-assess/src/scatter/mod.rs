@@ -47,7 +47,7 @@ mod tally;
 
 use rayon::prelude::*;
 
-use clatter_product::{Component, DropName, Input, LimitKind, Model, ProductFile};
+use clatter_product::{Component, DropName, Error, Input, LimitKind, Model, ProductFile};
 use landing::sequence;
 use sample::{Inputs, Sample};
 use tally::Block;
@@ -58,33 +58,6 @@ pub use extremes::{Extremes, extremes};
 pub use landing::{LandingComponent, LandingScatter};
 pub use rows::{PartRow, Recount};
 pub use sample::Varied;
-
-/// The reason why nothing can be drawn.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum Error {
-    /// The product or a part.
-    #[error(transparent)]
-    Product(#[from] clatter_product::Error),
-    /// A number of samples or a confidence that makes no sense.
-    #[error("{name} = {value} is not {allowed}")]
-    Setting {
-        /// The name of the setting.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// The allowed values.
-        allowed: &'static str,
-    },
-    /// A normal distribution whose range lies where it has no values.
-    #[error(
-        "{quantity}: less than 1 in 1e200 values of its normal distribution lie in its range: give a range around the mean"
-    )]
-    Tail {
-        /// The quantity.
-        quantity: String,
-    },
-}
 
 /// The settings of the draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,7 +101,7 @@ pub struct Scatter {
     /// Samples in which a component was not answered. They count as failures, except for the upper ends of intervals.
     pub unanswered: u64,
     /// The reason why the first of them was not.
-    pub reason: Option<clatter_product::Error>,
+    pub reason: Option<Error>,
     /// Samples in which what an answer may be off by decides whether all survive, as of [`ComponentScatter`].
     pub open: u64,
     /// The components, in the order of the file.
@@ -265,7 +238,7 @@ struct Answers {
 }
 
 /// The demand on a part, or the reason why it is not answered.
-type OfPart = Result<SampleDemand, clatter_product::Error>;
+type OfPart = Result<SampleDemand, Error>;
 
 /// Samples of one block; sums are made within blocks and then over blocks, in order.
 const BLOCK: u64 = 1024;

@@ -8,9 +8,9 @@ use clatter_shock::Suspension;
 
 use super::draw::Quantile;
 use super::philox::Stream;
-use super::{Column, Error, PlateAs};
+use super::{Column, PlateAs};
 use clatter_product::{
-    Base, Component, Damping, INPUTS, Input, Inside, Law, Limit, LimitKind, Listed, Mount, Product, ProductFile,
+    Base, Component, Damping, Error, INPUTS, Input, Inside, Law, Limit, LimitKind, Listed, Mount, Product, ProductFile,
     Source, Spread, places,
 };
 
@@ -228,7 +228,7 @@ impl Finder {
             self.varied.push(input);
         }
         let quantity = || format!("{}{of}", input.name().replace('-', " "));
-        let quantile = Quantile::new(spread).ok_or_else(|| Error::Tail { quantity: quantity() })?;
+        let quantile = Quantile::new(spread).ok_or_else(|| Error::Tail(quantity()))?;
         Ok(Drawn { quantile, input: varies.then(|| self.varied.len() - 1) })
     }
 
@@ -241,7 +241,7 @@ impl Finder {
                 for (hz, given) in
                     [(frequency_hz.lo(), damping.spread().lo()), (frequency_hz.hi(), damping.spread().hi())]
                 {
-                    Suspension::from_hz(hz, damping.ratio(given)?).map_err(clatter_product::Error::from)?;
+                    Suspension::from_hz(hz, damping.ratio(given)?)?;
                 }
                 let frequency = self.drawn(Varied::Frequency(i), &frequency_hz, &of)?;
                 Some((frequency, self.drawn(Varied::Damping(i), damping.spread(), &of)?, damping))
@@ -292,7 +292,7 @@ impl Inputs {
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         file.check()?;
         crate::verdict::merge(merge_s)?;
-        file.check_apart(merge_s).map_err(clatter_product::Error::from)?;
+        file.check_apart(merge_s)?;
         let (product, drop, listed) = (&file.product, &file.drop, file.listed());
         let mut finder = Finder::default();
         let is_bar = !product.body.is_wide();
@@ -357,7 +357,7 @@ impl Inputs {
     }
 
     /// Draws sample k of a seed.
-    pub(super) fn draw(&self, seed: u64, k: u64, sample: &mut Sample) -> Result<(), clatter_product::Error> {
+    pub(super) fn draw(&self, seed: u64, k: u64, sample: &mut Sample) -> Result<(), Error> {
         let stream = Stream::new(seed, k);
         for (uniform, input) in sample.uniforms.iter_mut().zip(&self.varied) {
             *uniform = stream.at(input.number());
