@@ -1,7 +1,8 @@
 //! How much the search looks at: every number that trades its time for what it may miss, in one table.
 //!
-//! Each was halved, with all others as they are, on random bars, plates and boxes; the columns tell by how much the worst drop found fell
-//! at most over all limits, and the processor time that this saved. TABLE
+//! What set them is the brute force (`studies/brute`): over 1586 limits of 455 random bars, plates and boxes no single drop exceeded what was
+//! told, where coarser ones had missed five of 408. With the first twelve of them halved one by one, the worst drops of 45 limits of 14 random
+//! products fell by less than 0.1 %: the rare product needs them.
 
 // Natural frequencies of a part in one drop.
 
