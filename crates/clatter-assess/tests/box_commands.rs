@@ -53,6 +53,9 @@ fn single(file: &ProductFile, base: [f64; 3], [speed_m_s, tilt_rad, direction_ra
     }
 }
 
+/// The tolerance of samples.
+const OF_SAMPLES: f64 = 0.005;
+
 /// What a drop asks of the display and of the battery, each by its limit.
 fn asked(file: &ProductFile, drop: &Drop, hz: f64) -> [f64; 2] {
     [0, 1].map(|i| {
@@ -65,7 +68,7 @@ fn asked(file: &ProductFile, drop: &Drop, hz: f64) -> [f64; 2] {
         };
         let used = |at_m: [f64; 2]| {
             let part = Part::at(component.inside.place(at_m), suspension);
-            answer(drop, &part, &Limit::of(component)[0], Model::Compliant, 0.01).unwrap().utilization()
+            answer(drop, &part, &Limit::of(component)[0], Model::Compliant, OF_SAMPLES).unwrap().utilization()
         };
         component.ends_m().into_iter().map(used).fold(0.0, f64::max)
     })
