@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pyarrow
 
-    from ._clatter import Drawing
-
 # Words of users, which no number is written as.
 _NAMES = frozenset(("name", "component", "product", "file", "files", "drop", "reason", "note", "notes"))
 _NUMBERS = {"infinite": float("inf"), "-infinite": float("-inf")}
@@ -27,6 +25,14 @@ def _number(value: Any) -> Any:
     if isinstance(value, str):
         return _NUMBERS.get(value, value)
     return [_number(one) for one in value] if isinstance(value, list) else value
+
+
+def ending(path: str | os.PathLike[str], suffix: str) -> str:
+    """The path of a file to write."""
+    name = os.fspath(path)
+    if not name.endswith(suffix):
+        raise ValueError(f"{name}: the file must end in {suffix}")
+    return name
 
 
 class Figure:
@@ -57,9 +63,7 @@ class Figure:
         """
         import tempfile
 
-        path = os.fspath(path)
-        if not path.endswith(".svg"):
-            raise ValueError(f"{path}: the file must end in .svg")
+        path = ending(path, ".svg")
         with tempfile.NamedTemporaryFile(
             "w", encoding="utf-8", dir=os.path.dirname(path) or ".", suffix=".svg", delete=False
         ) as beside:
@@ -83,14 +87,14 @@ class Answer:
 
     _text: str | None
     _rows: Callable[[Answer], Rows] | None
-    _drawing: Drawing | None
+    _drawing: Any
 
     def __init__(
         self,
         fields: Mapping[str, Any],
         text: str | None = None,
         rows: Callable[[Answer], Rows] | None = None,
-        drawing: Drawing | None = None,
+        drawing: Any = None,
     ) -> None:
         self.__dict__.update(fields)
         self._text, self._rows, self._drawing = text, rows, drawing
@@ -202,7 +206,7 @@ def _rows_html(rows: Rows) -> str:
     return f"<table><tr>{head}</tr>{body}</table>{more}"
 
 
-def told(answered: tuple[str, Drawing | None], rows: Callable[[Answer], Rows] | None = None, **more: Any) -> Answer:
+def told(answered: tuple[str, Any], rows: Callable[[Answer], Rows] | None = None, **more: Any) -> Answer:
     """An answer of the JSON of the command."""
     text, drawing = answered
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _clatter
 from ._answer import Answer, Rows
 
 if TYPE_CHECKING:
@@ -14,8 +16,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-#: Elements of one call: more are to be asked in pieces.
-MOST = 10_000_000
 _EXACT = 2**53
 
 
@@ -53,39 +53,29 @@ def one_dimensional(name: str, value: ArrayLike) -> Floats:
     return np.ascontiguousarray(array)
 
 
-class Columns:
-    """Arrays of one call, broadcast against each other."""
+def in_one_call(size: int, most: int, what: str) -> None:
+    """Refuse more than one call takes."""
+    if size > most:
+        raise ValueError(f"{size} {what} in one call; it takes {most}: ask in pieces")
 
-    def __init__(self, given: Mapping[str, ArrayLike | None], times: int = 1) -> None:
-        self.given = {name: floats(name, value) for name, value in given.items() if value is not None}
-        try:
-            self.shape = np.broadcast_shapes(*(array.shape for array in self.given.values()))
-        except ValueError:
-            shapes = ", ".join(f"{name} {array.shape}" for name, array in self.given.items() if array.ndim)
-            raise ValueError(f"shapes that do not go together: {shapes}") from None
-        size = times
-        for length in self.shape:
-            size *= length
-        if size > MOST:
-            raise ValueError(f"{size} elements in one call; it takes {MOST}: ask in pieces")
 
-    def __getitem__(self, name: str) -> Floats:
-        if name not in self.given:
-            raise ValueError(f"{name} is not given")
-        array = self.given[name]
-        if array.size == 1:
-            return array.reshape(1)
-        return np.ascontiguousarray(np.broadcast_to(array, self.shape)).reshape(-1)
+def each(core: Any, values: Mapping[str, Any], *plain: str) -> Answer:
+    """What was given and what the core makes of each element of the arrays, which broadcast against each other.
 
-    def get(self, name: str) -> Floats | None:
-        return self[name] if name in self.given else None
-
-    def answer(self, columns: Mapping[str, Floats]) -> Answer:
-        """What was given and what came of it, in the shape of all."""
-        fields: dict[str, Any] = {name: np.broadcast_to(array, self.shape)[()] for name, array in self.given.items()}
-        for name, column in columns.items():
-            fields[name] = column.reshape(self.shape + column.shape[1:])[()]
-        return Answer(fields, rows=elements)
+    Values that are named in ``plain`` are of all elements.
+    """
+    given = {name: floats(name, value) for name, value in values.items() if value is not None and name not in plain}
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in given.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in given.items() if array.ndim)
+        raise ValueError(f"shapes that do not go together: {shapes}") from None
+    in_one_call(math.prod(shape), _clatter.MOST, "elements")
+    columns = {name: np.ravel(one if one.size == 1 else np.broadcast_to(one, shape)) for name, one in given.items()}
+    made = core(shape, {**values, **columns})
+    fields: dict[str, Any] = {name: np.broadcast_to(array, shape)[()] for name, array in given.items()}
+    fields.update({name: column.reshape(shape + column.shape[1:])[()] for name, column in made.items()})
+    return Answer(fields, rows=elements)
 
 
 def elements(answer: Answer) -> Rows:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, flat, told
-from ._given import number, numbers, optional, positions, ratio, rows, span, whole
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -16,9 +15,6 @@ Ratio = float | tuple[float, float] | Sequence[float]
 Piece = tuple[float, float] | tuple[float, float, float]
 Quantity = Literal["impacts", "peak-end", "peak-center", "peak-angular", "net-center", "duration", "zone"]
 End = Literal["a", "b"]
-
-# Impacts that an answer lists: as objects they take a kilobyte each.
-_LISTED = 1_000_000
 
 
 def _impacts(answer: Answer) -> Rows:
@@ -90,17 +86,7 @@ def impacts(
     >>> answer.count, answer.peak.end, answer.impacts[1].end
     (4, 2.145, 'b')
     """
-    start = (None if velocity is None else numbers("velocity", velocity), ratio("height_gap", height_gap))
-    rest = (*start, positions(at), whole("limit", limit, 0, _LISTED))
-    return told(_clatter.impacts(*_body(e, q, gyration_ratio, center_of_mass, masses), *rest), _impacts)
-
-
-_Body = tuple[float, float | None, float | list[float] | None, float | list[float] | None, list[tuple[float, ...]] | None]
-
-
-def _body(e: Any, q: Any, gyration_ratio: Any, center_of_mass: Any, masses: Any) -> _Body:
-    inertia = (optional("q", q), ratio("gyration_ratio", gyration_ratio), ratio("center_of_mass", center_of_mass))
-    return number("e", e), *inertia, None if masses is None else rows("masses", masses, 2, 3)
+    return told(_clatter.impacts(locals()), _impacts)
 
 
 def zone(
@@ -138,10 +124,7 @@ def zone(
     >>> [zone.extent for zone in clatter.zone(q=0.5, e=0.3, threshold=[0.5, 1]).zones]
     ['none', 'part']
     """
-    restitution, *inertia = _body(e, q, gyration_ratio, center_of_mass, masses)
-    gaps = None if height_gap is None else numbers("height_gap", height_gap, 2)
-    asked: list[Any] = [restitution, numbers("threshold", threshold), *inertia, first, gaps]
-    return told(_clatter.zone(*asked), _zones)
+    return told(_clatter.zone(locals()), _zones)
 
 
 def atlas(
@@ -168,8 +151,7 @@ def atlas(
     >>> words[0]["from"], words[-1].to
     (0.0, 1.0)
     """
-    body = (number("e", e), ratio("gyration_ratio", gyration_ratio), ratio("center_of_mass", center_of_mass))
-    return told(_clatter.atlas(*body, whole("limit", limit, 1, 100)), _words)
+    return told(_clatter.atlas(locals()), _words)
 
 
 def map(
@@ -203,19 +185,22 @@ def map(
     >>> int(clatter.map("impacts", q=(0, 1, 3), e=(0, 0.6, 3)).values[1, 1])
     4
     """
-    spans = [None if value is None else span(name, value) for name, value in (("q", q), ("gyration_ratio", gyration_ratio))]
-    made = _clatter.map(quantity, span("e", e), spans[0], spans[1], optional("threshold", threshold))
-    inertia, restitution, values, drawing = made
-    fields = {"quantity": quantity, "q" if q is not None else "gyration_ratio": inertia, "e": restitution, "values": values}
-    return Answer(fields, rows=_map, drawing=drawing)
+    fields, drawing = _clatter.map(locals())
+    return Answer({"quantity": quantity, **fields}, rows=_map, drawing=drawing)
+
+
+def _each(core: Any, values: dict[str, Any], *plain: str) -> Answer:
+    from ._arrays import each  # with numpy, which takes time to import
+
+    return each(core, values, *plain)
 
 
 def bars(
     *,
-    e: ArrayLike,
     q: ArrayLike | None = None,
     gyration_ratio: ArrayLike | None = None,
     center_of_mass: ArrayLike | None = None,
+    e: ArrayLike,
     velocity_a: ArrayLike = -1.0,
     velocity_b: ArrayLike = -1.0,
     height_gap: ArrayLike = 1.0,
@@ -246,41 +231,15 @@ def bars(
     array([[ 4.,  6.],
            [ 4., 16.]])
     """
-    given = _columns(
-        q=q,
-        gyration_ratio=gyration_ratio,
-        center_of_mass=center_of_mass,
-        e=e,
-        velocity_a=velocity_a,
-        velocity_b=velocity_b,
-        height_gap=height_gap,
-    )
-    return given.answer(_clatter.bars(list(given.shape), *_bar_columns(given)))
-
-
-def _columns(times: int = 1, **given: ArrayLike | None) -> Columns:
-    """The columns of bars or plates, with the inertia of bars given in one way."""
-    from ._arrays import Columns
-
-    if "q" in given and (given["q"] is None) == (given["gyration_ratio"] is None):
-        raise ValueError("one of q and gyration_ratio says how the mass lies")
-    if given.get("q") is not None and given["center_of_mass"] is not None:
-        raise ValueError("center_of_mass goes with gyration_ratio")
-    return Columns(given, times)
-
-
-def _bar_columns(given: Columns) -> tuple[Floats | None, Floats | None, Floats | None, Floats, list[Floats], Floats]:
-    velocity = [given["velocity_a"], given["velocity_b"]]
-    inertia = (given.get("q"), given.get("gyration_ratio"), given.get("center_of_mass"))
-    return (*inertia, given["e"], velocity, given["height_gap"])
+    return _each(_clatter.bars, locals())
 
 
 def trains(
     *,
-    e: ArrayLike,
     q: ArrayLike | None = None,
     gyration_ratio: ArrayLike | None = None,
     center_of_mass: ArrayLike | None = None,
+    e: ArrayLike,
     velocity_a: ArrayLike = -1.0,
     velocity_b: ArrayLike = -1.0,
     height_gap: ArrayLike = 1.0,
@@ -308,28 +267,16 @@ def trains(
     array([[ 1.3   , -1.0725],
            [ 1.2   , -0.96  ]])
     """
-    whole("limit", limit, 1, 2**31)
-    given = _columns(
-        q=q,
-        gyration_ratio=gyration_ratio,
-        center_of_mass=center_of_mass,
-        e=e,
-        velocity_a=velocity_a,
-        velocity_b=velocity_b,
-        height_gap=height_gap,
-        times=4 * limit,
-    )
-    columns = _clatter.trains(list(given.shape), *_bar_columns(given), limit)
-    return given.answer({name: column.reshape(-1, limit) for name, column in columns.items()})
+    return _each(_clatter.trains, locals(), "limit")
 
 
 def zones(
     *,
-    e: ArrayLike,
-    threshold: ArrayLike,
     q: ArrayLike | None = None,
     gyration_ratio: ArrayLike | None = None,
     center_of_mass: ArrayLike | None = None,
+    e: ArrayLike,
+    threshold: ArrayLike,
 ) -> Answer:
     """The safe zones of many bars, whichever end strikes first.
 
@@ -352,21 +299,19 @@ def zones(
     >>> clatter.zones(q=0.5, e=0.3, threshold=[0.5, 1.0]).lower.round(3)
     array([   nan, -0.288])
     """
-    given = _columns(q=q, gyration_ratio=gyration_ratio, center_of_mass=center_of_mass, e=e, threshold=threshold)
-    inertia = (given.get("q"), given.get("gyration_ratio"), given.get("center_of_mass"))
-    return given.answer(_clatter.zones(list(given.shape), *inertia, given["e"], given["threshold"]))
+    return _each(_clatter.zones, locals())
 
 
 def shocks(
     *,
-    e: ArrayLike,
-    at: ArrayLike,
     q: ArrayLike | None = None,
     gyration_ratio: ArrayLike | None = None,
     center_of_mass: ArrayLike | None = None,
+    e: ArrayLike,
     velocity_a: ArrayLike = -1.0,
     velocity_b: ArrayLike = -1.0,
     height_gap: ArrayLike = 1.0,
+    at: ArrayLike,
     first: End | None = None,
 ) -> Answer:
     """The largest velocity shock at positions of many bars.
@@ -391,32 +336,21 @@ def shocks(
     >>> clatter.shocks(q=0.5, e=0.3, at=[-1, 0, 1]).shock
     array([2.145  , 0.53625, 2.145  ])
     """
-    given = _columns(
-        q=q,
-        gyration_ratio=gyration_ratio,
-        center_of_mass=center_of_mass,
-        e=e,
-        velocity_a=velocity_a,
-        velocity_b=velocity_b,
-        height_gap=height_gap,
-        at=at,
-    )
-    column = _clatter.shocks(list(given.shape), *_bar_columns(given), given["at"], first)
-    return given.answer({"shock": column})
+    return _each(_clatter.shocks, locals(), "first")
 
 
 def plates(
     *,
-    e: ArrayLike,
     gyration_ratio_x: ArrayLike,
     gyration_ratio_y: ArrayLike,
-    height_gap_x: ArrayLike,
-    height_gap_y: ArrayLike,
     center_of_mass_x: ArrayLike = 0.0,
     center_of_mass_y: ArrayLike = 0.0,
+    e: ArrayLike,
     velocity_a: ArrayLike = -1.0,
     velocity_b: ArrayLike = -1.0,
     velocity_d: ArrayLike = -1.0,
+    height_gap_x: ArrayLike,
+    height_gap_y: ArrayLike,
     limit: int = 1000,
 ) -> Answer:
     """The same as :func:`impacts` for many plates at once, without their lists.
@@ -449,27 +383,4 @@ def plates(
     >>> clatter.plates(e=[0.3, 0.1], gyration_ratio_x=k, gyration_ratio_y=k, height_gap_x=1, height_gap_y=1).count
     array([ 6., inf])
     """
-    given = _columns(
-        gyration_ratio_x=gyration_ratio_x,
-        gyration_ratio_y=gyration_ratio_y,
-        center_of_mass_x=center_of_mass_x,
-        center_of_mass_y=center_of_mass_y,
-        e=e,
-        velocity_a=velocity_a,
-        velocity_b=velocity_b,
-        velocity_d=velocity_d,
-        height_gap_x=height_gap_x,
-        height_gap_y=height_gap_y,
-    )
-    whole("limit", limit, 1, 2**31)
-
-    def pair(name: str) -> list[Floats]:
-        return [given[f"{name}_x"], given[f"{name}_y"]]
-
-    velocity = [given["velocity_a"], given["velocity_b"], given["velocity_d"]]
-    inertia = (pair("gyration_ratio"), pair("center_of_mass"), given["e"])
-    return given.answer(_clatter.plates(list(given.shape), *inertia, velocity, pair("height_gap"), limit))
-
-
-if TYPE_CHECKING:
-    from ._arrays import Columns, Floats
+    return _each(_clatter.plates, locals(), "limit")

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, flat, told
 from ._bars import End, Piece
-from ._given import number, numbers, optional, positions, rows, whole
-from ._records import Pulse, pulses_of, shocks_of
+from ._records import Pulse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -108,27 +107,7 @@ def simulate(
     >>> drop.impacts[0].end, drop.impacts[0].approach_m_s, drop.stop.reason
     ('a', -4.43, 'at-rest')
     """
-    inputs = _inputs(
-        length_m=length_m, width_m=width_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m,
-        tilt_deg=tilt_deg, direction_deg=direction_deg, gravity_m_s2=gravity_m_s2, contact_time_s=contact_time_s,
-        gyration_m=gyration_m, center_of_mass=center_of_mass, center_of_mass_m=center_of_mass_m, gaps_m=gaps_m,
-        orientation=orientation, spin_rad_s=spin_rad_s, contact_law=contact_law,
-    )  # fmt: skip
-    limit = None if impact_limit is None else whole("impact_limit", impact_limit, 1, 10**8)
-    places = [place if isinstance(place, tuple) else (place, 0.0) for place in positions(at) or []]
-    limits = (optional("time_limit_s", time_limit_s), limit)
-    return told(_clatter.simulate(inputs, model, *limits, places, history), _impacts)
-
-
-_LISTS = {"gyration_m": (), "center_of_mass": (), "center_of_mass_m": (3,), "gaps_m": (2,), "orientation": (4,), "spin_rad_s": ()}
-
-
-def _inputs(**given: Any) -> dict[str, Any]:
-    """The inputs of one drop: numbers, but for lists, names and whether it lands flat."""
-    plain = {name: given.pop(name, None) for name in ("contact_law", "first", "flat")}
-    lists = {name: given.pop(name, None) for name in _LISTS}
-    values = {name: None if value is None else numbers(name, value, *_LISTS[name]) for name, value in lists.items()}
-    return {**plain, **values, **{name: optional(name, value) for name, value in given.items()}}
+    return told(_clatter.simulate(locals()), _impacts)
 
 
 def respond(
@@ -209,41 +188,7 @@ def respond(
     >>> round(part.peak_absolute_acceleration_over_omega * part.omega / 9.80665)  # gn
     369
     """
-    if length_m is not None:
-        if pulses is not None or shocks is not None or q is not None or gyration_ratio is not None or masses:
-            raise ValueError(
-                "length_m makes a drop in SI units: pulses, shocks, q, gyration_ratio and masses do not go with it"
-            )
-        inputs = _inputs(
-            length_m=length_m, width_m=width_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m,
-            tilt_deg=tilt_deg, direction_deg=direction_deg, gravity_m_s2=gravity_m_s2, contact_time_s=contact_time_s,
-            gyration_m=gyration_m, center_of_mass=center_of_mass, center_of_mass_m=center_of_mass_m, gaps_m=gaps_m,
-            orientation=orientation, spin_rad_s=spin_rad_s, contact_law=contact_law, first=first, flat=flat,
-        )  # fmt: skip
-        if at is None:
-            raise ValueError("the drop is not whole: give at")
-        hz = optional("frequency_hz", frequency_hz) if omega is None else number("omega", omega) / _TAU
-        part = (hz, optional("damping", damping), optional("q_factor", q_factor))
-        return told(_clatter.respond_drop(inputs, model, numbers("at", at), axis, *part, number("tolerance", tolerance)))
-    if (omega is None) == (frequency_hz is None):
-        raise ValueError("one of omega and frequency_hz says how the part swings")
-    swing = _TAU * number("frequency_hz", frequency_hz) if omega is None else number("omega", omega)
-    given = {"q": q, "gyration_ratio": gyration_ratio, "center_of_mass": center_of_mass, "at": at}
-    *mass, place = [optional(name, value) for name, value in given.items()]
-    pieces = None if masses is None else rows("masses", masses, 2, 3)
-    start = (None if velocity is None else numbers("velocity", velocity, 2), optional("height_gap", height_gap))
-    bar = (optional("e", e), *mass, pieces, *start, place)
-    damped = (optional("damping", damping), optional("q_factor", q_factor))
-    return told(_clatter.respond(*[_shaken(pulses, shocks), *bar, swing, *damped]))
-
-
-_TAU = 6.283185307179586
-
-
-def _shaken(pulses: Pulse | Sequence[Pulse] | None, shocks: Any) -> Any:
-    if shocks is not None:
-        return shocks_of(shocks)
-    return None if pulses is None else pulses_of(pulses)
+    return told(_clatter.respond(locals()))
 
 
 def boxes(
@@ -251,14 +196,14 @@ def boxes(
     length_m: ArrayLike,
     width_m: ArrayLike,
     thickness_m: ArrayLike,
-    gyration_m: tuple[ArrayLike, ArrayLike, ArrayLike],
-    orientation: ArrayLike,
     e: ArrayLike,
     speed_m_s: ArrayLike,
     contact_time_s: ArrayLike,
+    gravity_m_s2: ArrayLike = STANDARD_GRAVITY,
+    gyration_m: tuple[ArrayLike, ArrayLike, ArrayLike],
     center_of_mass_m: tuple[ArrayLike, ArrayLike, ArrayLike] = (0.0, 0.0, 0.0),
     spin_rad_s: tuple[ArrayLike, ArrayLike, ArrayLike] = (0.0, 0.0, 0.0),
-    gravity_m_s2: ArrayLike = STANDARD_GRAVITY,
+    orientation: ArrayLike,
     contact_law: Law = "hysteretic",
 ) -> Answer:
     """Drops of many boxes, each as :func:`simulate` follows it.
@@ -292,22 +237,16 @@ def boxes(
     >>> drops.at_rest
     array([1., 1.])
     """
-    from ._arrays import Columns, floats
+    values = {**locals()}
+    from ._arrays import each, floats
 
-    quaternions = floats("orientation", orientation)
+    quaternions = floats("orientation", values.pop("orientation"))
     if quaternions.ndim == 0 or quaternions.shape[-1] != 4:
         raise ValueError(f"orientation has shape {quaternions.shape}; its last axis is w, x, y, z")
-    triples = {"gyration_m": gyration_m, "center_of_mass_m": center_of_mass_m, "spin_rad_s": spin_rad_s}
-    for name, triple in triples.items():
+    for name in ("gyration_m", "center_of_mass_m", "spin_rad_s"):
+        triple = values.pop(name)
         if len(triple) != 3:
             raise ValueError(f"{name} takes three arrays, of x, y and z")
-    axes = {f"{name}_{axis}": one for name, triple in triples.items() for axis, one in zip("xyz", triple)}
-    turns = {f"orientation_{part}": quaternions[..., i] for i, part in enumerate("wxyz")}
-    given = Columns({"length_m": length_m, "width_m": width_m, "thickness_m": thickness_m, "e": e, "speed_m_s": speed_m_s,
-        "contact_time_s": contact_time_s, "gravity_m_s2": gravity_m_s2, **axes, **turns,
-    })  # fmt: skip
-    size = [given["length_m"], given["width_m"], given["thickness_m"]]
-    radii, center, spin = ([given[f"{name}_{axis}"] for axis in "xyz"] for name in triples)
-    turned = [given[name] for name in turns]
-    rest = (given["e"], given["speed_m_s"], given["gravity_m_s2"], given["contact_time_s"], contact_law)
-    return given.answer(_clatter.boxes(list(given.shape), size, radii, center, turned, spin, *rest))
+        values.update({f"{name}_{axis}": one for axis, one in zip("xyz", triple)})
+    values.update({f"orientation_{part}": quaternions[..., i] for i, part in enumerate("wxyz")})
+    return each(_clatter.boxes, values, "contact_law")

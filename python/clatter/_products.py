@@ -8,15 +8,11 @@ import os
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from . import _clatter
-from ._answer import Answer, Rows, flat, told
-from ._given import number, numbers, optional, rows, whole
+from ._answer import Answer, Rows, ending, flat, told
 from ._records import Record
-
-if TYPE_CHECKING:
-    from ._clatter import _Given
 
 #: A quantity: a number with its unit, a range of two, or a distribution.
 Quantity = str | float | Sequence[str] | Sequence[float] | Mapping[str, Any]
@@ -70,23 +66,18 @@ class Product:
         contact_law: Literal["hysteretic", "dashpot"] | None = None,
         **more: Any,
     ) -> None:
-        keys = {
-            "name": name, "length": length, "restitution": restitution, "radius_of_gyration": radius_of_gyration,
-            "moment_of_inertia": moment_of_inertia, "mass": mass, "masses": masses, "center_of_mass": center_of_mass,
-            "contact_time": contact_time, "contact_law": contact_law, **more,
-        }  # fmt: skip
         self._text: str | None = None
         self._origin = name
-        self._tables: dict[str, Any] = {"product": _given(keys)}
-        self._read: tuple[str, _clatter.ProductText] | None = None
+        self._tables: dict[str, Any] = {"product": _table(locals())}
+        self._read: tuple[str, Any] | None = None
         self._folder = ""
 
     def falls(
         self,
         *,
-        tilt: Quantity | None = None,
         height: Quantity | None = None,
         speed: Quantity | None = None,
+        tilt: Quantity | None = None,
         first: Literal["a", "b", "either"] | None = None,
         gravity: Quantity | None = None,
         **more: Any,
@@ -95,10 +86,10 @@ class Product:
 
         Parameters
         ----------
-        tilt : quantity, optional
-            Angle to the ground at the first touch; a box may land on a ``face``, ``edge`` or ``corner`` instead.
         height, speed : quantity
             Height of the lower end before the drop, or the speed at the first touch.
+        tilt : quantity, optional
+            Angle to the ground at the first touch; a box may land on a ``face``, ``edge`` or ``corner`` instead.
         first : {'a', 'b', 'either'}, optional
             The end that touches first; either unless given.
         gravity : quantity, optional
@@ -109,8 +100,7 @@ class Product:
         Product
             Itself.
         """
-        keys = {"height": height, "speed": speed, "tilt": tilt, "first": first, "gravity": gravity, **more}
-        tables, drop = self._changed(), _given(keys)
+        tables, drop = self._changed(), _table(locals())
         before = tables.get("drop")
         tables["drop"] = drop if before is None else [*(before if isinstance(before, list) else [before]), drop]
         return self
@@ -153,14 +143,7 @@ class Product:
         Product
             Itself.
         """
-        keys = {
-            "name": name, "position": position, "extent": extent, "mount": mount, "natural_frequency": natural_frequency,
-            "damping_ratio": damping_ratio, "quality_factor": quality_factor, "acceleration_limit": acceleration_limit,
-            "rattle_space": rattle_space, "velocity_change_limit": velocity_change_limit,
-            "angular_velocity_change_limit": angular_velocity_change_limit, "damage_boundary": damage_boundary,
-            "limit_source": limit_source, **more,
-        }  # fmt: skip
-        self._changed().setdefault("component", []).append(_given(keys))
+        self._changed().setdefault("component", []).append(_table(locals()))
         return self
 
     def _changed(self) -> dict[str, Any]:
@@ -206,12 +189,12 @@ class Product:
         self._file()
         return self
 
-    def _file(self) -> _clatter.ProductText:
+    def _file(self, stacklevel: int = 3) -> Any:
         text = self.text
         if self._read is None or self._read[0] != text:
-            read = _clatter.ProductText(text, self._origin)
+            read = _clatter.ProductText(text, self._origin, self._folder)
             if read.warnings:
-                warnings.warn(read.warnings, stacklevel=3)
+                warnings.warn(read.warnings, stacklevel=stacklevel)
             self._read = (text, read)
         return self._read[1]
 
@@ -232,8 +215,10 @@ def _product(text: str, origin: str, folder: str) -> Product:
 Source = Product | Mapping[str, Any] | str | os.PathLike[str]
 
 
-def _given(keys: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in keys.items() if value is not None}
+def _table(values: Mapping[str, Any]) -> dict[str, Any]:
+    """The table of a file with what was given to a method; its ``more`` holds further keys."""
+    keys = {**values, **values["more"]}
+    return {name: value for name, value in keys.items() if value is not None and name not in ("self", "more")}
 
 
 def _toml(tables: Mapping[str, Any]) -> str:
@@ -279,8 +264,9 @@ def _whole(product: Source) -> Product:
     return product if isinstance(product, Product) else Product.open(product)
 
 
-def _of(product: Source) -> _clatter.ProductText:
-    return _whole(product)._file()
+def _with_file(values: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of a question with the file of its product."""
+    return {**values, "product": _whole(values["product"])._file(stacklevel=4)}
 
 
 def schema() -> dict[str, Any]:
@@ -345,35 +331,16 @@ def assess(
     >>> answer.verdict, [part.name for part in answer.components]
     ('safe', ['display', 'camera', 'crystal'])
     """
-    source = _whole(product)
-    file = source._file()
-    accuracy = (number("tolerance", tolerance), model, number("merge_s", merge_s))
-    drops = [_drop(name, drop) for name, drop in (measured or {}).items()]
-    answered, odd = _clatter.assess(file, *accuracy, source._folder, drops, _pdf(report, report_date))
+    answered, odd = _clatter.assess(_with_file(locals()) | {"report": _pdf(report, report_date)})
     for one in odd:
         warnings.warn(one, stacklevel=2)
     return told(answered, _limits)
 
 
-def _pdf(report: str | os.PathLike[str] | None, date: str | None) -> tuple[str, str | None] | None:
-    if report is None:
-        return None
-    path = os.fspath(report)
-    if not path.endswith(".pdf"):
-        raise ValueError(f"{path}: the file must end in .pdf")
-    if date is not None:
+def _pdf(report: str | os.PathLike[str] | None, date: str | None) -> str | None:
+    if report is not None and date is not None:
         datetime.date.fromisoformat(date)
-    return path, date
-
-
-def _drop(name: str, drop: Mapping[str, Any]) -> tuple[str, _Given, float | None]:
-    keys = ("strikes", "heights", "bounces", "accelerations")
-    for key in drop:
-        if key not in (*keys, "timing_s"):
-            raise ValueError(f"measured {name!r} has {key!r}; a drop has {', '.join(keys)} and timing_s")
-    strikes, heights, bounces, accelerations = (drop.get(key) for key in keys)
-    timing_s = optional("timing_s", drop.get("timing_s"))
-    return name, _measured(strikes, heights, bounces, accelerations or ()), timing_s
+    return None if report is None else ending(report, ".pdf")
 
 
 def scatter(
@@ -413,10 +380,7 @@ def scatter(
     >>> clatter.scatter(clatter.Product.example(), samples=200).survival.probability
     1.0
     """
-    count = None if samples is None else whole("samples", samples, 1, 10**12)
-    drawn = (count, whole("seed", seed, 0, 2**64 - 1), number("confidence", confidence))
-    rest = (number("merge_s", merge_s), optional("target", target))
-    return told(_clatter.scatter(_of(product), *drawn, *rest), survivals)
+    return told(_clatter.scatter(_with_file(locals())), survivals)
 
 
 def survivals(answer: Answer) -> list[dict[str, Any]]:
@@ -470,13 +434,8 @@ def design(
     3
     """
     if product is None:
-        return told(_clatter.goals([(x, s) for x, s in rows("zones", zones, 2)], optional("turn", turn)))
-    if len(zones) or turn is not None:
-        raise ValueError("zones and turn are goals without a product")
-    first = (number("margin", margin), numbers("q", q, 2), numbers("e", e, 2))
-    swing = (number("frequency_factor", frequency_factor), numbers("damping", damping, 2))
-    rest = (numbers("contact_time_s", contact_time_s, 2), number("limit_factor", limit_factor))
-    return told(_clatter.design(_of(product), *first, *swing, *rest), _remedies)
+        return told(_clatter.design(locals()))
+    return told(_clatter.design(_with_file(locals())), _remedies)
 
 
 def _remedies(answer: Answer) -> Rows:
@@ -504,7 +463,7 @@ def explain(product: Source, *, tolerance: float = 0.01) -> Answer:
     >>> clatter.explain(clatter.Product.example()).limits[0].component
     'display'
     """
-    return told(_clatter.explain(_of(product), number("tolerance", tolerance)), _models)
+    return told(_clatter.explain(_with_file(locals())), _models)
 
 
 def tradeoff(product: Source, *, tolerance: float = 0.01) -> Answer:
@@ -529,7 +488,7 @@ def tradeoff(product: Source, *, tolerance: float = 0.01) -> Answer:
     >>> [limit.component for limit in clatter.tradeoff(clatter.Product.example()).limits][:2]
     ['display', 'display']
     """
-    return told(_clatter.tradeoff(_of(product), number("tolerance", tolerance)), _models)
+    return told(_clatter.tradeoff(_with_file(locals())), _models)
 
 
 def _models(answer: Answer) -> Rows:
@@ -582,32 +541,9 @@ def fit(
     >>> [round(estimate.value, 6) for estimate in answer.estimates if estimate.quantity == "restitution"]
     [0.4]
     """
-    source = _of(product)
-    measured = _measured(strikes, heights, bounces, accelerations)
-    text, drawing, copy, notes = _clatter.fit(source, measured, optional("timing_s", timing_s), known_gyration)
+    text, drawing, copy, notes = _clatter.fit(_with_file(locals()))
     fitted = None if copy is None else Product.from_text(copy, "fitted")
     return told((text, drawing), _estimates, fitted=fitted, notes=notes)
-
-
-def _measured(strikes: Any, heights: Any, bounces: Any, accelerations: Any) -> _Given:
-    return (
-        None if strikes is None else [_strike(i, strike) for i, strike in enumerate(strikes)],
-        None if heights is None else [(time, a, b) for time, a, b in rows("heights", heights, 3)],
-        None if bounces is None else numbers("bounces", bounces),
-        [_acceleration(i, one) for i, one in enumerate(accelerations)],
-    )
-
-
-def _strike(i: int, strike: Any) -> tuple[float, str | None]:
-    if not hasattr(strike, "__len__") or len(strike) != 2:
-        raise ValueError(f"strikes[{i}] = {strike!r} is not (time_s, end)")
-    return number(f"time of strikes[{i}]", strike[0]), strike[1]
-
-
-def _acceleration(i: int, one: Any) -> tuple[_clatter.Record, float]:
-    if not hasattr(one, "__len__") or len(one) != 2 or not isinstance(one[0], Record):
-        raise ValueError(f"accelerations[{i}] is not (Record, position_m)")
-    return one[0]._data, number(f"position of accelerations[{i}]", one[1])
 
 
 def _estimates(answer: Answer) -> Rows:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, flat, told
-from ._given import number, numbers, optional, rows, whole
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -45,8 +44,7 @@ class Pulse:
     __slots__ = ("_data",)
 
     def __init__(self, shape: str, *, amplitude_m_s2: float, duration_s: float, start_s: float = 0.0) -> None:
-        times = (number("duration_s", duration_s), number("start_s", start_s))
-        self._data = _clatter.PulseData(shape, number("amplitude_m_s2", amplitude_m_s2), *times)
+        self._data = _clatter.PulseData(locals())
 
     @classmethod
     def of_standard(cls, keyword: str) -> Pulse:
@@ -145,9 +143,9 @@ class Record:
         skip_bad: bool = False,
         name: str = "data",
     ) -> None:
-        columns, left_out = _columns(data, time_s)
-        options = (time, _list(acceleration), units, sample_rate_hz, full_scale_m_s2, sensitivity, skip_bad)
-        self._data = _clatter.Record.of_columns(columns, left_out, name, *options)
+        values = locals() | {"data": _columns(data, time_s)}
+        del values["time_s"]
+        self._data = _clatter.Record.of_columns(values)
 
     @classmethod
     def open(
@@ -175,11 +173,10 @@ class Record:
         time, acceleration, units, sample_rate_hz, full_scale_m_s2, sensitivity, skip_bad
             As for :class:`Record`.
         """
-        options = (time, _list(acceleration), units, sample_rate_hz, full_scale_m_s2, sensitivity, sensor, record, skip_bad)
-        return cls._of(_clatter.Record.open(os.fspath(path), *options))
+        return cls._of(_clatter.Record.open(locals()))
 
     @classmethod
-    def _of(cls, data: _clatter.Record) -> Record:
+    def _of(cls, data: Any) -> Record:
         record = cls.__new__(cls)
         record._data = data
         return record
@@ -187,7 +184,7 @@ class Record:
     @property
     def channels(self) -> list[str]:
         """Names of the channels."""
-        return [name for name, _ in self._data.channels]
+        return self._data.channels
 
     @property
     def findings(self) -> list[str]:
@@ -201,18 +198,11 @@ class Record:
 
     def values_m_s2(self, channel: str | int = 0) -> Floats:
         """Accelerations of a channel by its name or its index from 0, in m/s², shape (samples,)."""
-        return self._data.values_m_s2(self._index(channel))
+        return self._data.values_m_s2(channel)
 
     def times_s(self, channel: str | int = 0) -> Floats:
         """Times of a channel, in s, shape (samples,)."""
-        return self._data.times_s(self._index(channel))
-
-    def _index(self, channel: str | int) -> int:
-        if not isinstance(channel, str):
-            return whole("channel", channel, 0, len(self.channels) - 1)
-        if channel not in self.channels:
-            raise ValueError(f"there is no channel '{channel}'; there are {', '.join(self.channels)}")
-        return self.channels.index(channel)
+        return self._data.times_s(channel)
 
     def window(self, from_s: float, to_s: float) -> Record:
         """The part between two times of the file, in s."""
@@ -256,8 +246,7 @@ class Record:
         Answer
             As ``clatter record`` has it.
         """
-        shape = None if nominal is None else nominal._data
-        return told(self._data.describe(find, threshold_m_s2, quiet_s, fit_pulse, shape, integrate), _channels)
+        return told(self._data.describe(locals()), _channels)
 
     def __repr__(self) -> str:
         return f"Record({self._data.file!r}, channels={self.channels}, step_s={self.step_s})"
@@ -265,10 +254,6 @@ class Record:
 
 def _channels(answer: Answer) -> Rows:
     return [flat(channel, "") for channel in answer.channels]
-
-
-def _list(columns: Column | Sequence[Column]) -> list[Column]:
-    return [columns] if isinstance(columns, (str, int)) else list(columns)
 
 
 _Columns = list[tuple[str, "str | None", "NDArray[Any]"]]
@@ -417,35 +402,14 @@ def spectrum(
     >>> round(clatter.spectrum(pulse, frequency_hz=[809.94], damping=0.0).maximax[0], 2)
     1768.46
     """
-    if (excitation is None) == (shocks is None):
-        raise ValueError(_SHAKES)
-    shaken: Any = shocks_of(shocks) if shocks is not None else _shaken(excitation)
-    hz = None if frequency_hz is None else _frequencies(frequency_hz)
-    factors = None if q_factor is None else numbers("q_factor", q_factor)
-    if factors == []:
-        raise ValueError("q_factor is empty")
-    octaves = None if per_octave_hz is None else numbers("per_octave_hz", per_octave_hz, 3)
-    below, above = tolerance_db
-    wanted = None if required is None else (_limit(required), number("tolerance_db", below), optional("tolerance_db", above))
-    found = (optional("threshold_m_s2", threshold_m_s2), number("quiet_s", quiet_s)) if find else None
-    options = (
-        hz,
-        octaves,
-        optional("damping", damping),
-        factors,
-        quantity,
-        interpolation,
-        _limit(limit),
-        wanted,
-        enveloping_pulse,
-    )
-    return told(_clatter.spectrum(shaken, *options, found, [resultant, envelope, mean_3db]), _spectrum_rows)
+    values = locals() | {"excitation": None if excitation is None else _shaken(excitation)}
+    if frequency_hz is not None:
+        values["frequency_hz"] = _frequencies(frequency_hz)
+    return told(_clatter.spectrum(values), _spectrum_rows)
 
 
 def _shaken(excitation: Any) -> list[Any]:
     several = excitation if isinstance(excitation, (list, tuple)) else [excitation]
-    if not several:
-        raise ValueError(_SHAKES)
     opened = [Record.open(one) if isinstance(one, (str, os.PathLike)) else one for one in several]
     kinds = {type(one) for one in opened}
     if not kinds <= {Record} and not kinds <= {Pulse}:
@@ -460,31 +424,6 @@ def _frequencies(hz: float | ArrayLike) -> list[float]:
     if array.ndim > 1:
         raise ValueError(f"frequency_hz has shape {array.shape}; it is a list of numbers")
     return [float(one) for one in array.reshape(-1)]
-
-
-def _limit(limit: Limit | None) -> float | list[tuple[float, float]] | None:
-    if limit is None or not hasattr(limit, "__len__"):
-        return optional("a limit", limit)
-    return [(hz, value) for hz, value in rows("a limit", limit, 2)]
-
-
-def pulses_of(pulses: Pulse | Sequence[Pulse]) -> list[_clatter.PulseData]:
-    """One pulse, or several."""
-    several: list[Any] = list(pulses) if hasattr(pulses, "__iter__") else [pulses]
-    if not several or not all(isinstance(one, Pulse) for one in several):
-        raise ValueError("pulses is a Pulse or a list of them")
-    return [pulse._data for pulse in several]
-
-
-def shocks_of(shocks: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Times and changes of velocity."""
-    several = rows("shocks", shocks, 2)
-    if not several:
-        raise ValueError("shocks is empty")
-    return [(time, delta_v) for time, delta_v in several]
-
-
-_SHAKES = "a record, pulses or shocks say what shakes the part"
 
 
 def spectra(
@@ -523,22 +462,21 @@ def spectra(
     >>> clatter.spectra(tones, sample_rate_hz=10e3, frequency_hz=[50, 100]).maximax.shape
     (2, 2)
     """
+    values = {**locals()}
     import numpy as np
 
-    from ._arrays import MOST, floats
+    from ._arrays import floats, in_one_call
 
     histories = floats("acceleration_m_s2", acceleration_m_s2)
     if histories.ndim == 0 or histories.shape[-1] < 2:
         raise ValueError(f"acceleration_m_s2 has shape {histories.shape}; its last axis is time, of 2 samples at least")
-    if histories.size > 10 * MOST:
-        raise ValueError(f"{histories.size} samples in one call; it takes {10 * MOST}: ask in pieces")
+    in_one_call(histories.size, 10 * _clatter.MOST, "samples")
     if not (sample_rate_hz > 0):
         raise ValueError(f"sample_rate_hz = {sample_rate_hz!r} is not finite and > 0")
-    hz, samples = _frequencies(frequency_hz), histories.shape[-1]
-    settings = (1 / sample_rate_hz, hz, damping, q_factor, quantity, interpolation)
-    columns = _clatter.spectra(np.ascontiguousarray(histories).reshape(-1), samples, *settings)
-    names = ("maximax", "positive", "negative")
-    shaped = {name: column.reshape(*histories.shape[:-1], len(hz)) for name, column in zip(names, columns)}
+    hz = _frequencies(frequency_hz)
+    values |= {"acceleration_m_s2": np.ravel(histories), "samples": histories.shape[-1], "frequency_hz": hz}
+    columns = _clatter.spectra(values)
+    shaped = {name: column.reshape(*histories.shape[:-1], len(hz)) for name, column in columns.items()}
     return Answer({"quantity": quantity, "frequency_hz": np.array(hz), **shaped}, rows=_spectra_rows)
 
 

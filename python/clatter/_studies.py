@@ -7,8 +7,7 @@ import warnings
 from collections.abc import Sequence
 
 from . import _clatter
-from ._answer import Answer, Rows, flat, told
-from ._given import number, optional, whole
+from ._answer import Answer, Rows, ending, flat, told
 from ._products import survivals
 
 Path = str | os.PathLike[str]
@@ -48,13 +47,7 @@ def study(plan: Path, output: Path, *, shard: tuple[int, int] = (1, 1), force: b
     >>> clatter.merge(parts).members[0].survival.probability
     1.0
     """
-    path = os.fspath(output)
-    if not path.endswith(".parquet"):
-        raise ValueError(f"{path}: the file must end in .parquet")
-    if not hasattr(shard, "__len__") or len(shard) != 2:
-        raise ValueError(f"shard = {shard!r} is not (i, n)")
-    which = [whole("shard", one, 0, 2**63 - 1) for one in shard]
-    text, odd = _clatter.study(os.fspath(plan), which, path, bool(force))
+    text, odd = _clatter.study(locals() | {"output": ending(output, ".parquet")})
     if odd:
         warnings.warn(odd, stacklevel=2)
     return told((text, None))
@@ -89,10 +82,7 @@ def merge(parts: Sequence[Path], *, confidence: float = 0.95, target: float | No
     >>> [(member.values, member.verdict) for member in clatter.merge([folder / "all.parquet"]).members]
     [(['0.2'], 'safe'), (['0.3'], 'safe')]
     """
-    share = optional("target", target)
-    if share is not None and not 0 < share < 1:
-        raise ValueError(f"target {share!r} is not between 0 and 1")
-    return told(_clatter.merge([os.fspath(part) for part in parts], number("confidence", confidence), share), _rows)
+    return told(_clatter.merge(locals()), _rows)
 
 
 def _rows(answer: Answer) -> Rows:

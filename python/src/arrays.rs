@@ -2,26 +2,31 @@
 
 use std::fmt::Display;
 
-use clatter::{Count, End, Error, PeakImpact, Plate, PlateCount, PlateStart, Start};
-use clatter_answer::{DropInputs, simulate};
+use clatter::{Bar, Count, End, Error, PeakImpact, Plate, PlateCount, PlateStart, Start};
+use clatter_answer::{DropInputs, simulate, zone};
 use clatter_product::Model;
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-use crate::bodies::{self, bar_of};
+use crate::given::{Given, Value};
+use crate::refused;
 use crate::work::{self, Wanted};
-use crate::{refused, single};
+
+/// The largest number of elements of one call.
+pub(crate) const MOST: usize = 10_000_000;
 
 /// A column of numbers: one for all rows, or one for each.
 #[derive(Debug, Clone)]
-pub(crate) struct Column(Vec<f64>);
+pub(crate) struct Column(pub(crate) Vec<f64>);
 
-impl<'py> FromPyObject<'_, 'py> for Column {
-    type Error = PyErr;
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let array: PyReadonlyArray1<'py, f64> = object.extract()?;
+impl Value for Column {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if value.is_none() {
+            return Err(refused(format!("{name} is not given")));
+        }
+        let array: PyReadonlyArray1<'_, f64> = value.extract()?;
         // This is a copy: others may write to the array while this works on it.
         Ok(Self(array.as_slice()?.to_vec()))
     }
@@ -30,6 +35,22 @@ impl<'py> FromPyObject<'_, 'py> for Column {
 impl Column {
     fn at(&self, row: usize) -> f64 {
         if let [one] = self.0[..] { one } else { self.0[row] }
+    }
+}
+
+/// Columns of one quantity, along several axes or at several points of the body.
+#[derive(Debug, Clone)]
+struct Columns<const N: usize>([Column; N]);
+
+impl<const N: usize> Columns<N> {
+    /// Reads the columns whose names end in these letters.
+    fn read(given: &Given<'_>, name: &str, letters: [char; N]) -> PyResult<Self> {
+        let columns = letters.iter().map(|letter| given.read(&format!("{name}_{letter}")));
+        let columns: Vec<Column> = columns.collect::<PyResult<_>>()?;
+        columns.try_into().map(Self).map_err(|_| refused(format!("{name} takes {N} arrays")))
+    }
+    fn at(&self, row: usize) -> [f64; N] {
+        std::array::from_fn(|i| self.0[i].at(row))
     }
 }
 
@@ -54,12 +75,13 @@ fn place(mut row: usize, shape: &[usize]) -> String {
 /// The number of rows that are worked on between two looks at errors.
 const BLOCK: usize = 1 << 14;
 
-/// Returns as many columns as `row` gives numbers, with the work shared by all threads; the first refused row is reported with its place.
-fn columns<const N: usize, E: Display + Send>(
-    py: Python<'_>,
+/// Returns columns with these names, with the work shared by all threads; the first refused row is reported with its place.
+fn answer<'py, const N: usize, E: Display + Send>(
+    py: Python<'py>,
     shape: Vec<usize>,
+    names: &str,
     row: impl Fn(usize) -> Result<[f64; N], E> + Send + Sync + 'static,
-) -> PyResult<[Vec<f64>; N]> {
+) -> PyResult<Bound<'py, PyDict>> {
     let rows: usize = shape.iter().product();
     let all = move |wanted: &Wanted| {
         let mut columns: [Vec<f64>; N] = std::array::from_fn(|_| Vec::with_capacity(rows));
@@ -71,43 +93,72 @@ fn columns<const N: usize, E: Display + Send>(
             let block: Vec<_> = (from..rows.min(from + BLOCK)).into_par_iter().map(one).collect();
             for (i, values) in block.into_iter().enumerate() {
                 let values = values.map_err(|error| format!("{}{error}", place(from + i, &shape)))?;
-                columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+                columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value + 0.0));
             }
         }
         Ok::<_, String>(columns)
     };
-    work::done(py, all)?.map_err(refused)
+    named(py, names, work::done(py, all)?.map_err(refused)?)
 }
 
-/// Returns columns with their names.
-fn named<'py, const N: usize>(
+/// Returns columns with their names, which blanks part.
+pub(crate) fn named<'py, const N: usize>(
     py: Python<'py>,
-    names: [&str; N],
+    names: &str,
     columns: [Vec<f64>; N],
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
-    for (name, column) in names.into_iter().zip(columns) {
+    for (name, column) in names.split(' ').zip(columns) {
         dict.set_item(name, column.into_pyarray(py))?;
     }
     Ok(dict)
 }
 
-/// Bars and how they fall.
+/// Bars, with their inertia given in one way.
 struct Bars {
     q: Option<Column>,
     gyration_ratio: Option<Column>,
     center_of_mass: Option<Column>,
     e: Column,
-    velocity: [Column; 2],
-    height_gap: Column,
 }
 
 impl Bars {
-    fn at(&self, row: usize) -> Result<(clatter::Bar, Start), Error> {
+    fn read(given: &Given<'_>) -> PyResult<Self> {
+        let (q, gyration_ratio) = (given.read::<Option<_>>("q")?, given.read::<Option<_>>("gyration_ratio")?);
+        let center_of_mass = given.read::<Option<_>>("center_of_mass")?;
+        if q.is_some() == gyration_ratio.is_some() {
+            return Err(refused("one of q and gyration_ratio says how the mass lies"));
+        }
+        if q.is_some() && center_of_mass.is_some() {
+            return Err(refused("center_of_mass goes with gyration_ratio"));
+        }
+        Ok(Self { q, gyration_ratio, center_of_mass, e: given.read("e")? })
+    }
+    fn at(&self, row: usize) -> Result<Bar, Error> {
         let of = |column: &Option<Column>| column.as_ref().map(|column| column.at(row));
-        let bar = bar_of(of(&self.q), of(&self.gyration_ratio), of(&self.center_of_mass), self.e.at(row))?;
-        let [a, b] = &self.velocity;
-        Ok((bar, Start::new([a.at(row), b.at(row)], self.height_gap.at(row))?))
+        let (gyration_ratio, e) = (of(&self.gyration_ratio).unwrap_or(f64::NAN), self.e.at(row));
+        match (of(&self.q), of(&self.center_of_mass)) {
+            (Some(q), _) => Bar::new(q, e),
+            (None, None) => Bar::from_gyration_ratio(gyration_ratio, e),
+            (None, Some(center)) => Bar::from_center_of_mass(center, gyration_ratio, e),
+        }
+    }
+}
+
+/// Bars and how they fall.
+struct Falling {
+    bars: Bars,
+    velocity: Columns<2>,
+    height_gap: Column,
+}
+
+impl Falling {
+    fn read(given: &Given<'_>) -> PyResult<Self> {
+        let velocity = Columns::read(given, "velocity", ['a', 'b'])?;
+        Ok(Self { bars: Bars::read(given)?, velocity, height_gap: given.read("height_gap")? })
+    }
+    fn at(&self, row: usize) -> Result<(Bar, Start), Error> {
+        Ok((self.bars.at(row)?, Start::new(self.velocity.at(row), self.height_gap.at(row))?))
     }
 }
 
@@ -121,17 +172,9 @@ fn count(count: Count) -> f64 {
 }
 
 #[pyfunction]
-pub(crate) fn bars(
-    py: Python<'_>,
-    shape: Vec<usize>,
-    q: Option<Column>,
-    gyration_ratio: Option<Column>,
-    center_of_mass: Option<Column>,
-    e: Column,
-    velocity: [Column; 2],
-    height_gap: Column,
-) -> PyResult<Bound<'_, PyDict>> {
-    let all = Bars { q, gyration_ratio, center_of_mass, e, velocity, height_gap };
+pub(crate) fn bars<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let all = Falling::read(&given)?;
+    given.done()?;
     let row = move |i| {
         let (bar, start) = all.at(i)?;
         let of = bar.summary(&start);
@@ -141,100 +184,57 @@ pub(crate) fn bars(
             PeakImpact::Huge(n) => n,
             PeakImpact::Limit => f64::INFINITY,
         };
-        let [final_a, final_b] = of.final_velocity.unwrap_or([f64::NAN; 2]);
+        let (end, center, angular) = (of.peak.end, of.peak.center, of.peak.angular);
         let net = of.net.map_or([f64::NAN, f64::NAN, 0.0, f64::NAN], |net| [net.a, net.b, net.center, net.angular]);
-        let peak = [of.peak.end, impact, of.peak.center, of.peak.angular];
-        let [end, impact, center, angular] = peak;
-        let [net_a, net_b, net_center, net_angular] = net;
-        let values = [count(of.count), of.duration, end, impact, center, angular];
-        let after = [net_a, net_b, net_center, net_angular, final_a, final_b];
-        let mut row = [0.0; 12];
-        row[..6].copy_from_slice(&values);
-        row[6..].copy_from_slice(&after);
-        Ok::<_, Error>(row.map(|x| x + 0.0))
+        let ([net_a, net_b, net_center, net_angular], [a, b]) = (net, of.final_velocity.unwrap_or([f64::NAN; 2]));
+        let count = count(of.count);
+        Ok::<_, Error>([count, of.duration, end, impact, center, angular, net_a, net_b, net_center, net_angular, a, b])
     };
-    let names = [
-        "count",
-        "duration",
-        "peak_end",
-        "peak_impact",
-        "peak_center",
-        "peak_angular",
-        "net_a",
-        "net_b",
-        "net_center",
-        "net_angular",
-        "final_a",
-        "final_b",
-    ];
-    named(py, names, columns(py, shape, row)?)
+    let names = "count duration peak_end peak_impact peak_center peak_angular net_a net_b net_center net_angular \
+        final_a final_b";
+    answer(py, shape, names, row)
 }
 
 #[pyfunction]
-pub(crate) fn zones(
-    py: Python<'_>,
-    shape: Vec<usize>,
-    q: Option<Column>,
-    gyration_ratio: Option<Column>,
-    center_of_mass: Option<Column>,
-    e: Column,
-    threshold: Column,
-) -> PyResult<Bound<'_, PyDict>> {
+pub(crate) fn zones<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let (bars, threshold) = (Bars::read(&given)?, given.read::<Column>("threshold")?);
+    given.done()?;
     let row = move |i| {
-        let of = |column: &Option<Column>| column.as_ref().map(|column| column.at(i));
-        let bar = bar_of(of(&q), of(&gyration_ratio), of(&center_of_mass), e.at(i))?;
-        let question = clatter_answer::zone::Question::new(bar, vec![threshold.at(i)]);
-        let s = clatter_answer::zone::answer(&question)?.zones[0].s.0;
+        let (bar, threshold) = (bars.at(i)?, threshold.at(i));
+        let s = zone::answer(&zone::Question::new(bar, vec![threshold]))?.zones[0].s.0;
         let shocks = bar.shocks_either(&Start::default());
-        let [from, to] = shocks.safe_interval(threshold.at(i)).unwrap_or([f64::NAN; 2]);
-        Ok::<_, Error>([s, from, to].map(|x| x + 0.0))
+        let [from, to] = shocks.safe_interval(threshold).unwrap_or([f64::NAN; 2]);
+        Ok::<_, Error>([s, from, to])
     };
-    named(py, ["s", "lower", "upper"], columns(py, shape, row)?)
+    answer(py, shape, "s lower upper", row)
 }
 
 #[pyfunction]
-pub(crate) fn shocks<'py>(
-    py: Python<'py>,
-    shape: Vec<usize>,
-    q: Option<Column>,
-    gyration_ratio: Option<Column>,
-    center_of_mass: Option<Column>,
-    e: Column,
-    velocity: [Column; 2],
-    height_gap: Column,
-    at: Column,
-    first: Option<&str>,
-) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let first: Option<End> = first.map(single::end).transpose()?;
-    let all = Bars { q, gyration_ratio, center_of_mass, e, velocity, height_gap };
+pub(crate) fn shocks<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let (all, at) = (Falling::read(&given)?, given.read::<Column>("at")?);
+    let first: Option<End> = given.read("first")?;
+    given.done()?;
     let row = move |i| {
-        let (bar, start) = all.at(i)?;
-        let s = at.at(i);
+        let ((bar, start), s) = (all.at(i)?, at.at(i));
         if !(-1.0..=1.0).contains(&s) {
             return Err(Error::Quantity { name: "position", value: s, allowed: "in [-1, 1]" });
         }
         let shocks = first.map_or_else(|| bar.shocks_either(&start), |first| bar.shocks(&start, first));
-        Ok([shocks.at(s) + 0.0])
+        Ok([shocks.at(s)])
     };
-    let [column] = columns(py, shape, row)?;
-    Ok(column.into_pyarray(py))
+    answer(py, shape, "shock", row)
 }
 
 #[pyfunction]
-pub(crate) fn trains(
-    py: Python<'_>,
-    shape: Vec<usize>,
-    q: Option<Column>,
-    gyration_ratio: Option<Column>,
-    center_of_mass: Option<Column>,
-    e: Column,
-    velocity: [Column; 2],
-    height_gap: Column,
-    limit: usize,
-) -> PyResult<Bound<'_, PyDict>> {
+pub(crate) fn trains<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) -> PyResult<Bound<'py, PyDict>> {
     const NAMES: [&str; 4] = ["time", "approach", "delta_v_a", "delta_v_b"];
-    let all = Bars { q, gyration_ratio, center_of_mass, e, velocity, height_gap };
+    let (all, limit) = (Falling::read(&given)?, given.whole::<usize>("limit", 1..=1 << 31)?);
+    given.done()?;
     let rows: usize = shape.iter().product();
+    let size = NAMES.len() * rows * limit;
+    if size > MOST {
+        return Err(refused(format!("{size} elements in one call; it takes {MOST}: ask in pieces")));
+    }
     let whole = move |wanted: &Wanted| {
         let mut columns: [Vec<f64>; NAMES.len()] = std::array::from_fn(|_| vec![f64::NAN; rows * limit]);
         for row in 0..rows {
@@ -251,25 +251,24 @@ pub(crate) fn trains(
         }
         Ok::<_, String>(columns)
     };
-    named(py, NAMES, work::done(py, whole)?.map_err(refused)?)
+    let dict = PyDict::new(py);
+    for (name, column) in NAMES.into_iter().zip(work::done(py, whole)?.map_err(refused)?) {
+        dict.set_item(name, column.into_pyarray(py).reshape([rows, limit])?)?;
+    }
+    Ok(dict)
 }
 
 #[pyfunction]
-pub(crate) fn plates(
-    py: Python<'_>,
-    shape: Vec<usize>,
-    gyration_ratio: [Column; 2],
-    center_of_mass: [Column; 2],
-    e: Column,
-    velocity: [Column; 3],
-    height_gap: [Column; 2],
-    limit: u64,
-) -> PyResult<Bound<'_, PyDict>> {
+pub(crate) fn plates<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let gyration_ratio = Columns::read(&given, "gyration_ratio", ['x', 'y'])?;
+    let center_of_mass = Columns::read(&given, "center_of_mass", ['x', 'y'])?;
+    let height_gap = Columns::read(&given, "height_gap", ['x', 'y'])?;
+    let velocity = Columns::read(&given, "velocity", ['a', 'b', 'd'])?;
+    let (e, limit) = (given.read::<Column>("e")?, given.whole("limit", 1..=1 << 31)?);
+    given.done()?;
     let row = move |i| {
-        let pair = |columns: &[Column; 2]| [columns[0].at(i), columns[1].at(i)];
-        let plate = Plate::off_center(pair(&gyration_ratio), pair(&center_of_mass), e.at(i))?;
-        let velocity = [velocity[0].at(i), velocity[1].at(i), velocity[2].at(i)];
-        let of = plate.summary(&PlateStart::new(velocity, pair(&height_gap))?, limit);
+        let plate = Plate::off_center(gyration_ratio.at(i), center_of_mass.at(i), e.at(i))?;
+        let of = plate.summary(&PlateStart::new(velocity.at(i), height_gap.at(i))?, limit);
         #[expect(clippy::cast_precision_loss, reason = "counts beyond 2^53 are the nearest float")]
         let (count, exact) = match of.count {
             PlateCount::Finite(n) => (n as f64, 1.0),
@@ -280,55 +279,36 @@ pub(crate) fn plates(
         let impact = of.peak.impact as f64;
         let [a, b, c, d] = of.final_velocity.unwrap_or([f64::NAN; 4]);
         let [corner, center, later] = [of.peak.corner, of.peak.center, of.peak.later];
-        Ok::<_, Error>([count, exact, of.duration, corner, impact, center, later, a, b, c, d].map(|x| x + 0.0))
+        Ok::<_, Error>([count, exact, of.duration, corner, impact, center, later, a, b, c, d])
     };
-    let names = [
-        "count",
-        "count_exact",
-        "duration",
-        "peak_corner",
-        "peak_impact",
-        "peak_center",
-        "peak_later",
-        "final_a",
-        "final_b",
-        "final_c",
-        "final_d",
-    ];
-    named(py, names, columns(py, shape, row)?)
+    let names = "count count_exact duration peak_corner peak_impact peak_center peak_later final_a final_b \
+        final_c final_d";
+    answer(py, shape, names, row)
 }
 
 #[pyfunction]
-pub(crate) fn boxes<'py>(
-    py: Python<'py>,
-    shape: Vec<usize>,
-    size_m: [Column; 3],
-    gyration_m: [Column; 3],
-    center_of_mass_m: [Column; 3],
-    orientation: [Column; 4],
-    spin_rad_s: [Column; 3],
-    e: Column,
-    speed_m_s: Column,
-    gravity_m_s2: Column,
-    contact_time_s: Column,
-    contact_law: &str,
-) -> PyResult<Bound<'py, PyDict>> {
-    let law = bodies::law(contact_law)?;
+pub(crate) fn boxes<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let axes = |name| Columns::read(&given, name, ['x', 'y', 'z']);
+    let (gyration, center, spin) = (axes("gyration_m")?, axes("center_of_mass_m")?, axes("spin_rad_s")?);
+    let orientation = Columns::read(&given, "orientation", ['w', 'x', 'y', 'z'])?;
+    let column = |name| given.read::<Column>(name);
+    let (length, width, thickness) = (column("length_m")?, column("width_m")?, column("thickness_m")?);
+    let (e, speed, gravity) = (column("e")?, column("speed_m_s")?, column("gravity_m_s2")?);
+    let (contact_time, law) = (column("contact_time_s")?, given.read("contact_law")?);
+    given.done()?;
     let row = move |i| {
-        let triple = |columns: &[Column; 3]| [columns[0].at(i), columns[1].at(i), columns[2].at(i)];
-        let [length_m, width_m, thickness_m] = triple(&size_m).map(Some);
         let inputs = DropInputs {
-            length_m,
-            width_m,
-            thickness_m,
-            gyration_m: Some(triple(&gyration_m).to_vec()),
-            center_of_mass_m: Some(triple(&center_of_mass_m)),
-            orientation: Some(std::array::from_fn(|k| orientation[k].at(i))),
-            spin_rad_s: Some(triple(&spin_rad_s).to_vec()),
+            length_m: Some(length.at(i)),
+            width_m: Some(width.at(i)),
+            thickness_m: Some(thickness.at(i)),
+            gyration_m: Some(gyration.at(i).to_vec()),
+            center_of_mass_m: Some(center.at(i)),
+            orientation: Some(orientation.at(i)),
+            spin_rad_s: Some(spin.at(i).to_vec()),
             e: Some(e.at(i)),
-            speed_m_s: Some(speed_m_s.at(i)),
-            gravity_m_s2: Some(gravity_m_s2.at(i)),
-            contact_time_s: Some(contact_time_s.at(i)),
+            speed_m_s: Some(speed.at(i)),
+            gravity_m_s2: Some(gravity.at(i)),
+            contact_time_s: Some(contact_time.at(i)),
             contact_law: Some(law),
             ..DropInputs::default()
         };
@@ -340,6 +320,6 @@ pub(crate) fn boxes<'py>(
         let at_rest = if answer.stop.reason() == "at-rest" { 1.0 } else { 0.0 };
         Ok::<_, clatter_answer::Error>([count, largest, answer.stop.time_s(), at_rest, answer.energy_error.0])
     };
-    let names = ["count", "largest_delta_v_m_s", "stop_time_s", "at_rest", "energy_error"];
-    named(py, names, columns(py, shape, row)?)
+    let names = "count largest_delta_v_m_s stop_time_s at_rest energy_error";
+    answer(py, shape, names, row)
 }

@@ -1,33 +1,36 @@
-//! This module makes bars, plates and their starts from the values of Python.
+//! This module makes bars, plates and their starts from the arguments of Python.
 
-use clatter::{Bar, Error, Mass, Plate, PlateStart, Start};
-use clatter_flight::ContactLaw;
-use clatter_product::Model;
+use clatter::{Bar, End, Mass, Plate, PlateStart, Start};
+use clatter_product::{ContactLaw, Model};
 use clatter_shock::DampingRatio;
 use pyo3::prelude::*;
 
+use crate::given::{Given, Value, is_text, numbers, one_of, rows, several};
 use crate::refused;
 
 /// One number of a bar, two of a plate.
-#[derive(Debug, Clone, Copy, FromPyObject)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) enum Ratio {
     Bar(f64),
     Plate([f64; 2]),
 }
 
-/// A mass at a position, or spread evenly between two, in half-lengths.
-#[derive(Debug, Clone, Copy, FromPyObject)]
-pub(crate) enum Piece {
-    Point(f64, f64),
-    Slab(f64, f64, f64),
+impl Value for Ratio {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let values = numbers(name, value, &[1, 2])?;
+        Ok(<[f64; 2]>::try_from(&values[..]).map_or_else(|_| Self::Bar(values[0]), Self::Plate))
+    }
 }
 
-impl From<Piece> for Mass {
-    fn from(piece: Piece) -> Self {
-        match piece {
-            Piece::Point(mass_kg, position_m) => Self::Point { mass_kg, position_m },
-            Piece::Slab(mass_kg, from_m, to_m) => Self::Slab { mass_kg, from_m, to_m },
-        }
+impl Value for Vec<Mass> {
+    /// Reads masses at a position, or spread evenly between two, in half-lengths.
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        rows(name, value, |name, row| {
+            Ok(match numbers(name, row, &[2, 3])?[..] {
+                [mass_kg, from_m, to_m] => Mass::Slab { mass_kg, from_m, to_m },
+                ref point => Mass::Point { mass_kg: point[0], position_m: point[1] },
+            })
+        })
     }
 }
 
@@ -42,19 +45,13 @@ const ONE_OF: &str = "one of q, gyration_ratio and masses says how the mass lies
 const CENTER: &str = "center_of_mass goes with gyration_ratio: one number for a bar, two for a plate";
 
 impl Body {
-    pub(crate) fn new(
-        e: f64,
-        q: Option<f64>,
-        gyration_ratio: Option<Ratio>,
-        center_of_mass: Option<Ratio>,
-        masses: Option<Vec<Piece>>,
-    ) -> PyResult<Self> {
-        let body = match (q, gyration_ratio, masses, center_of_mass) {
+    /// Makes the body of e and of q, gyration_ratio with center_of_mass, or masses.
+    pub(crate) fn read(given: &Given<'_>) -> PyResult<Self> {
+        let (e, q) = (given.read("e")?, given.read("q")?);
+        let (gyration_ratio, center_of_mass) = (given.read("gyration_ratio")?, given.read("center_of_mass")?);
+        let body = match (q, gyration_ratio, given.read::<Option<Vec<Mass>>>("masses")?, center_of_mass) {
             (Some(q), None, None, None) => Bar::new(q, e).map(Self::Bar),
-            (None, None, Some(masses), None) => {
-                let masses: Vec<Mass> = masses.into_iter().map(Mass::from).collect();
-                Bar::from_masses(2.0, &masses, e).map(Self::Bar)
-            }
+            (None, None, Some(masses), None) => Bar::from_masses(2.0, &masses, e).map(Self::Bar),
             (None, Some(Ratio::Bar(k)), None, None) => Bar::from_gyration_ratio(k, e).map(Self::Bar),
             (None, Some(Ratio::Bar(k)), None, Some(Ratio::Bar(c))) => Bar::from_center_of_mass(c, k, e).map(Self::Bar),
             (None, Some(Ratio::Plate(ratios)), None, None) => Plate::new(ratios, e).map(Self::Plate),
@@ -66,93 +63,110 @@ impl Body {
         };
         body.map_err(refused)
     }
-
-    pub(crate) fn bar(self, what: &str) -> PyResult<Bar> {
-        match self {
-            Self::Bar(bar) => Ok(bar),
-            Self::Plate(_) => Err(refused(format!("{what} is that of a bar; gyration_ratio has two values here"))),
-        }
-    }
-
-    pub(crate) fn plate(self, what: &str) -> PyResult<Plate> {
-        match self {
-            Self::Plate(plate) => Ok(plate),
-            Self::Bar(_) => Err(refused(format!("{what} is that of a plate: gyration_ratio takes two values"))),
-        }
-    }
 }
 
-/// Makes the start of a bar: without spin and at one h0 unless given.
-pub(crate) fn start(velocity: Option<Vec<f64>>, height_gap: Option<Ratio>) -> PyResult<Start> {
-    let velocity = numbers(velocity, [-1.0; 2], "velocity", "a bar")?;
-    match height_gap {
-        Some(Ratio::Plate(_)) => Err(refused("height_gap takes one value for a bar")),
-        Some(Ratio::Bar(gap)) => Start::new(velocity, gap).map_err(refused),
-        None => Start::new(velocity, 1.0).map_err(refused),
-    }
+/// The velocities and the height gap at the first touch, as they are given.
+pub(crate) struct Fall {
+    velocity: Option<Vec<f64>>,
+    height_gap: Option<Ratio>,
 }
 
-/// Makes the start of a plate.
-pub(crate) fn plate_start(velocity: Option<Vec<f64>>, height_gap: Option<Ratio>) -> PyResult<PlateStart> {
-    let velocity = numbers(velocity, [-1.0; 3], "velocity", "a plate")?;
-    match height_gap {
-        Some(Ratio::Plate(gaps)) => PlateStart::new(velocity, gaps).map_err(refused),
-        _ => Err(refused("height_gap takes two values for a plate, the heights of corners b and d")),
+impl Fall {
+    pub(crate) fn read(given: &Given<'_>) -> PyResult<Self> {
+        Ok(Self { velocity: given.read("velocity")?, height_gap: given.read("height_gap")? })
     }
-}
 
-fn numbers<const N: usize>(given: Option<Vec<f64>>, default: [f64; N], name: &str, body: &str) -> PyResult<[f64; N]> {
-    let Some(given) = given else { return Ok(default) };
-    let count = given.len();
-    given.try_into().map_err(|_| refused(format!("{name} takes {N} values for {body}, not {count}")))
+    /// Makes the start of a bar: without spin and at one h0 unless given.
+    pub(crate) fn of_bar(self) -> PyResult<Start> {
+        let gap = match self.height_gap {
+            Some(Ratio::Plate(_)) => return Err(refused("height_gap takes one value for a bar")),
+            Some(Ratio::Bar(gap)) => gap,
+            None => 1.0,
+        };
+        Start::new(self.velocities("a bar")?, gap).map_err(refused)
+    }
+
+    /// Makes the start of a plate.
+    pub(crate) fn of_plate(self) -> PyResult<PlateStart> {
+        let Some(Ratio::Plate(gaps)) = self.height_gap else {
+            return Err(refused("height_gap takes two values for a plate, the heights of corners b and d"));
+        };
+        PlateStart::new(self.velocities("a plate")?, gaps).map_err(refused)
+    }
+
+    fn velocities<const N: usize>(self, body: &str) -> PyResult<[f64; N]> {
+        let Some(given) = self.velocity else { return Ok([-1.0; N]) };
+        let count = given.len();
+        given.try_into().map_err(|_| refused(format!("velocity takes {N} values for {body}, not {count}")))
+    }
 }
 
 /// Positions in [−1, 1] of a bar, places of a plate.
-#[derive(Debug, Clone, FromPyObject)]
+#[derive(Debug, Clone)]
 pub(crate) enum Places {
     Bar(Vec<f64>),
     Plate(Vec<[f64; 2]>),
 }
 
+impl Value for Places {
+    /// Reads positions or places; None is no place.
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if value.is_none() {
+            return Ok(Self::Bar(Vec::new()));
+        }
+        let all = several(name, value, &[])?;
+        if all.is_empty() || !all.iter().all(|one| one.len().is_ok() && !is_text(one)) {
+            return all.iter().map(|one| f64::read(name, one)).collect::<PyResult<_>>().map(Self::Bar);
+        }
+        let place = |(i, one)| Value::read(&format!("{name}[{i}]"), one);
+        all.iter().enumerate().map(place).collect::<PyResult<_>>().map(Self::Plate)
+    }
+}
+
 impl Places {
-    pub(crate) fn of_bar(at: Option<Self>) -> PyResult<Vec<f64>> {
-        match at {
-            None => Ok(Vec::new()),
-            Some(Self::Bar(at)) => Ok(at),
-            Some(Self::Plate(at)) if at.is_empty() => Ok(Vec::new()),
-            Some(Self::Plate(_)) => Err(refused("at takes positions in [-1, 1] for a bar")),
+    pub(crate) fn of_bar(self) -> PyResult<Vec<f64>> {
+        match self {
+            Self::Bar(at) => Ok(at),
+            Self::Plate(_) => Err(refused("at takes positions in [-1, 1] for a bar")),
         }
     }
-    pub(crate) fn of_plate(at: Option<Self>) -> PyResult<Vec<[f64; 2]>> {
-        match at {
-            None => Ok(Vec::new()),
-            Some(Self::Plate(at)) => Ok(at),
-            Some(Self::Bar(at)) if at.is_empty() => Ok(Vec::new()),
-            Some(Self::Bar(_)) => Err(refused("at takes places (x, y) for a plate")),
+    pub(crate) fn of_plate(self) -> PyResult<Vec<[f64; 2]>> {
+        match self {
+            Self::Plate(at) => Ok(at),
+            Self::Bar(at) if at.is_empty() => Ok(Vec::new()),
+            Self::Bar(_) => Err(refused("at takes places (x, y) for a plate")),
+        }
+    }
+    /// Returns places of either body: those of a bar are in the middle of its width.
+    pub(crate) fn of_any(self) -> Vec<[f64; 2]> {
+        match self {
+            Self::Bar(at) => at.into_iter().map(|s| [s, 0.0]).collect(),
+            Self::Plate(at) => at,
         }
     }
 }
 
-/// Makes a bar from one row of arrays.
-pub(crate) fn bar_of(q: Option<f64>, k: Option<f64>, c: Option<f64>, e: f64) -> Result<Bar, Error> {
-    match (q, k, c) {
-        (Some(q), _, _) => Bar::new(q, e),
-        (None, Some(k), None) => Bar::from_gyration_ratio(k, e),
-        (None, k, c) => Bar::from_center_of_mass(c.unwrap_or(0.0), k.unwrap_or(f64::NAN), e),
+impl Value for ContactLaw {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        one_of(name, value, &Self::ALL.map(|law| (law.name(), law)), " or ")
     }
 }
 
-/// Finds a contact law by its name.
-pub(crate) fn law(name: &str) -> PyResult<ContactLaw> {
-    let names = ContactLaw::NAMES.join(" or ");
-    ContactLaw::from_name(name).ok_or_else(|| refused(format!("contact_law = '{name}' is none: {names}")))
+impl Value for Model {
+    /// Reads a model that follows drops.
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        one_of(name, value, &Self::FOLLOWED.map(|model| (model.name(), model)), ", ")
+    }
 }
 
-/// Finds a model that follows drops by its name.
-pub(crate) fn model(name: &str) -> PyResult<Model> {
-    let names = || Model::FOLLOWED.map(Model::name).join(", ");
-    let model = Model::FOLLOWED.into_iter().find(|model| model.name() == name);
-    model.ok_or_else(|| refused(format!("model = '{name}' is none: {}", names())))
+impl Value for End {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        match String::read(name, value)?.as_str() {
+            "a" => Ok(Self::A),
+            "b" => Ok(Self::B),
+            other => Err(refused(format!("first = '{other}' is not an end, 'a' or 'b'"))),
+        }
+    }
 }
 
 /// Returns the damping of a part; Q = 10, as is usual in the field, where none is given.

@@ -1,16 +1,16 @@
 //! This crate is the Python package `clatter`: it gives the answers of the command over dicts and arrays.
 //!
-//! Questions come as plain values from the modules of `python/clatter`, which name, check and document them; here they become the typed
-//! questions of `clatter-answer`, and each answer becomes the JSON that the command prints, with the way to draw it. Functions over
-//! arrays call the core for each row. There is no second way to an answer.
+//! The modules of `python/clatter` name and document the arguments, and hand them on as `locals()`. Here they are read by their names and
+//! become the typed questions of `clatter-answer`, and each answer becomes the JSON that the command prints, with the way to draw it.
+//! Functions over arrays call the core for each row. There is no second way to an answer.
 
-#![expect(clippy::too_many_arguments, reason = "Python names them")]
 #![expect(clippy::needless_pass_by_value, reason = "as Python hands them over")]
 
 mod answered;
 mod arrays;
 mod bodies;
 mod drops;
+mod given;
 mod maps;
 mod measured;
 mod products;
@@ -30,6 +30,11 @@ fn refused(error: impl Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
+/// Returns the words of an error.
+fn words(error: impl Display) -> String {
+    error.to_string()
+}
+
 #[pymodule(gil_used = true)]
 mod _clatter {
     #[pymodule_export]
@@ -41,11 +46,11 @@ mod _clatter {
     #[pymodule_export]
     use crate::maps::map;
     #[pymodule_export]
-    use crate::products::{ProductText, assess, design, example, explain, fit, goals, scatter, schema, tradeoff};
+    use crate::products::{ProductText, assess, design, example, explain, fit, scatter, schema, tradeoff};
     #[pymodule_export]
     use crate::records::{Record, spectra, spectrum};
     #[pymodule_export]
-    use crate::shocks::{Pulse, respond, respond_drop};
+    use crate::shocks::{Pulse, respond};
     #[pymodule_export]
     use crate::single::{atlas, impacts, zone};
     #[pymodule_export]
@@ -55,6 +60,7 @@ mod _clatter {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("MOST", crate::arrays::MOST)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -1,73 +1,82 @@
 //! This module reads measured drops: the given ones, and those whose records a product names.
 
 use std::fs::File;
-use std::io::{self, Cursor, Read};
-use std::path::{Path, PathBuf};
+use std::io::{Cursor, Read};
+use std::path::Path;
 
-use clatter::End;
 use clatter_answer::Error;
 use clatter_answer::fit::{self, Data, DropRecords, List};
 use clatter_fit::{Known, Measured, MeasuredDrop, MeasuredHeights, MeasuredStrike};
 use clatter_product::{ProductFile, RecordFile, visible};
-use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
+use pyo3::types::PyMapping;
 
+use crate::answered::Refused;
+use crate::given::{Given, Value, parts, rows};
 use crate::records::Record;
+use crate::refused;
 use crate::work::Wanted;
-use crate::{refused, single};
 
-/// Strikes, heights of both ends, bounces, and accelerations with their places in m.
-pub(crate) type Given =
-    (Option<Vec<(f64, Option<String>)>>, Option<Vec<[f64; 3]>>, Option<Vec<f64>>, Vec<(Py<Record>, f64)>);
-
-/// The reason why there is no answer: in the words of the command, or an error of the system or of an outside program.
-pub(crate) enum Refused {
-    Words(String),
-    System(PathBuf, io::Error),
-    Outside(String),
-}
-
-impl From<String> for Refused {
-    fn from(words: String) -> Self {
-        Self::Words(words)
+impl Value for Vec<MeasuredStrike> {
+    /// Reads times of strikes, each with its end where that is known.
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        rows(name, value, |name, row| {
+            let [time_s, end] = parts(name, row, "(time_s, end)")?;
+            Ok(MeasuredStrike {
+                time_s: f64::read(&format!("time of {name}"), &time_s)?,
+                end: Value::read(name, &end)?,
+            })
+        })
     }
 }
 
-impl From<Refused> for PyErr {
-    fn from(why: Refused) -> Self {
-        match why {
-            Refused::Words(words) => refused(words),
-            Refused::System(path, error) => PyOSError::new_err((error.raw_os_error(), error.to_string(), path)),
-            Refused::Outside(said) => PyRuntimeError::new_err(said),
-        }
-    }
-}
-
-/// Returns the records of a given drop.
-pub(crate) fn records(given: Given, timing_s: Option<f64>) -> PyResult<Vec<fit::Record>> {
-    let (strikes, heights, bounces, accelerations) = given;
+/// Reads the records of a given drop, and the standard deviation of its times.
+pub(crate) fn records(given: &Given<'_>) -> PyResult<(Vec<fit::Record>, Option<f64>)> {
+    let deviation_s = given.read("timing_s")?;
     let mut records = Vec::new();
     let mut add = |name: &str, data| records.push(fit::Record { name: name.to_owned(), data });
-    if let Some(list) = strikes {
-        let strike = |(time_s, end): (f64, Option<String>)| {
-            let end: Option<End> = end.map(|name| single::end(&name)).transpose()?;
-            Ok(MeasuredStrike { time_s, end })
-        };
-        let strikes = list.into_iter().map(strike).collect::<PyResult<_>>()?;
-        add("strikes", Data::Measured(Measured::Strikes { strikes, deviation_s: timing_s }));
+    if let Some(strikes) = given.read("strikes")? {
+        add("strikes", Data::Measured(Measured::Strikes { strikes, deviation_s }));
     }
-    if let Some(list) = heights {
+    if let Some(list) = given.read::<Option<Vec<[f64; 3]>>>("heights")? {
         let samples = list.into_iter().map(|[time_s, a, b]| MeasuredHeights { time_s, height_m: [a, b] }).collect();
         add("heights", Data::Measured(Measured::Heights { samples, deviation_m: None }));
     }
-    if let Some(list) = bounces {
+    if let Some(list) = given.read("bounces")? {
         add("bounces", Data::Bounces(list));
     }
-    for (record, position_m) in &accelerations {
-        let record = record.get();
-        add(record.file(), Data::acceleration(record.inner(), *position_m).map_err(refused)?);
+    let accelerations = given.value("accelerations")?;
+    if !accelerations.is_none() {
+        for (record, position_m) in rows("accelerations", &accelerations, acceleration)? {
+            let record = record.get();
+            add(&record.file, Data::acceleration(&record.record, position_m).map_err(refused)?);
+        }
     }
-    Ok(records)
+    Ok((records, deviation_s))
+}
+
+/// Reads an acceleration, and where it was measured.
+fn acceleration(name: &str, row: &Bound<'_, PyAny>) -> PyResult<(Py<Record>, f64)> {
+    let pair = parts(name, row, "").ok();
+    let held = pair.and_then(|[record, at]| Some((record.getattr("_data").ok()?.extract().ok()?, at)));
+    let (record, position_m) = held.ok_or_else(|| refused(format!("{name} is not (Record, position_m)")))?;
+    Ok((record, f64::read(&format!("position of {name}"), &position_m)?))
+}
+
+/// Reads the drops that are given by their names.
+pub(crate) fn given(drops: &Bound<'_, PyAny>) -> PyResult<Vec<DropRecords>> {
+    if drops.is_none() {
+        return Ok(Vec::new());
+    }
+    let one = |(name, drop): (String, Given<'_>)| {
+        let (records, timing_s) = records(&drop)?;
+        if let Some(key) = drop.unread() {
+            let keys = "strikes, heights, bounces, accelerations and timing_s";
+            return Err(refused(format!("measured '{name}' has '{key}'; a drop has {keys}")));
+        }
+        Ok(DropRecords { name, records, timing_s })
+    };
+    drops.cast::<PyMapping>()?.items()?.iter().map(|item| one(item.extract()?)).collect()
 }
 
 /// Reads the drops whose records a product names, from its folder.

@@ -4,7 +4,6 @@ use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
 use clatter::design::Goal;
-use clatter_answer::fit::DropRecords;
 use clatter_answer::{
     assess as assess_of, design as design_of, explain as explain_of, fit as fit_of, scatter as scatter_of,
 };
@@ -18,10 +17,10 @@ use clatter_product::{EXAMPLE, ProductFile, visible};
 use clatter_report::{Pages, ReportError};
 use pyo3::prelude::*;
 
-use crate::answered::{Answered, Drawing, json};
-use crate::measured::{self, Given, Refused};
+use crate::answered::{Answered, Drawing, Refused, json, without_picture};
+use crate::given::Given;
 use crate::work::{self, Wanted};
-use crate::{bodies, refused};
+use crate::{measured, refused, words};
 
 /// The product, and the oddities of its file.
 #[pyclass(frozen, module = "clatter._clatter")]
@@ -31,6 +30,8 @@ pub(crate) struct ProductText {
     text: String,
     /// The name of its file, as a report has it.
     name: String,
+    /// Where its records are.
+    folder: PathBuf,
     #[pyo3(get)]
     warnings: String,
 }
@@ -38,11 +39,11 @@ pub(crate) struct ProductText {
 #[pymethods]
 impl ProductText {
     #[new]
-    fn new(text: String, origin: &str) -> PyResult<Self> {
+    fn new(text: String, origin: &str, folder: PathBuf) -> PyResult<Self> {
         let (file, odd) = ProductFile::read_warned(&text, origin).map_err(refused)?;
         let warnings = if odd.warnings().is_empty() { String::new() } else { odd.to_string() };
         let name = Path::new(origin).file_name().map_or(origin.into(), |name| name.to_string_lossy()).into_owned();
-        Ok(Self { file, text, name, warnings })
+        Ok(Self { file, text, name, folder, warnings })
     }
 }
 
@@ -56,46 +57,31 @@ pub(crate) fn schema() -> String {
     clatter_product::schema().to_string()
 }
 
-fn accuracy(tolerance: f64, model: Option<&str>, merge_s: f64) -> PyResult<Accuracy> {
-    Ok(Accuracy { tolerance, model: model.map(bodies::model).transpose()?, merge_s })
+/// Returns the product that is asked about.
+fn product<'py>(given: &Given<'py>) -> PyResult<PyRef<'py, ProductText>> {
+    Ok(given.value("product")?.extract()?)
 }
 
-/// Makes an answer that takes its time.
-fn long(py: Python<'_>, answer: impl FnOnce(&Wanted) -> Result<String, String> + Send + 'static) -> PyResult<Answered> {
-    Ok((work::done(py, answer)?.map_err(refused)?, None))
-}
-
-/// The measurements of a drop, its name, and the standard deviation of its times.
-type NamedDrop = (String, Given, Option<f64>);
-
-/// Assesses the product. Measured drops stand next to the verdicts: those whose records the product names, from `folder`, and those
-/// given. Returns the answer with its warnings.
+/// Assesses the product. Measured drops stand next to the verdicts: those whose records the product names, and those given. Returns the
+/// answer with its warnings.
 #[pyfunction]
-pub(crate) fn assess(
-    py: Python<'_>,
-    product: &ProductText,
-    tolerance: f64,
-    model: Option<&str>,
-    merge_s: f64,
-    folder: PathBuf,
-    drops: Vec<NamedDrop>,
-    report: Option<(PathBuf, Option<String>)>,
-) -> PyResult<(Answered, Vec<String>)> {
-    let (file, accuracy) = (product.file.clone(), accuracy(tolerance, model, merge_s)?);
-    let name = product.name.clone();
-    let given = |(name, given, timing_s): NamedDrop| {
-        Ok(DropRecords { name, records: measured::records(given, timing_s)?, timing_s })
-    };
-    let given = drops.into_iter().map(given).collect::<PyResult<Vec<_>>>()?;
+pub(crate) fn assess(py: Python<'_>, given: Given<'_>) -> PyResult<(Answered, Vec<String>)> {
+    let product = product(&given)?;
+    let (file, name, folder) = (product.file.clone(), product.name.clone(), product.folder.clone());
+    let (tolerance, merge_s) = (given.read("tolerance")?, given.read("merge_s")?);
+    let accuracy = Accuracy { tolerance, model: given.read("model")?, merge_s };
+    let (report, date) = (given.read::<Option<PathBuf>>("report")?, given.read::<Option<String>>("report_date")?);
+    let measured = measured::given(&given.value("measured")?)?;
+    given.done()?;
     let done = work::done(py, move |wanted| {
         let mut drops = measured::named(&file, &folder, wanted)?;
-        drops.extend(given);
+        drops.extend(measured);
         let answer = assess_of::watched(&file, &accuracy, &|_, _| wanted.still());
-        let mut answer = answer.map_err(|error| error.to_string())?;
+        let mut answer = answer.map_err(words)?;
         answer.measured = measured::fitted(drops, &file, wanted)?;
         let told = answer.warnings().into_iter().map(|(drop, told)| format!("{drop}: {told}"));
         let mut warnings: Vec<String> = told.collect();
-        if let Some((pdf, date)) = &report {
+        if let Some(pdf) = &report {
             warnings.extend(print(&answer, &name, pdf, date.as_deref(), wanted)?);
         }
         let (text, assessment) = (json(&answer)?, answer.assessment);
@@ -128,7 +114,7 @@ fn print(
     let portraits = clatter_assess::portraits(answer.file, &answer.assessment);
     wanted.or_leave();
     let remedies = clatter_answer::design::of_pages(answer.file, &answer.assessment, &|_, _| wanted.still());
-    let remedies = remedies.map_err(|error| Refused::Words(error.to_string()))?;
+    let remedies = remedies.map_err(words)?;
     let assess_of::Answer { file, assessment, measured, .. } = answer;
     let pages = Pages { file, assessment, portraits: &portraits, remedies: &remedies, measured, path, date };
     clatter_report::write_assessment(&pages, pdf, &mut |_| wanted.or_leave()).map_err(|error| match error {
@@ -138,24 +124,26 @@ fn print(
     })
 }
 
-#[pyfunction]
-pub(crate) fn scatter(
-    py: Python<'_>,
-    product: &ProductText,
-    samples: Option<u64>,
-    seed: u64,
-    confidence: f64,
-    merge_s: f64,
-    target: Option<f64>,
-) -> PyResult<Answered> {
-    if target.is_some_and(|share| !(share > 0.0 && share < 1.0)) {
-        return Err(refused(format!("target {:?} is not between 0 and 1", target.unwrap_or(f64::NAN))));
+/// Returns the share of products that is to survive for sure, where one is given.
+pub(crate) fn target(given: &Given<'_>) -> PyResult<Option<f64>> {
+    match given.read("target")? {
+        Some(share) if !(share > 0.0 && share < 1.0) => {
+            Err(refused(format!("target {share:?} is not between 0 and 1")))
+        }
+        share => Ok(share),
     }
-    let file = product.file.clone();
-    long(py, move |wanted| {
-        let samples = samples.unwrap_or_else(|| Settings::samples_of(&file));
-        let sampler = Sampler::new(&file, Settings { samples, seed, confidence, merge_s });
-        let sampler = sampler.map_err(|error| error.to_string())?;
+}
+
+#[pyfunction]
+pub(crate) fn scatter(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
+    let (file, target) = (product(&given)?.file.clone(), target(&given)?);
+    let samples: Option<u64> = given.whole_if_given("samples", 1..=1_000_000_000_000)?;
+    let samples = samples.unwrap_or_else(|| Settings::samples_of(&file));
+    let (seed, confidence) = (given.whole("seed", 0..=u64::MAX)?, given.read("confidence")?);
+    let settings = Settings { samples, seed, confidence, merge_s: given.read("merge_s")? };
+    given.done()?;
+    without_picture(py, move |wanted| {
+        let sampler = Sampler::new(&file, settings).map_err(words)?;
         let Ok(drawn) = sampler.run(false, &|| wanted.still(), |_| Ok::<_, Infallible>(()));
         let mut answer = scatter_of::Answer::new(&file, drawn);
         answer.target = target;
@@ -163,53 +151,60 @@ pub(crate) fn scatter(
     })
 }
 
+/// Finds the smallest changes of a product; without one, the designs in the plane of q and e that meet all goals.
 #[pyfunction]
-pub(crate) fn design(
-    py: Python<'_>,
-    product: &ProductText,
-    margin: f64,
-    q: [f64; 2],
-    e: [f64; 2],
-    frequency_factor: f64,
-    damping: [f64; 2],
-    contact_time_s: [f64; 2],
-    limit_factor: f64,
-) -> PyResult<Answered> {
+pub(crate) fn design(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
+    let (zones, turn) = (given.read::<Vec<[f64; 2]>>("zones")?, given.read("turn")?);
+    let margin = given.read("margin")?;
+    let bounds = Bounds {
+        q: given.read("q")?,
+        e: given.read("e")?,
+        frequency_factor: given.read("frequency_factor")?,
+        damping: given.read("damping")?,
+        contact_time_s: given.read("contact_time_s")?,
+        limit_factor: given.read("limit_factor")?,
+    };
+    let product = given.value("product")?.extract::<Option<PyRef<'_, ProductText>>>()?;
+    given.done()?;
+    let Some(product) = product else { return goals(py, &zones, turn) };
+    if !zones.is_empty() || turn.is_some() {
+        return Err(refused("zones and turn are goals without a product"));
+    }
     let file = product.file.clone();
-    let bounds = Bounds { q, e, frequency_factor, damping, contact_time_s, limit_factor };
-    long(py, move |wanted| {
+    without_picture(py, move |wanted| {
         let watch = |_, _| wanted.still();
         let found = assess_of::watched(&file, &Accuracy::default(), &watch).and_then(|answer| {
             let remedies = clatter_assess::remedies_watched(&file, &answer.assessment, &bounds, margin, &watch)?;
             Ok(design_of::Answer::new(&file, answer.assessment, remedies, margin))
         });
-        json(&found.map_err(|error| error.to_string())?)
+        json(&found.map_err(words)?)
     })
 }
 
-/// Finds the designs in the plane of q and e that meet all goals; the goals are those of the paper's example where none are given.
-#[pyfunction]
-pub(crate) fn goals(py: Python<'_>, zones: Vec<(f64, f64)>, turn: Option<f64>) -> PyResult<Answered> {
+/// Finds the designs that meet all goals; they are those of the paper's example where none are given.
+fn goals(py: Python<'_>, zones: &[[f64; 2]], turn: Option<f64>) -> PyResult<Answered> {
     let zones = if zones.is_empty() && turn.is_none() {
         design_of::goals::paper()
     } else {
-        zones.into_iter().map(|(threshold, s)| Goal::zone(threshold, s)).collect()
+        zones.iter().map(|[threshold, s]| Goal::zone(*threshold, *s)).collect()
     };
     let mut all = zones.map_err(refused)?;
     all.extend(turn.map(Goal::turn).transpose().map_err(refused)?);
-    long(py, move |_| json(&design_of::goals::answer(&all).map_err(|error| error.to_string())?))
+    without_picture(py, move |_| json(&design_of::goals::answer(&all).map_err(words)?))
 }
 
 #[pyfunction]
-pub(crate) fn explain(py: Python<'_>, product: &ProductText, tolerance: f64) -> PyResult<Answered> {
-    let file = product.file.clone();
-    long(py, move |wanted| json(&explain_of::Answer(&ladders(&file, tolerance, wanted)?)))
+pub(crate) fn explain(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
+    let (file, tolerance) = (product(&given)?.file.clone(), given.read("tolerance")?);
+    given.done()?;
+    without_picture(py, move |wanted| json(&explain_of::Answer(&ladders(&file, tolerance, wanted)?)))
 }
 
 /// Measures every model on the worst drop of each limit: error and cost.
 #[pyfunction]
-pub(crate) fn tradeoff(py: Python<'_>, product: &ProductText, tolerance: f64) -> PyResult<Answered> {
-    let file = product.file.clone();
+pub(crate) fn tradeoff(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
+    let (file, tolerance) = (product(&given)?.file.clone(), given.read("tolerance")?);
+    given.done()?;
     let told = work::done(py, move |wanted| {
         let ladders = ladders(&file, tolerance, wanted)?;
         Ok::<_, String>((json(&ladders)?, ladders))
@@ -224,26 +219,22 @@ fn ladders(file: &ProductFile, tolerance: f64, wanted: &Wanted) -> Result<Produc
         wanted.or_leave();
         clatter_assess::ladders(file, &answer.assessment, tolerance)
     });
-    ladders.map_err(|error| error.to_string())
+    ladders.map_err(words)
 }
 
 /// The JSON of the nearest drop, its picture, and the product file with what was found, and notes on that.
 type Fitted = (String, Option<Drawing>, Option<String>, Vec<String>);
 
 #[pyfunction]
-pub(crate) fn fit(
-    py: Python<'_>,
-    product: &ProductText,
-    given: Given,
-    timing_s: Option<f64>,
-    known_gyration: bool,
-) -> PyResult<Fitted> {
-    let records = measured::records(given, timing_s)?;
+pub(crate) fn fit(py: Python<'_>, given: Given<'_>) -> PyResult<Fitted> {
+    let (records, timing_s) = measured::records(&given)?;
+    let (known_gyration, product) = (given.read("known_gyration")?, product(&given)?);
     let (file, text) = (product.file.clone(), product.text.clone());
+    given.done()?;
     let found = work::done(py, move |_| {
         let mut question = fit_of::Question::new(&file, records);
         (question.timing_s, question.gyration_known) = (timing_s, known_gyration);
-        let answer = fit_of::answer(&question).map_err(|error| error.to_string())?;
+        let answer = fit_of::answer(&question).map_err(words)?;
         // A text that cannot take the results is no reason to lose them.
         let (copy, notes) = match answer.written(&text) {
             Ok(copy) => (Some(copy.text), copy.notes),

@@ -6,43 +6,38 @@ use std::path::PathBuf;
 use clatter_answer::spectrum::{self as spectrum_of, Excitation, Measured, Part};
 use clatter_answer::{figures, record as record_of};
 use clatter_figures::{Against, FigureError};
-use clatter_record::{
-    Baseline, Between, Column, Options, PRE_SHOCK_SHARE, Pass, Pick, Table, Units, Values, sensitivity,
-};
-use clatter_shock::{
-    DampingRatio, Frequencies, LimitCurve, Quantity, RequiredSpectrum, Search, VelocityShock, VelocityShocks,
-};
+use clatter_record::{Baseline, Between, Column, Options, PRE_SHOCK_SHARE, Pass, Pick, Table, Values, sensitivity};
+use clatter_shock::{DampingRatio, Frequencies, LimitCurve, Quantity, RequiredSpectrum, Search};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use serde::Serialize;
 
-use crate::answered::{Answered, Drawing, json};
-use crate::shocks::{Pulse, shape};
-use crate::{bodies, refused, work};
+use crate::answered::{Answered, Drawing, Refused, json, without_picture};
+use crate::given::{Given, Value, one_of, several, whole, wrong};
+use crate::shocks::Pulse;
+use crate::{arrays, bodies, refused, words, work};
 
 /// A record of measured accelerations.
 #[pyclass(frozen, module = "clatter._clatter")]
 #[derive(Debug, Clone)]
 pub(crate) struct Record {
-    record: clatter_record::Record,
+    pub(crate) record: clatter_record::Record,
     #[pyo3(get)]
-    file: String,
+    pub(crate) file: String,
 }
 
-/// A column by its number, from 1, or by its name.
-#[derive(Debug, Clone, FromPyObject)]
-pub(crate) enum Which {
-    Number(usize),
-    Name(String),
+impl Value for Pick {
+    /// Reads a column by its number, from 1, or by its name.
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let picked = value.extract().map(Self::Number).or_else(|_| value.extract().map(Self::Name));
+        picked.map_err(|_| wrong(name, value, "the number or the name of a column"))
+    }
 }
 
-impl From<Which> for Pick {
-    fn from(which: Which) -> Self {
-        match which {
-            Which::Number(number) => Self::Number(number),
-            Which::Name(name) => Self::Name(name),
-        }
+impl Value for Vec<Pick> {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        several(name, value, &[])?.iter().map(|one| Pick::read(name, one)).collect()
     }
 }
 
@@ -64,29 +59,26 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
 /// The numbers of a channel, or its times.
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
-fn options(
-    time: Option<Which>,
-    acceleration: Vec<Which>,
-    units: Option<&str>,
-    sample_rate_hz: Option<f64>,
-    full_scale_m_s2: Option<f64>,
-    sensor_sensitivity: Option<&str>,
-    sensor: Option<String>,
-    record: Option<usize>,
-    skip_bad: bool,
-) -> PyResult<Options> {
+fn options(given: &Given<'_>) -> PyResult<Options> {
+    let (units, volts): (Option<String>, Option<String>) = (given.read("units")?, given.read("sensitivity")?);
     Ok(Options {
-        time: time.map(Pick::from),
-        accelerations: acceleration.into_iter().map(Pick::from).collect(),
-        units: units.map(str::parse::<Units>).transpose().map_err(refused)?,
-        sample_rate_hz,
-        full_scale_m_s2,
-        sensitivity_v_s2_m: sensor_sensitivity.map(sensitivity).transpose().map_err(refused)?,
-        sensor,
-        record,
-        skip_bad,
+        time: given.read("time")?,
+        accelerations: given.read("acceleration")?,
+        units: units.map(|units| units.parse()).transpose().map_err(refused)?,
+        sample_rate_hz: given.read("sample_rate_hz")?,
+        full_scale_m_s2: given.read("full_scale_m_s2")?,
+        sensitivity_v_s2_m: volts.as_deref().map(sensitivity).transpose().map_err(refused)?,
+        sensor: given.read("sensor")?,
+        record: given.whole_if_given("record", 0..=u64::MAX)?,
+        skip_bad: given.read("skip_bad")?,
         ..Options::default()
     })
+}
+
+/// Reads how the shocks of a record are found, where they are to be.
+fn search(given: &Given<'_>) -> PyResult<Option<Search>> {
+    let search = Search { threshold_m_s2: given.read("threshold_m_s2")?, quiet_s: given.read("quiet_s")? };
+    Ok(given.value("find")?.is_truthy()?.then_some(search))
 }
 
 /// The answer with its file before it, as the command has it.
@@ -98,65 +90,44 @@ struct OfFile<'a> {
 }
 
 impl Record {
-    pub(crate) fn inner(&self) -> &clatter_record::Record {
-        &self.record
-    }
-    pub(crate) fn file(&self) -> &str {
-        &self.file
-    }
     fn with(&self, record: clatter_record::Record) -> Self {
         Self { record, file: self.file.clone() }
     }
-    fn channel(&self, index: usize) -> PyResult<&clatter_record::Channel> {
+    /// Finds a channel by its name, or by its index from 0.
+    fn channel(&self, channel: &Bound<'_, PyAny>) -> PyResult<&clatter_record::Channel> {
         let channels = self.record.channels();
-        channels.get(index).ok_or_else(|| refused(format!("channel {index}; the record has {}", channels.len())))
+        let Ok(name) = channel.extract::<String>() else {
+            return Ok(&channels[whole::<usize>("channel", channel, 0..=channels.len() as u64 - 1)?]);
+        };
+        channels.iter().find(|channel| channel.name == name).ok_or_else(|| {
+            let names: Vec<_> = channels.iter().map(|channel| channel.name.as_str()).collect();
+            refused(format!("there is no channel '{name}'; there are {}", names.join(", ")))
+        })
     }
 }
 
 #[pymethods]
 impl Record {
     #[staticmethod]
-    fn open(
-        py: Python<'_>,
-        path: PathBuf,
-        time: Option<Which>,
-        acceleration: Vec<Which>,
-        units: Option<&str>,
-        sample_rate_hz: Option<f64>,
-        full_scale_m_s2: Option<f64>,
-        sensitivity: Option<&str>,
-        sensor: Option<String>,
-        record: Option<usize>,
-        skip_bad: bool,
-    ) -> PyResult<Self> {
-        let (rate, scale) = (sample_rate_hz, full_scale_m_s2);
-        let options = options(time, acceleration, units, rate, scale, sensitivity, sensor, record, skip_bad)?;
-        let input = File::open(&path)
-            .map_err(|error| PyOSError::new_err((error.raw_os_error(), error.to_string(), path.clone())))?;
+    fn open(py: Python<'_>, given: Given<'_>) -> PyResult<Self> {
+        let (path, options) = (given.read::<PathBuf>("path")?, options(&given)?);
+        given.done()?;
         let file = path.to_string_lossy().into_owned();
+        let input = File::open(&path).map_err(|error| Refused::System(path, error))?;
+        let name = file.clone();
         let read = work::done(py, move |wanted| {
             clatter_record::Record::read(input, &options, |_| wanted.or_leave())
-                .map_err(|error| format!("{file}: {error}"))
+                .map_err(|error| format!("{name}: {error}"))
         });
-        Ok(Self { record: read?.map_err(refused)?, file: path.to_string_lossy().into_owned() })
+        Ok(Self { record: read?.map_err(refused)?, file })
     }
 
     /// Makes a record of columns, each with its name, its unit where it is not in the name, and its numbers.
     #[staticmethod]
-    fn of_columns(
-        columns: Vec<(String, Option<String>, Numbers)>,
-        left_out: Vec<String>,
-        file: String,
-        time: Option<Which>,
-        acceleration: Vec<Which>,
-        units: Option<&str>,
-        sample_rate_hz: Option<f64>,
-        full_scale_m_s2: Option<f64>,
-        sensitivity: Option<&str>,
-        skip_bad: bool,
-    ) -> PyResult<Self> {
-        let (rate, scale) = (sample_rate_hz, full_scale_m_s2);
-        let options = options(time, acceleration, units, rate, scale, sensitivity, None, None, skip_bad)?;
+    fn of_columns(given: Given<'_>) -> PyResult<Self> {
+        let (options, file) = (options(&given)?, given.read("name")?);
+        let (columns, left_out): (Vec<(String, Option<String>, Numbers)>, _) = given.value("data")?.extract()?;
+        given.done()?;
         let column = |(name, unit, numbers): (String, Option<String>, Numbers)| Column {
             name,
             group: String::new(),
@@ -169,19 +140,19 @@ impl Record {
         Ok(Self { record, file })
     }
 
-    /// Names and units of the channels.
+    /// Names of the channels.
     #[getter]
-    fn channels(&self) -> Vec<(String, String)> {
-        self.record.channels().iter().map(|channel| (channel.name.clone(), channel.unit.clone())).collect()
+    fn channels(&self) -> Vec<String> {
+        self.record.channels().iter().map(|channel| channel.name.clone()).collect()
     }
 
-    fn values_m_s2<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Array<'py>> {
-        Ok(PyArray1::from_slice(py, &self.channel(index)?.values))
+    fn values_m_s2<'py>(&self, channel: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+        Ok(PyArray1::from_slice(channel.py(), &self.channel(channel)?.values))
     }
 
-    fn times_s<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Array<'py>> {
-        let times = self.channel(index)?.times();
-        Ok(times.times_s().map(|since_s| times.start_s() + since_s).collect::<Vec<_>>().into_pyarray(py))
+    fn times_s<'py>(&self, channel: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+        let times = self.channel(channel)?.times();
+        Ok(times.times_s().map(|since_s| times.start_s() + since_s).collect::<Vec<_>>().into_pyarray(channel.py()))
     }
 
     #[getter]
@@ -198,15 +169,11 @@ impl Record {
         Ok(self.with(self.record.clone().window(from_s, to_s).map_err(refused)?))
     }
 
-    fn detrend(&self, baseline: &str) -> PyResult<Self> {
-        let baseline = match baseline {
-            "mean" => Baseline::Mean,
-            "linear" => Baseline::Linear,
-            "pre-shock" => Baseline::PreShock { share: PRE_SHOCK_SHARE },
-            _ => return Err(refused(format!("baseline = '{baseline}' is none: mean, linear or pre-shock"))),
-        };
+    fn detrend(&self, baseline: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let pre_shock = Baseline::PreShock { share: PRE_SHOCK_SHARE };
+        let all = [("mean", Baseline::Mean), ("linear", Baseline::Linear), ("pre-shock", pre_shock)];
         let mut record = self.record.clone();
-        record.without_baseline(baseline).map_err(refused)?;
+        record.without_baseline(one_of("baseline", baseline, &all, " or ")?).map_err(refused)?;
         Ok(self.with(record))
     }
 
@@ -217,118 +184,98 @@ impl Record {
         Ok(self.with(filtered?.map_err(refused)?))
     }
 
-    fn describe(
-        &self,
-        py: Python<'_>,
-        find: bool,
-        threshold_m_s2: Option<f64>,
-        quiet_s: f64,
-        fit_pulse: bool,
-        nominal: Option<PyRef<'_, Pulse>>,
-        integrate: bool,
-    ) -> PyResult<Answered> {
-        let (own, nominal) = (self.clone(), nominal.map(|pulse| pulse.0));
-        let told = work::done(py, move |_| {
+    fn describe(&self, py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
+        let (own, find, nominal) = (self.clone(), search(&given)?, given.read("nominal")?);
+        let (fit_pulse, integrate) = (given.read("fit_pulse")?, given.read("integrate")?);
+        given.done()?;
+        without_picture(py, move |_| {
             let mut question = record_of::Question::new(&own.record);
-            question.find = find.then_some(Search { threshold_m_s2, quiet_s });
+            question.find = find;
             (question.fit_pulse, question.nominal, question.integrate) = (fit_pulse, nominal, integrate);
-            let answer = record_of::answer(&question).map_err(|error| error.to_string())?;
-            json(&OfFile { file: &own.file, answer: &answer })
-        });
-        Ok((told?.map_err(refused)?, None))
+            json(&OfFile { file: &own.file, answer: &record_of::answer(&question).map_err(words)? })
+        })
     }
 }
 
-/// The source of the shocks on the parts.
+/// The source of the shocks on the parts, but for velocity shocks.
 #[derive(FromPyObject)]
 pub(crate) enum Shaken {
     Records(Vec<Py<Record>>),
     Pulses(Vec<Py<Pulse>>),
-    Shocks(Vec<(f64, f64)>),
 }
 
-/// A limit: one value, or points of a curve.
-#[derive(Debug, FromPyObject)]
-pub(crate) enum Limit {
-    Level(f64),
-    Curve(Vec<(f64, f64)>),
-}
-
-impl Limit {
-    fn curve(self) -> PyResult<LimitCurve> {
-        match self {
-            Self::Level(level) => LimitCurve::constant(level),
-            Self::Curve(points) => LimitCurve::new(points),
+impl Value for LimitCurve {
+    /// Reads one value, or points of a curve.
+    fn read(_: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if value.len().is_err() {
+            return Self::constant(f64::read("a limit", value)?).map_err(refused);
         }
-        .map_err(refused)
+        let points = Vec::<[f64; 2]>::read("a limit", value)?;
+        Self::new(points.into_iter().map(<(f64, f64)>::from).collect()).map_err(refused)
     }
 }
 
-fn quantity(name: &str) -> PyResult<Quantity> {
-    const ALL: [Quantity; 5] = [
-        Quantity::AbsoluteAcceleration,
-        Quantity::RelativeDisplacement,
-        Quantity::RelativeVelocity,
-        Quantity::PseudoVelocity,
-        Quantity::EquivalentStaticAcceleration,
-    ];
-    let names = || ALL.map(|quantity| spectrum_of::name(quantity)[0]).join(", ");
-    let found = ALL.into_iter().find(|quantity| spectrum_of::name(*quantity)[0] == name);
-    found.ok_or_else(|| refused(format!("quantity = '{name}' is none: {}", names())))
+impl Value for Quantity {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let all = [
+            Self::AbsoluteAcceleration,
+            Self::RelativeDisplacement,
+            Self::RelativeVelocity,
+            Self::PseudoVelocity,
+            Self::EquivalentStaticAcceleration,
+        ];
+        one_of(name, value, &all.map(|quantity| (spectrum_of::name(quantity)[0], quantity)), ", ")
+    }
 }
 
-fn between(name: &str) -> PyResult<Between> {
-    match name {
-        "band-limited" => Ok(Between::BandLimited),
-        "linear" => Ok(Between::Linear),
-        _ => Err(refused(format!("interpolation = '{name}' is none: band-limited or linear"))),
+impl Value for Between {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        one_of(name, value, &[("band-limited", Self::BandLimited), ("linear", Self::Linear)], " or ")
     }
 }
 
 /// Returns the damping ratios of quality factors; Q = 10 where none is given.
-fn dampings(ratio: Option<f64>, q_factors: Option<Vec<f64>>) -> PyResult<Vec<DampingRatio>> {
-    match q_factors {
-        Some(several) if !several.is_empty() => several.iter().map(|q| bodies::damping(ratio, Some(*q))).collect(),
-        _ => Ok(vec![bodies::damping(ratio, None)?]),
+fn dampings(given: &Given<'_>) -> PyResult<Vec<DampingRatio>> {
+    let ratio = given.read("damping")?;
+    match given.read::<Option<Vec<f64>>>("q_factor")? {
+        Some(several) if several.is_empty() => Err(refused("q_factor is empty")),
+        Some(several) => several.into_iter().map(|q| bodies::damping(ratio, Some(q))).collect(),
+        None => Ok(vec![bodies::damping(ratio, None)?]),
     }
 }
 
-/// A required spectrum with how far below and above it one may be, in dB.
-type Required = (Limit, f64, Option<f64>);
+/// Reads natural frequencies, as a list or by their number to the octave.
+fn frequencies(given: &Given<'_>) -> PyResult<Option<Frequencies>> {
+    let frequencies = match (given.read("frequency_hz")?, given.read::<Option<[f64; 3]>>("per_octave_hz")?) {
+        (Some(list), _) => Frequencies::list(list),
+        (None, Some([low, high, count])) => Frequencies::per_octave(low, high, count),
+        (None, None) => return Ok(None),
+    };
+    frequencies.map(Some).map_err(refused)
+}
+
+/// Reads the spectrum that a test was to reach, with how far below and above it one may be, in dB.
+fn required(given: &Given<'_>) -> PyResult<Option<RequiredSpectrum>> {
+    let [below_db, above_db] = given.read::<[Option<f64>; 2]>("tolerance_db")?;
+    let Some(curve) = given.read("required")? else { return Ok(None) };
+    let below_db = below_db.ok_or_else(|| refused("tolerance_db = None is not a number"))?;
+    RequiredSpectrum::new(curve, below_db, above_db).map(Some).map_err(refused)
+}
 
 #[pyfunction]
-pub(crate) fn spectrum(
-    py: Python<'_>,
-    shaken: Shaken,
-    list_hz: Option<Vec<f64>>,
-    per_octave_hz: Option<[f64; 3]>,
-    damping: Option<f64>,
-    q_factors: Option<Vec<f64>>,
-    quantity_name: &str,
-    interpolation: &str,
-    limit: Option<Limit>,
-    required: Option<Required>,
-    enveloping_pulse: Option<&str>,
-    find: Option<(Option<f64>, f64)>,
-    summaries: [bool; 3],
-) -> PyResult<Answered> {
-    let dampings = dampings(damping, q_factors)?;
-    let mut question = spectrum_of::Question::new(excitation(shaken, find)?, dampings[0]);
+pub(crate) fn spectrum(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
+    let dampings = dampings(&given)?;
+    let mut question = spectrum_of::Question::new(excitation(&given)?, dampings[0]);
     question.dampings = dampings;
-    question.frequencies = match (list_hz, per_octave_hz) {
-        (Some(list), _) => Some(Frequencies::list(list).map_err(refused)?),
-        (None, Some([low, high, count])) => Some(Frequencies::per_octave(low, high, count).map_err(refused)?),
-        (None, None) => None,
-    };
-    (question.quantity, question.between) = (quantity(quantity_name)?, between(interpolation)?);
-    question.limit = limit.map(Limit::curve).transpose()?;
-    let required = required
-        .map(|(limit, below_db, above_db)| RequiredSpectrum::new(limit.curve()?, below_db, above_db).map_err(refused));
-    question.required = required.transpose()?;
-    question.enveloping = enveloping_pulse.map(shape).transpose()?;
-    [question.resultant, question.envelope, question.mean_3db] = summaries;
+    question.frequencies = frequencies(&given)?;
+    (question.quantity, question.between) = (given.read("quantity")?, given.read("interpolation")?);
+    (question.limit, question.required) = (given.read("limit")?, required(&given)?);
+    question.enveloping = given.read("enveloping_pulse")?;
+    (question.resultant, question.envelope) = (given.read("resultant")?, given.read("envelope")?);
+    question.mean_3db = given.read("mean_3db")?;
+    given.done()?;
     let (told, parts, limit, required) = work::done(py, move |wanted| {
-        let answer = spectrum_of::counted(&question, |_| wanted.or_leave()).map_err(|error| error.to_string())?;
+        let answer = spectrum_of::counted(&question, |_| wanted.or_leave()).map_err(words)?;
         let told = json(&answer)?;
         let parts = answer.parts;
         Ok::<_, String>((told, parts, question.limit.clone(), question.required.clone()))
@@ -338,31 +285,26 @@ pub(crate) fn spectrum(
     Ok((told, Some(Drawing::new(draw))))
 }
 
-fn excitation(shaken: Shaken, find: Option<(Option<f64>, f64)>) -> PyResult<Excitation> {
-    Ok(match shaken {
-        Shaken::Records(records) => {
-            let several = records.len() > 1;
-            let one = |record: Py<Record>| {
-                let Record { record, file } = record.get().clone();
-                let name = several.then(|| file.rsplit(['/', '\\']).next().unwrap_or(&file).to_owned());
-                let whole = Measured { file, name, record, shock: None };
-                match find {
-                    Some((threshold_m_s2, quiet_s)) => whole.apart(&Search { threshold_m_s2, quiet_s }),
-                    None => Ok(vec![whole]),
-                }
-            };
-            let records = records.into_iter().map(one).collect::<Result<Vec<_>, _>>().map_err(refused)?;
-            Excitation::Records(records.into_iter().flatten().collect())
+fn excitation(given: &Given<'_>) -> PyResult<Excitation> {
+    let find = search(given)?;
+    let shaken = given.value("excitation")?.extract()?;
+    let records = match (shaken, given.read("shocks")?) {
+        (None, Some(shocks)) => return Ok(Excitation::Shocks(shocks)),
+        (Some(Shaken::Pulses(pulses)), None) => {
+            return Ok(Excitation::Pulses(pulses.iter().map(|pulse| pulse.get().0).collect()));
         }
-        Shaken::Pulses(pulses) => Excitation::Pulses(pulses.iter().map(|pulse| pulse.get().0).collect()),
-        Shaken::Shocks(shocks) => Excitation::Shocks(velocity_shocks(shocks)?),
-    })
-}
-
-/// Makes velocity shocks of times and changes of velocity.
-pub(crate) fn velocity_shocks(shocks: Vec<(f64, f64)>) -> PyResult<VelocityShocks> {
-    let shocks = shocks.into_iter().map(|(time, delta_v)| VelocityShock { time, delta_v }).collect();
-    VelocityShocks::new(shocks).map_err(refused)
+        (Some(Shaken::Records(records)), None) if !records.is_empty() => records,
+        _ => return Err(refused("a record, pulses or shocks say what shakes the part")),
+    };
+    let several = records.len() > 1;
+    let one = |record: Py<Record>| {
+        let Record { record, file } = record.get().clone();
+        let name = several.then(|| file.rsplit(['/', '\\']).next().unwrap_or(&file).to_owned());
+        let whole = Measured { file, name, record, shock: None };
+        find.as_ref().map_or_else(|| Ok(vec![whole.clone()]), |search| whole.apart(search))
+    };
+    let records = records.into_iter().map(one).collect::<Result<Vec<_>, _>>().map_err(refused)?;
+    Ok(Excitation::Records(records.into_iter().flatten().collect()))
 }
 
 /// Draws the picture that the command writes.
@@ -380,28 +322,18 @@ fn drawn(parts: &[Part], against: Against<'_>) -> Result<String, FigureError> {
     clatter_figures::spectra(&all, against)
 }
 
-/// Maximax, positive and negative of many histories of even samples, one after the other.
-type Spectra<'py> = [Array<'py>; 3];
-
+/// Computes the spectra of many histories of even samples, one after the other.
 #[pyfunction]
-pub(crate) fn spectra<'py>(
-    py: Python<'py>,
-    histories: PyReadonlyArray1<'py, f64>,
-    samples: usize,
-    step_s: f64,
-    hz: Vec<f64>,
-    damping: Option<f64>,
-    q_factor: Option<f64>,
-    quantity_name: &str,
-    interpolation: &str,
-) -> PyResult<Spectra<'py>> {
-    let (damping, quantity, between) =
-        (bodies::damping(damping, q_factor)?, quantity(quantity_name)?, between(interpolation)?);
-    let frequencies = Frequencies::list(hz).map_err(refused)?;
-    let histories = histories.as_slice()?.to_vec();
+pub(crate) fn spectra<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let damping = bodies::damping(given.read("damping")?, given.read("q_factor")?)?;
+    let (quantity, between) = (given.read("quantity")?, given.read("interpolation")?);
+    let frequencies = Frequencies::list(given.read("frequency_hz")?).map_err(refused)?;
+    let (step_s, samples) = (1.0 / given.read::<f64>("sample_rate_hz")?, given.whole("samples", 2..=u64::MAX)?);
+    let arrays::Column(histories) = given.read("acceleration_m_s2")?;
+    given.done()?;
     let all = work::done(py, move |wanted| {
         let mut all: [Vec<f64>; 3] = Default::default();
-        for (n, values) in histories.chunks(samples.max(1)).enumerate() {
+        for (n, values) in histories.chunks(samples).enumerate() {
             let of = |error: clatter_record::Error| {
                 if histories.len() > samples { format!("history {n}: {error}") } else { error.to_string() }
             };
@@ -414,5 +346,5 @@ pub(crate) fn spectra<'py>(
         }
         Ok::<_, String>(all)
     });
-    Ok(all?.map_err(refused)?.map(|column| column.into_pyarray(py)))
+    arrays::named(py, "maximax positive negative", all?.map_err(refused)?)
 }

@@ -1,16 +1,17 @@
 //! This module makes pulses, and computes the response of a part to them, to velocity shocks, to a bar and to a drop.
 
+use std::f64::consts::TAU;
+
 use clatter_answer::respond::{self as respond_of, Excitation, drop as drop_of};
-use clatter_answer::shape_name;
+use clatter_answer::{DropInputs, shape_name};
 use clatter_product::{Axis, Model};
-use clatter_shock::{Pulses, Shape, Suspension};
+use clatter_shock::{Pulses, Shape, Suspension, VelocityShock, VelocityShocks};
 use pyo3::prelude::*;
 
-use crate::answered::{Answered, json};
-use crate::bodies::{Body, Piece, Ratio, damping, model, start};
-use crate::drops::Inputs;
-use crate::records::velocity_shocks;
-use crate::{refused, work};
+use crate::answered::{Answered, json, without_picture};
+use crate::bodies::{Body, Fall, damping};
+use crate::given::{Given, Value, several, wrong};
+use crate::{drops, refused, words};
 
 /// A pulse of acceleration.
 #[pyclass(frozen, module = "clatter._clatter", name = "PulseData")]
@@ -20,36 +21,43 @@ pub(crate) struct Pulse(pub(crate) clatter_shock::Pulse);
 /// The length of a ramp of a trapezoid without given ramps, over the length of the trapezoid.
 const RAMP: f64 = 0.1;
 
-/// Finds a shape by its name.
-pub(crate) fn shape(name: &str) -> PyResult<Shape> {
-    let all = [
-        Shape::HalfSine,
-        Shape::Haversine,
-        Shape::Triangle,
-        Shape::InitialPeakSawtooth,
-        Shape::TerminalPeakSawtooth,
-        Shape::Rectangle,
-    ];
-    if let Some(shape) = all.into_iter().find(|shape| shape_name(*shape) == name) {
-        return Ok(shape);
+impl Value for Shape {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let all = [
+            Self::HalfSine,
+            Self::Haversine,
+            Self::Triangle,
+            Self::InitialPeakSawtooth,
+            Self::TerminalPeakSawtooth,
+            Self::Rectangle,
+        ];
+        let text = String::read(name, value)?;
+        if let Some(shape) = all.into_iter().find(|shape| shape_name(*shape) == text) {
+            return Ok(shape);
+        }
+        let ramp = match text.split_once(':') {
+            None if text == "trapezoid" => Some(RAMP),
+            Some(("trapezoid", ramp)) => ramp.parse().ok(),
+            _ => None,
+        };
+        ramp.map(|ramp| Self::Trapezoid { ramp }).ok_or_else(|| {
+            let names = all.map(shape_name).join(", ");
+            refused(format!("'{text}' is no shape; there are {names}, trapezoid and trapezoid:RAMP"))
+        })
     }
-    let ramp = match name.split_once(':') {
-        None if name == "trapezoid" => Some(RAMP),
-        Some(("trapezoid", ramp)) => ramp.parse().ok(),
-        _ => None,
-    };
-    ramp.map(|ramp| Shape::Trapezoid { ramp }).ok_or_else(|| {
-        let names = all.map(shape_name).join(", ");
-        refused(format!("'{name}' is no shape; there are {names}, trapezoid and trapezoid:RAMP"))
-    })
 }
 
 #[pymethods]
 impl Pulse {
     #[new]
-    fn new(shape_name: &str, amplitude_m_s2: f64, duration_s: f64, start_s: f64) -> PyResult<Self> {
-        let shape = shape(shape_name)?;
-        let pulse = clatter_shock::Pulse { shape, amplitude: amplitude_m_s2, duration: duration_s, start: start_s };
+    fn new(given: Given<'_>) -> PyResult<Self> {
+        let pulse = clatter_shock::Pulse {
+            shape: given.read("shape")?,
+            amplitude: given.read("amplitude_m_s2")?,
+            duration: given.read("duration_s")?,
+            start: given.read("start_s")?,
+        };
+        given.done()?;
         Pulses::new(&[pulse]).map_err(refused)?;
         Ok(Self(pulse))
     }
@@ -85,65 +93,92 @@ impl Pulse {
     }
 }
 
-/// The source of the shocks on a part, other than a bar.
-#[derive(FromPyObject)]
-pub(crate) enum Shaken {
-    Pulses(Vec<Py<Pulse>>),
-    Shocks(Vec<(f64, f64)>),
+impl Value for clatter_shock::Pulse {
+    /// Reads the pulse that an object of Python holds.
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let data = value.getattr("_data").and_then(|data| Ok(data.extract::<Py<Pulse>>()?));
+        data.map(|data| data.get().0).map_err(|_| wrong(name, value, "a Pulse"))
+    }
+}
+
+impl Value for Vec<clatter_shock::Pulse> {
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let pulses = several(name, value, &[])?.iter().map(|one| Value::read(name, one)).collect::<PyResult<Self>>();
+        let none = || refused(format!("{name} is a Pulse or a list of them"));
+        pulses.ok().filter(|pulses| !pulses.is_empty()).ok_or_else(none)
+    }
+}
+
+impl Value for VelocityShocks {
+    /// Reads times and changes of velocity.
+    fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let shocks = Vec::<[f64; 2]>::read(name, value)?;
+        if shocks.is_empty() {
+            return Err(refused(format!("{name} is empty")));
+        }
+        let shocks = shocks.into_iter().map(|[time, delta_v]| VelocityShock { time, delta_v }).collect();
+        Self::new(shocks).map_err(refused)
+    }
 }
 
 #[pyfunction]
-pub(crate) fn respond(
-    py: Python<'_>,
-    shaken: Option<Shaken>,
-    e: Option<f64>,
-    q: Option<f64>,
-    gyration_ratio: Option<f64>,
-    center_of_mass: Option<f64>,
-    masses: Option<Vec<Piece>>,
-    velocity: Option<Vec<f64>>,
-    height_gap: Option<f64>,
-    at: Option<f64>,
-    omega: f64,
-    damping_ratio: Option<f64>,
-    q_factor: Option<f64>,
-) -> PyResult<Answered> {
-    let excitation = match (shaken, e, at) {
-        (Some(Shaken::Pulses(pulses)), ..) => Excitation::Pulses(pulses.iter().map(|pulse| pulse.get().0).collect()),
-        (Some(Shaken::Shocks(shocks)), ..) => Excitation::Shocks(velocity_shocks(shocks)?),
-        (None, Some(e), Some(at)) => {
-            let [k, c] = [gyration_ratio, center_of_mass].map(|value| value.map(Ratio::Bar));
-            let bar = Body::new(e, q, k, c, masses)?.bar("respond")?;
-            Excitation::Bar { bar, start: start(velocity, height_gap.map(Ratio::Bar))?, at }
+pub(crate) fn respond(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
+    let inputs = drops::inputs(&given)?;
+    if inputs.length_m.is_some() {
+        let question = of_drop(&given, &inputs)?;
+        given.leave(&["velocity", "height_gap"])?;
+        given.done()?;
+        return without_picture(py, move |_| json(&drop_of::answer(&question).map_err(words)?));
+    }
+    let question = of_shocks(&given, inputs.e)?;
+    given.leave(&["q", "gyration_ratio", "masses", "velocity", "height_gap", "axis", "model", "tolerance"])?;
+    given.done()?;
+    without_picture(py, move |_| json(&respond_of::answer(&question).map_err(words)?))
+}
+
+fn of_drop(given: &Given<'_>, inputs: &DropInputs) -> PyResult<drop_of::Question> {
+    for name in ["pulses", "shocks", "q", "gyration_ratio", "masses"] {
+        if !given.value(name)?.is_none() {
+            let others = "pulses, shocks, q, gyration_ratio and masses do not go with it";
+            return Err(refused(format!("length_m makes a drop in SI units: {others}")));
+        }
+    }
+    let model = given.read::<Option<Model>>("model")?.unwrap_or(Model::Compliant);
+    if inputs.is_flat && model == Model::Compliant {
+        return Err(refused("flat goes with instant impacts: contacts that take time land flat with tilt_deg=0"));
+    }
+    let Some(at) = given.read::<Option<Vec<f64>>>("at")? else {
+        return Err(refused("the drop is not whole: give at"));
+    };
+    let drop = inputs.drop(model).map_err(refused)?;
+    let axis = given.read::<Option<String>>("axis")?;
+    let place = drop_of::place(&drop, &at, Axis::of(axis.as_deref().unwrap_or("z"))).map_err(refused)?;
+    let mut question = drop_of::Question::new(drop, model, place);
+    let (omega, hz) = (given.read::<Option<f64>>("omega")?, given.read("frequency_hz")?);
+    let (ratio, q_factor) = (given.read("damping")?, given.read("q_factor")?);
+    let swings = |hz| Suspension::from_hz(hz, damping(ratio, q_factor)?).map_err(refused);
+    question.suspension = omega.map(|omega| omega / TAU).or(hz).map(swings).transpose()?;
+    question.tolerance = given.read("tolerance")?;
+    Ok(question)
+}
+
+fn of_shocks(given: &Given<'_>, e: Option<f64>) -> PyResult<respond_of::Question> {
+    let omega = match (given.read("omega")?, given.read::<Option<f64>>("frequency_hz")?) {
+        (Some(omega), None) => omega,
+        (None, Some(hz)) => TAU * hz,
+        _ => return Err(refused("one of omega and frequency_hz says how the part swings")),
+    };
+    let suspension = Suspension::new(omega, damping(given.read("damping")?, given.read("q_factor")?)?);
+    let excitation = match (given.read("shocks")?, given.read::<Option<Vec<_>>>("pulses")?, e, given.read("at")?) {
+        (Some(shocks), ..) => Excitation::Shocks(shocks),
+        (None, Some(pulses), ..) => Excitation::Pulses(pulses),
+        (None, None, Some(_), Some(at)) => {
+            let Body::Bar(bar) = Body::read(given)? else {
+                return Err(refused("respond is that of a bar; gyration_ratio has two values here"));
+            };
+            Excitation::Bar { bar, start: Fall::read(given)?.of_bar()?, at }
         }
         _ => return Err(refused("pulses, shocks, or e and at of a bar say what shakes the part")),
     };
-    let suspension = Suspension::new(omega, damping(damping_ratio, q_factor)?).map_err(refused)?;
-    let told = work::done(py, move |_| {
-        let answer = respond_of::answer(&respond_of::Question::new(excitation, suspension));
-        json(&answer.map_err(|error| error.to_string())?)
-    });
-    Ok((told?.map_err(refused)?, None))
-}
-
-#[pyfunction]
-pub(crate) fn respond_drop(
-    py: Python<'_>,
-    inputs: Inputs,
-    model_name: Option<&str>,
-    at: Vec<f64>,
-    axis: Option<&str>,
-    frequency_hz: Option<f64>,
-    damping_ratio: Option<f64>,
-    q_factor: Option<f64>,
-    tolerance: f64,
-) -> PyResult<Answered> {
-    let model = model_name.map_or(Ok(Model::Compliant), model)?;
-    let drop = inputs.drop(model)?;
-    let place = drop_of::place(&drop, &at, Axis::of(axis.unwrap_or("z"))).map_err(refused)?;
-    let mut question = drop_of::Question::new(drop, model, place);
-    let suspension = frequency_hz.map(|hz| Suspension::from_hz(hz, damping(damping_ratio, q_factor)?).map_err(refused));
-    (question.suspension, question.tolerance) = (suspension.transpose()?, tolerance);
-    let told = work::done(py, move |_| json(&drop_of::answer(&question).map_err(|error| error.to_string())?));
-    Ok((told?.map_err(refused)?, None))
+    Ok(respond_of::Question::new(excitation, suspension.map_err(refused)?))
 }

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Read, Write};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use clatter_answer::study::{Answer, Merge, Parts, Shard, Study};
@@ -10,8 +11,10 @@ use clatter_record::{RowGroupWriter, RowGroups};
 use pyo3::prelude::*;
 use serde::Serialize;
 
-use crate::answered::{Answered, json};
-use crate::measured::Refused;
+use crate::answered::{Answered, Refused, json, without_picture};
+use crate::given::{Given, parts, whole};
+use crate::products::target;
+use crate::words;
 use crate::work::{self, Wanted};
 
 /// The finished shard of a study, as the command reports it.
@@ -24,16 +27,17 @@ struct Done<'a> {
     skipped: bool,
 }
 
+/// The bounds of the numbers of shards.
+const SHARDS: RangeInclusive<u64> = 0..=(1 << 63) - 1;
+
 /// Draws a shard of a plan into a file, and returns its JSON and the oddities of the product.
 #[pyfunction]
-pub(crate) fn study(
-    py: Python<'_>,
-    plan: PathBuf,
-    shard: [u64; 2],
-    output: PathBuf,
-    force: bool,
-) -> PyResult<(String, String)> {
-    let [index, of] = shard;
+pub(crate) fn study(py: Python<'_>, given: Given<'_>) -> PyResult<(String, String)> {
+    let (plan, output) = (given.read::<PathBuf>("plan")?, given.read::<PathBuf>("output")?);
+    let [index, of] = parts("shard", &given.value("shard")?, "(i, n)")?;
+    let [index, of] = [whole("shard", &index, SHARDS)?, whole("shard", &of, SHARDS)?];
+    let force = given.value("force")?.is_truthy()?;
+    given.done()?;
     Ok(work::done(py, move |wanted| draw(&plan, Shard { index, of }, &output, force, wanted))??)
 }
 
@@ -70,15 +74,22 @@ fn is_there(path: &Path, notes: &[(&str, String)], rows: u64) -> Result<bool, Re
         let all: u64 = part.rows().iter().map(|rows| *rows as u64).sum();
         all == rows && notes.iter().all(|(name, note)| part.note(name) == Some(note))
     });
-    let other =
-        || words(format!("{} is there already, and is not this shard: choose another name, or give force", name(path)));
+    let other = || {
+        Refused::Words(format!(
+            "{} is there already, and is not this shard: choose another name, or give force",
+            name(path)
+        ))
+    };
     if same { Ok(true) } else { Err(other()) }
 }
 
 /// Returns the answer of all shards of a plan.
 #[pyfunction]
-pub(crate) fn merge(py: Python<'_>, parts: Vec<PathBuf>, confidence: f64, target: Option<f64>) -> PyResult<Answered> {
-    let told = work::done(py, move |wanted| {
+pub(crate) fn merge(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
+    let (parts, confidence) = (given.value("parts")?.extract::<Vec<PathBuf>>()?, given.read("confidence")?);
+    let target = target(&given)?;
+    given.done()?;
+    without_picture(py, move |wanted| {
         let mut told = Parts::default();
         for path in &parts {
             let part = open(path)?;
@@ -89,13 +100,12 @@ pub(crate) fn merge(py: Python<'_>, parts: Vec<PathBuf>, confidence: f64, target
         let plan = Plan::read(plan, &format!("the plan in {first}")).map_err(words)?;
         let study = Study::new(plan, product, &format!("the product in {first}")).map_err(words)?;
         if target.is_some() && study.plan().search {
-            return Err(words("target is of drops that are drawn, and the plan is a search"));
+            return Err("target is of drops that are drawn, and the plan is a search".to_owned().into());
         }
         let mut answer = merged(&parts, &told, &study, confidence, wanted)?;
         answer.target = target;
-        Ok(json(&answer)?)
-    });
-    Ok((told??, None))
+        Ok::<_, Refused>(json(&answer)?)
+    })
 }
 
 fn merged<'a>(
@@ -110,7 +120,7 @@ fn merged<'a>(
     let mut merge = Merge::new(study, confidence).map_err(words)?;
     for (i, rows) in parts.in_order(study).map_err(words)? {
         let path = &paths[i];
-        let damaged = |what: &dyn std::fmt::Display| words(format!("{} is damaged: {what}", name(path)));
+        let damaged = |what: &dyn std::fmt::Display| Refused::Words(format!("{} is damaged: {what}", name(path)));
         let mut part = open(path)?;
         let all: u64 = part.rows().iter().map(|rows| *rows as u64).sum();
         if part.names() != fields || all != rows.end - rows.start {
@@ -123,7 +133,7 @@ fn merged<'a>(
             merge.take(&read.iter().map(Vec::as_slice).collect::<Vec<_>>()).map_err(|error| damaged(&error))?;
         }
     }
-    merge.finish().map_err(words)
+    Ok(merge.finish().map_err(words)?)
 }
 
 fn open(path: &Path) -> Result<RowGroups<File>, Refused> {
@@ -132,15 +142,11 @@ fn open(path: &Path) -> Result<RowGroups<File>, Refused> {
 }
 
 fn torn(path: &Path, error: &clatter_record::Error) -> Refused {
-    words(format!("{}: {error}", name(path)))
+    Refused::Words(format!("{}: {error}", name(path)))
 }
 
 fn name(path: &Path) -> String {
     visible(&path.to_string_lossy()).into_owned()
-}
-
-fn words(why: impl std::fmt::Display) -> Refused {
-    Refused::Words(why.to_string())
 }
 
 /// Reads the text of a file, of a size that product files have.
