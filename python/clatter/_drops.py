@@ -22,7 +22,7 @@ STANDARD_GRAVITY = 9.80665
 
 
 def _impacts(answer: Answer) -> Rows:
-    points = "" if "size_m" in answer else "abcd" if "width_m" in answer else "ab"
+    points = {2: "ab", 4: "abcd"}.get(len(answer.largest_delta_v_m_s), "")
     return [flat(impact, points) for impact in answer.impacts]
 
 

@@ -313,12 +313,18 @@ pub(crate) fn boxes<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) 
             ..DropInputs::default()
         };
         let question = simulate::Question::new(inputs.drop(Model::Compliant)?, Model::Compliant);
-        let simulate::Answer::Block(answer) = simulate::answer(&question)? else { return Ok([f64::NAN; 5]) };
-        let largest = answer.impacts.iter().map(simulate::block::Impact::largest_m_s).fold(0.0, f64::max);
+        let answer = simulate::answer(&question)?;
+        let largest = answer.impacts.iter().map(|impact| impact.largest_m_s()).fold(0.0, f64::max);
         #[expect(clippy::cast_precision_loss, reason = "a small number")]
-        let count = answer.impacts.len() as f64;
+        let count = answer.impacts.train().count() as f64;
         let at_rest = if answer.stop.reason() == "at-rest" { 1.0 } else { 0.0 };
-        Ok::<_, clatter_answer::Error>([count, largest, answer.stop.time_s(), at_rest, answer.energy_error.0])
+        Ok::<_, clatter_answer::Error>([
+            count,
+            largest,
+            answer.stop.time_s(),
+            at_rest,
+            answer.energy_error.map_or(f64::NAN, |error| error.0),
+        ])
     };
     let names = "count largest_delta_v_m_s stop_time_s at_rest energy_error";
     answer(py, shape, names, row)

@@ -1,6 +1,6 @@
 //! This module follows drops in time: of a bar, a plate and a box.
 
-use clatter_answer::simulate::{self as simulate_of, Answer};
+use clatter_answer::simulate as simulate_of;
 use clatter_answer::{DropInputs, neat};
 use clatter_product::{Drop, Model};
 use pyo3::prelude::*;
@@ -56,24 +56,25 @@ pub(crate) fn simulate(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
         return Err(refused("history is that of a bar"));
     }
     let mut question = simulate_of::Question::new(drop, model);
-    question.at.clone_from(&at);
-    (question.height_m, question.time_limit_s, question.impact_limit) = (inputs.height_m, time_limit_s, impact_limit);
-    let (told, answer) = work::done(py, move |_| {
+    question.at = at.iter().map(|[x, y]| [*x, *y, 0.0]).collect();
+    (question.time_limit_s, question.impact_limit) = (time_limit_s, impact_limit);
+    let (told, motion) = work::done(py, move |_| {
         let answer = simulate_of::answer(&question).map_err(words)?;
-        let Answer::Bar(bar) = answer else { return Ok((json(&answer)?, None)) };
-        if history && bar.impacts.motion().rows().nth(MOST_ROWS).is_some() {
+        let motion = answer.impacts.train().motion();
+        if history && motion.is_some_and(|motion| motion.rows().nth(MOST_ROWS).is_some()) {
             return Err(TOO_LONG.to_owned());
         }
-        let told = if history { json(&bar.with_history()) } else { json(&bar) };
-        Ok::<_, String>((told?, Some(bar)))
+        let told = if history { json(&answer.with_history()) } else { json(&answer) };
+        Ok::<_, String>((told?, motion.cloned()))
     })?
     .map_err(refused)?;
-    let Some(answer) = answer else { return Ok((told, None)) };
-    let half_m = 500.0 * answer.length_m.0;
+    let Some(motion) = motion else { return Ok((told, None)) };
+    let half_m = 500.0 * drop.body.length_m();
     let called: Vec<_> = at.iter().map(|[s, _]| format!("at {} mm", clatter_figures::three(half_m * s))).collect();
-    let kept = physics(model, &drop);
+    let number = |x: f64| format!("{:?}", neat(x)).trim_end_matches(".0").to_owned();
+    let kept =
+        simulate_of::physics_in_words(&drop, model, |g| format!("{} m/s²", number(g)), |s| format!("{} s", number(s)));
     let draw = move || {
-        let motion = answer.impacts.motion();
         let rows: Vec<_> = motion.rows().collect();
         clatter_figures::drop(&clatter_figures::Drop {
             model: &kept,
@@ -86,19 +87,4 @@ pub(crate) fn simulate(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
         })
     };
     Ok((told, Some(Drawing::new(draw))))
-}
-
-/// Describes the physics that are kept of a drop, in the words of the picture.
-fn physics(model: Model, drop: &Drop) -> String {
-    let given = |x: f64| format!("{:?}", neat(x)).trim_end_matches(".0").to_owned();
-    let gravity = given(drop.gravity_m_s2);
-    match model {
-        Model::Ballistic => format!("Small tilt, gravity {gravity} m/s², instant impacts"),
-        Model::FiniteTilt => format!("Any tilt, gravity {gravity} m/s², instant impacts"),
-        Model::Compliant => {
-            let (law, time) = (drop.contact_law.name(), given(drop.contact_time_s.unwrap_or_default()));
-            format!("Any tilt, gravity {gravity} m/s², {law} contacts of {time} s")
-        }
-        _ => "Small tilt, no gravity, instant impacts".to_owned(),
-    }
 }

@@ -1,6 +1,7 @@
 //! `clatter simulate` and `clatter respond` of a box.
 
 use clatter_cli::Exit;
+use serde_json::Value;
 
 use crate::{answer, clatter};
 
@@ -107,7 +108,7 @@ fn tables_and_rows_have_every_press() {
     let table = clatter(with("simulate", &["--tilt-deg=35", "--direction-deg=60"]));
     assert_eq!(table.exit, Exit::Done, "{}", table.stderr);
     assert!(
-        table.stdout.contains("Box of 120 x 60 x 20 mm") && table.stdout.contains("At rest at"),
+        table.stdout.contains("Body of 0.12 m by 0.06 m by 0.02 m") && table.stdout.contains("At rest at"),
         "{}",
         table.stdout
     );
@@ -115,4 +116,33 @@ fn tables_and_rows_have_every_press() {
     let found = answer(with("simulate", &["--tilt-deg=35", "--direction-deg=60"]));
     assert_eq!(rows.stdout.lines().count(), 1 + found["impacts"].as_array().unwrap().len());
     assert!(rows.stdout.starts_with("number,corner,time_s,until_s,approach_m_s,delta_v_---_m_s,"), "{}", rows.stdout);
+}
+
+/// One schema for all bodies: a place has the shock of the corner that it is, and the middle the mean of all.
+#[test]
+fn every_body_is_answered_with_the_same_fields() {
+    let bar = ["simulate", "--model=compliant", "--length-m=0.12", "--gyration-m=0.035", "--contact-time-s=4e-4"];
+    let fall = ["--e=0.5", "--speed-m-s=3", "--tilt-deg=5"];
+    let bar = answer(bar.into_iter().chain(fall).chain(["--at=1", "--at=0"]));
+    let plate = ["--direction-deg=30", "--width-m=0.06", "--gyration-m=0.035,0.018", "--at=1,-1", "--at=0,0"];
+    let plate = ["simulate", "--model=compliant", "--length-m=0.12", "--contact-time-s=4e-4"].into_iter().chain(plate);
+    let plate = answer(plate.chain(fall));
+    let solid = answer(with("simulate", &["--tilt-deg=5", "--direction-deg=30", "--at=1,-1,-1", "--at=0,0,0"]));
+    let names = |of: &Value| of.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    assert_eq!((names(&plate), names(&plate["drop"])), (names(&solid), names(&solid["drop"])));
+    let of_bar: Vec<_> =
+        names(&bar).into_iter().filter(|name| !plate.as_object().unwrap().contains_key(name)).collect();
+    assert_eq!(of_bar, ["inertia_ratios", "pivots"]);
+    let kept: Vec<_> = names(&plate["impacts"][0]);
+    assert_eq!(kept, names(&solid["impacts"][0]));
+    assert_eq!(kept.join(" ").replace("corner", "end"), names(&bar["impacts"][0]).join(" "));
+    for (of, at) in [(&bar, "[1.0,0.0,0.0]"), (&plate, "[1.0,-1.0,0.0]"), (&solid, "[1.0,-1.0,-1.0]")] {
+        assert_eq!((of["at"][0].to_string(), of["stop"]["reason"].as_str()), (at.to_owned(), Some("at-rest")));
+        for impact in of["impacts"].as_array().unwrap() {
+            let shocks = |name: &str| impact[name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
+            let (points, places): (Vec<f64>, Vec<f64>) = (shocks("delta_v_m_s"), shocks("delta_v_at_m_s"));
+            let mean = points.iter().sum::<f64>() / f64::from(u32::try_from(points.len()).unwrap());
+            assert!((places[0] - points[1]).abs() < 1e-12 && (places[1] - mean).abs() < 1e-9, "{impact}");
+        }
+    }
 }

@@ -202,7 +202,7 @@ fn a_contact_law_can_be_asked_for() {
         (got, largest_force(&rows, column), rows)
     };
     let (got, force, _) = run(&[], "--e=0.2");
-    assert_eq!((&got["contact_law"], &got["contact_time_s"]), (&"hysteretic".into(), &2e-4.into()));
+    assert_eq!((&got["drop"]["contact_law"], &got["drop"]["contact_time_s"]), (&"hysteretic".into(), &2e-4.into()));
     // The force on end a gives the center of mass its change of velocity.
     let center = {
         let [a, b] = [0, 1].map(|end| got["impacts"][0]["delta_v_m_s"][end].as_f64().unwrap());
@@ -213,7 +213,7 @@ fn a_contact_law_can_be_asked_for() {
     let (same, again, _) = run(&["--contact-law=hysteretic"], "--e=0.2");
     assert_eq!((same, again.to_bits()), (got, force.to_bits()));
     let (dashpot, harder, _) = run(&["--contact-law=dashpot"], "--e=0.2");
-    assert_eq!(dashpot["contact_law"], "dashpot");
+    assert_eq!(dashpot["drop"]["contact_law"], "dashpot");
     assert!(harder > 1.2 * half_sine, "{harder}: below e = 0.3 it is largest as it touches");
     for e in ["--e=0", "--e=1"] {
         let (got, ..) = run(&[], e);

@@ -343,7 +343,7 @@ fn a_drop_and_a_part_come_from_a_product_file() {
         "{hard}"
     );
     let (simulated, _) = json(&["simulate", &product, "--component=camera"]);
-    assert!((simulated["at"][0].as_f64().unwrap() - 55.0 / 70.0).abs() < 1e-12, "{simulated}");
+    assert!((simulated["at"][0][0].as_f64().unwrap() - 55.0 / 70.0).abs() < 1e-12, "{simulated}");
     assert_eq!(simulated["model"], "compliant");
     // Where end b touches first it is called a.
     let (_other, mirrored) = changed(|text| {
@@ -351,12 +351,13 @@ fn a_drop_and_a_part_come_from_a_product_file() {
             .replace("radius_of_gyration", "center_of_mass = \"7 mm\"\nradius_of_gyration")
     });
     let (got, notes) = json(&["simulate", &format!("--product={mirrored}"), "--component=camera"]);
-    assert!((got["at"][0].as_f64().unwrap() + 55.0 / 70.0).abs() < 1e-12, "{got}");
-    assert!((got["center_of_mass"].as_f64().unwrap() + 0.1).abs() < 1e-12, "{got}");
-    assert!(
-        notes.contains("end b touches first and is called a here: places of the file are turned around; those of --at"),
-        "{notes}"
-    );
+    assert!((got["at"][0][0].as_f64().unwrap() + 55.0 / 70.0).abs() < 1e-12, "{got}");
+    let ends = [0, 1].map(|end| got["drop"]["body"]["length"]["ends_m"][end].as_f64().unwrap());
+    assert!(((ends[0] - ends[1]) / (ends[0] + ends[1]) + 0.1).abs() < 1e-12, "{got}");
+    assert!(notes.contains("end b touches first and is called a here: places are turned around"), "{notes}");
+    // Typed places are of the product too.
+    let (typed, _) = json(&["simulate", &format!("--product={mirrored}"), "--at=55mm"]);
+    assert_eq!((&typed["at"], &typed["impacts"]), (&got["at"], &got["impacts"]));
     for (arguments, said) in [
         (&["respond", &product][..], "the place is missing: --at=S, or with --product the --component=NAME"),
         (

@@ -63,16 +63,16 @@ fn in_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
     let body = Body { thickness: Some(Side::even(0.012)), ..Body::off_center(0.08, 0.06, 0.041)? };
     let bar = Drop { contact_time_s: Some(4e-4), ..Drop::new(body, 4.43, 17_f64.to_radians(), 0.6) };
     let dashpot = Drop { contact_law: ContactLaw::Dashpot, ..bar };
-    let mut told = |drop: Drop, model, at: &[[f64; 2]], limit| {
+    let mut told = |drop: Drop, model, at: &[[f64; 3]], limit| {
         let mut question = simulate::Question::new(drop, model);
         (question.at, question.impact_limit) = (at.to_vec(), limit);
         lines.push(serde_json::to_string(&simulate::answer(&question)?)?);
         Ok::<_, Box<dyn Error>>(())
     };
     for model in [Model::Map, Model::Ballistic, Model::FiniteTilt, Model::Compliant] {
-        told(bar, model, &[[0.3, 0.0]], Some(100))?;
+        told(bar, model, &[[0.3, 0.0, 0.0]], Some(100))?;
     }
-    told(dashpot, Model::Compliant, &[[0.3, 0.0]], Some(100))?;
+    told(dashpot, Model::Compliant, &[[0.3, 0.0, 0.0]], Some(100))?;
     let phone = Drop { restitution: 0.6, ..plate()? };
     told(phone, Model::Map, &[], None)?;
     told(phone, Model::Ballistic, &[], Some(100))?;

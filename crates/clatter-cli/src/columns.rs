@@ -99,8 +99,29 @@ fn blocks(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     blocks
 }
 
+/// Writes rows of numbers under heads, which are names and units, in blocks that fit the terminal, each next to the first cells once more.
+pub(crate) fn rows<R: Iterator<Item = (String, Vec<String>)>>(
+    out: &mut dyn Write,
+    first: &str,
+    heads: &[(String, &str)],
+    rows: impl Fn() -> R,
+) -> io::Result<()> {
+    for (n, part) in parts(first.len(), heads).into_iter().enumerate() {
+        if n > 0 {
+            writeln!(out)?;
+        }
+        let heads = &heads[part.clone()];
+        line(out, first, heads, heads.iter().map(|(name, _)| name.as_str()))?;
+        line(out, &" ".repeat(first.len()), heads, heads.iter().map(|(_, unit)| *unit))?;
+        for (first, cells) in rows() {
+            line(out, &first, heads, cells[part.start..].iter())?;
+        }
+    }
+    Ok(())
+}
+
 /// Returns the columns of numbers under these heads, which are names and units, in blocks that fit the terminal next to a first cell.
-pub(crate) fn parts(first: usize, heads: &[(String, &str)]) -> Vec<Range<usize>> {
+fn parts(first: usize, heads: &[(String, &str)]) -> Vec<Range<usize>> {
     let widths: Vec<usize> = heads.iter().map(of_head).collect();
     // A blank stands before each.
     let widths: Vec<usize> = std::iter::once(first).chain(widths.into_iter().map(|w| w.saturating_sub(1))).collect();

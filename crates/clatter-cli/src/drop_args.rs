@@ -6,6 +6,7 @@ use clap::ValueHint;
 use clatter::End;
 use clatter_answer::{DropInputs, Error};
 use clatter_assess::Accuracy;
+use clatter_flight::LEAST_OF_BLOCKS;
 use clatter_product::{Drop, Input, Model, slip, units::Quantity};
 
 use crate::inputs::{self, Law};
@@ -135,8 +136,6 @@ pub(crate) struct ExtraArgs<'a> {
     pub(crate) spin_rad_s: Option<PerAxis<f64>>,
     /// The end that touches first, in place of that of the product file.
     pub(crate) first: Option<End>,
-    /// True where typed places are those of the product, whichever end touches first; else they are seen from the end that does.
-    pub(crate) is_of_product: bool,
     /// The product file, if there is one.
     pub(crate) file: Option<OneDrop>,
 }
@@ -145,8 +144,6 @@ pub(crate) struct ExtraArgs<'a> {
 pub(crate) struct Setup {
     pub(crate) drop: Drop,
     pub(crate) model: Model,
-    /// The height from which it falls, where that was given.
-    pub(crate) height_m: Option<f64>,
     pub(crate) shown: Shown,
     /// The part of a product file.
     pub(crate) part: Option<PartSetup>,
@@ -193,7 +190,7 @@ impl DropArgs {
         let mut file = beside.file.take();
         let mut notes = self.slips(&beside);
         if let Some(worst) = file.as_ref().and_then(OneDrop::worst).copied() {
-            return self.finish(&worst.drop, worst.model, None, &beside, file, notes);
+            return self.finish(&worst.drop, worst.model, &beside, file, notes);
         }
         let contact_time = self.contact_time();
         let fullest = |drop: &Drop| contact_time.map_or(Model::fullest(drop), |_| Model::Compliant);
@@ -211,7 +208,7 @@ impl DropArgs {
                 "--flat goes with instant impacts: contacts that take time land flat with --tilt=0deg",
             ));
         }
-        let mut inputs = self.inputs(&beside, file.as_mut(), base.as_ref())?;
+        let mut inputs = self.inputs(&beside, file.as_ref(), base.as_ref())?;
         // The height of the file, with the gravity that is given.
         inputs.height_m = inputs.height_m.or(height_m.filter(|_| inputs.speed_m_s.is_none()));
         let half_m = 0.5 * inputs.length_m.unwrap_or(f64::INFINITY);
@@ -229,14 +226,13 @@ impl DropArgs {
         if let Some(file) = file.as_mut().filter(|_| is_stretched) {
             file.note("the radius of gyration and the center of mass along it go with the length");
         }
-        self.finish(&drop, model, inputs.height_m, &beside, file, notes)
+        self.finish(&drop, model, &beside, file, notes)
     }
 
     fn finish(
         &self,
         drop: &Drop,
         model: Model,
-        height_m: Option<f64>,
         beside: &ExtraArgs<'_>,
         mut file: Option<OneDrop>,
         mut notes: Vec<(&'static str, String)>,
@@ -253,7 +249,13 @@ impl DropArgs {
         part.as_ref().map_or(Ok(()), |part| part.check_within(drop.sides_m()))?;
         let shown = self.shown(beside, file.as_ref());
         notes.extend(file.into_iter().flat_map(OneDrop::into_notes).map(|note| ("note", note)));
-        Ok(Setup { drop: *drop, model, height_m, shown, part, notes })
+        let e = drop.restitution;
+        if drop.is_solid() && drop.contact_law.leaves_a_dent() && e < LEAST_OF_BLOCKS {
+            let followed = format!("e = {e:?} is followed as {LEAST_OF_BLOCKS}");
+            let why = "hysteretic contacts of a box rebound with that at least";
+            notes.push(("warning", format!("{followed}: {why}")));
+        }
+        Ok(Setup { drop: *drop, model, shown, part, notes })
     }
 
     /// Returns the drop of a product file; inputs that are given here are left out of the reported ones.
@@ -278,7 +280,7 @@ impl DropArgs {
     fn inputs(
         &self,
         beside: &ExtraArgs<'_>,
-        mut file: Option<&mut OneDrop>,
+        file: Option<&OneDrop>,
         base: Option<&Drop>,
     ) -> Result<DropInputs, Failure> {
         let si = |typed, plain| either(typed, plain).map(|quantity| quantity.si);
@@ -289,14 +291,6 @@ impl DropArgs {
             (Some(length_m), Some(file)) => Some(file.length_of(length_m)?),
             _ => length_m,
         };
-        let is_turned = base.is_some_and(|drop| !drop.body.is_wide() && drop.first() == End::B);
-        let side = if is_turned && !beside.is_of_product { -1.0 } else { 1.0 };
-        if let Some(file) = file.as_mut().filter(|_| side < 0.0) {
-            file.note(
-                "end b touches first and is called a here: places of the file are turned around; those of --at, \
-                 --center-of-mass and --mass are not, they count towards the end that strikes second",
-            );
-        }
         let halves_m = [
             length_m.or(base.map(|drop| drop.body.length_m())),
             width_m.or(base.and_then(|drop| drop.body.width).map(|width| width.m())),
@@ -327,13 +321,13 @@ impl DropArgs {
         };
         if let Some(center) = self.center_of_mass {
             let along = center.values().into_iter().zip(halves_m);
-            let relative = along.map(|(place, half_m)| Ok(side * place.relative("--center-of-mass", half_m)? + 0.0));
+            let relative = along.map(|(place, half_m)| place.relative("--center-of-mass", half_m));
             inputs.center_of_mass = Some(relative.collect::<Result<_, Failure>>()?);
         }
         if let ([_, ..], [Some(half_m), None, _]) = (beside.masses, halves_m) {
             let e = inputs.e.or(base.map(|drop| drop.restitution)).unwrap_or(0.0);
             let bar = inputs::bar_of(&quantities::masses(beside.masses, Some(half_m))?, e)?;
-            inputs.center_of_mass = Some(vec![side * bar.center_of_mass() + 0.0]);
+            inputs.center_of_mass = Some(vec![bar.center_of_mass()]);
             inputs.gyration_m = Some(vec![half_m * bar.gyration_ratio()]);
         } else if !beside.masses.is_empty() && halves_m[1].is_some() {
             return Err(Failure::Usage(

@@ -180,19 +180,13 @@ impl Drop<'_> {
         let heads = [("time", "h0/v0"), ("approach", "v0"), ("shock at a", "v0"), ("shock at b", "v0")];
         let heads: Vec<_> = heads.map(|(name, unit)| (name.to_owned(), unit)).into_iter().chain(places).collect();
         writeln!(out)?;
-        for (n, part) in columns::parts(14, &heads).into_iter().enumerate() {
-            if n > 0 {
-                writeln!(out)?;
-            }
-            let heads = &heads[part.clone()];
-            columns::line(out, "   impact  end", heads, heads.iter().map(|(name, _)| name.as_str()))?;
-            columns::line(out, "              ", heads, heads.iter().map(|(_, unit)| *unit))?;
-            for impact in self.answer.impacts.iter() {
-                let first = format!("{:>9}  {:<3}", impact.number, impact.end);
-                columns::line(out, &first, heads, numbers(&impact).map(figures).skip(part.start))?;
-            }
-        }
-        Ok(())
+        columns::rows(out, "   impact  end", &heads, || {
+            let numbers = |impact: &Impact| numbers(impact).map(figures).collect();
+            self.answer
+                .impacts
+                .iter()
+                .map(move |impact| (format!("{:>9}  {:<3}", impact.number, impact.end), numbers(&impact)))
+        })
     }
 
     fn csv(&self, out: &mut dyn Write) -> io::Result<()> {

@@ -1,6 +1,6 @@
 //! This module writes numbers as they are shown: to people with six significant digits, to machines with all of them.
 
-pub(crate) use clatter_answer::{Json, figures};
+pub(crate) use clatter_answer::figures;
 
 /// Writes an input as somebody would have written it: every digit, and no `.0`.
 pub(crate) fn given(x: f64) -> String {
@@ -15,6 +15,8 @@ pub(crate) fn digits(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use clatter_answer::Json;
+
     use super::*;
 
     #[test]

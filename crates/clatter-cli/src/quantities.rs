@@ -116,6 +116,13 @@ impl Place {
     pub(crate) fn unit(self) -> Option<&'static Unit> {
         if let Self::Length(length) = self { length.unit } else { None }
     }
+    /// Returns the place towards the other end where the sign is −1.
+    pub(crate) fn turned(self, sign: f64) -> Self {
+        match self {
+            Self::Relative(s) => Self::Relative(sign * s),
+            Self::Length(length) => Self::Length(Quantity { si: sign * length.si, ..length }),
+        }
+    }
     /// Writes the place as tables show it.
     pub(crate) fn said(self) -> String {
         match self {

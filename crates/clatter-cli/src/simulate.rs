@@ -1,23 +1,18 @@
 //! This module is `clatter simulate`: it follows one drop in time, by a model of the user's choice.
 
-mod block;
 mod file;
-mod plate;
 mod table;
 
-use std::io::{self, Write};
-
 use clap::ValueHint;
-use clatter_answer::simulate::{self, Answer, Question, bar};
-use clatter_flight::{Scene, Stop};
+use clatter_answer::simulate::{self, Answer, Question};
+use clatter_flight::Stop;
 use clatter_product::{Model, units::Quantity};
-use serde::Serialize;
 
 use crate::drop_args::{DropArgs, ExtraArgs, IN_SI, Setup};
 use crate::inputs::{self, RowFormat};
 use crate::one_drop::PartSetup;
 use crate::output::{Files, Kind, Target};
-use crate::quantities::{self, PerAxis, Piece, Place, Show, neat};
+use crate::quantities::{self, PerAxis, Piece, Place};
 use crate::{Failure, Streams};
 
 /// Follow one drop in time: its strikes, how hard they are, and how it comes to rest
@@ -101,7 +96,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = inputs::impact_limit)]
     impact_limit: Option<usize>,
     /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; or a length from
-    /// the middle; may be given several times
+    /// the middle; X,Y on a plate, X,Y,Z in a box; may be given several times
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place)]
     at: Vec<PerAxis<Place>>,
     /// List every strike in the table
@@ -142,16 +137,13 @@ fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
 }
 
-/// A drop of a bar and what came of it.
+/// A drop and what came of it.
 struct Drop<'a> {
     args: &'a Args,
     setup: Setup,
-    /// The drop as its flight has it.
-    scene: Scene,
-    /// Requested positions, and their names.
-    at: Vec<f64>,
+    /// Names of the requested places.
     called: Vec<String>,
-    answer: bar::Answer,
+    answer: Answer,
 }
 
 impl Args {
@@ -163,6 +155,30 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let setup = self.setup(streams)?;
+        let (at, called) = self.places(&setup)?.into_iter().unzip();
+        let mut question = Question::new(setup.drop, setup.model);
+        (question.at, question.time_limit_s, question.impact_limit) = (at, self.time_limit_s(), self.impact_limit);
+        let answer = simulate::answer(&question).map_err(|error| self.drop.failure(error, self.inertia.given()))?;
+        let drop = Drop { args: self, setup, called, answer };
+        if let Some(target) = &self.output {
+            drop.write(target)?;
+        }
+        match self.format {
+            RowFormat::Table => drop.table(streams.out).map_err(Failure::Answer)?,
+            RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer)?,
+            RowFormat::Json => streams.json(&drop.answer)?,
+        }
+        for (kind, note) in &drop.setup.notes {
+            streams.note(kind, note);
+        }
+        for warning in drop.warnings() {
+            streams.note("warning", warning);
+        }
+        Ok(())
+    }
+
+    fn setup(&self, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
         let file = self.drop.file(None, None, &self.files(), streams)?;
         let spin_rad_s = self.spin_rad_s.or(self.spin.map(|spin| PerAxis::Bar(spin.si)));
         let mut setup = self.drop.setup(ExtraArgs {
@@ -174,7 +190,6 @@ impl Args {
             instant_contacts: false,
             spin_rad_s,
             first: None,
-            is_of_product: false,
             file,
         })?;
         setup.shown.spin.unit = self.spin.and_then(|spin| spin.unit);
@@ -188,87 +203,34 @@ impl Args {
             let alone = "its ends here are its feet; edges beyond them are not looked at, as 'clatter respond' does";
             setup.notes.push(("note", alone.to_owned()));
         }
-        if self.output.is_some() && setup.drop.body.is_wide() {
-            return Err(Failure::Usage(
-                "-o writes the motion of a bar: that of a plate or a box is not written to a file, --format=json or csv has its strikes",
-            ));
+        if setup.drop.exchanged().iter().any(|sign| *sign < 0.0) {
+            let (point, lowest) = (setup.drop.point(), setup.drop.lowest());
+            let turned = "touches first and is called a here: places are turned around";
+            setup.notes.push(("note", format!("{point} {lowest} {turned}")));
         }
-        // Typed places of a bar count from the end that touches first; those of the product from its end a.
-        let signs = setup.drop.signs();
-        let mut question = Question::new(setup.drop, setup.model);
-        question.time_limit_s = self.time_limit_s();
-        (question.impact_limit, question.height_m) = (self.impact_limit, setup.height_m);
-        for at in &self.at {
-            if setup.drop.is_solid() {
-                return Err(Failure::Usage(
-                    "--at is a place of a bar: 'clatter respond --at-m=X,Y,Z' answers one of a box",
-                ));
-            }
-            question.at.push(match setup.relative(*at, [0.0; 2])?[..] {
-                [x, y] => [signs[0] * x, signs[1] * y],
-                ref along => [along.iter().sum(), 0.0],
-            });
-        }
-        let of_part = setup.part.as_ref().filter(|_| self.at.is_empty() && !setup.drop.is_solid());
-        if let Some(part) = of_part {
-            let ([x, y, _], [length_m, width_m]) = (part.middle.at_m, setup.drop.sides_m());
-            let across = if width_m > 0.0 { 2.0 * y / width_m } else { 0.0 };
-            question.at.push([signs[0] * 2.0 * x / length_m, signs[1] * across]);
-        }
-        let (warnings, notes) =
-            match simulate::answer(&question).map_err(|error| self.drop.failure(error, self.inertia.given()))? {
-                Answer::Bar(answer) => {
-                    let typed = self.at.iter().map(|place| place.of_bar("--at").map(Place::said));
-                    let mut called = typed.collect::<Result<Vec<_>, _>>()?;
-                    let show = |part: &PartSetup| Show { unit: part.units[0].or(setup.shown.length.unit), name: "m" };
-                    called.extend(of_part.map(|part| show(part).given(neat(signs[0] * part.middle.at_m[0]))));
-                    let at = question.at.iter().map(|[s, _]| *s).collect();
-                    let scene = setup.drop.scene()?;
-                    let drop = Drop { args: self, setup, scene, at, called, answer: *answer };
-                    if let Some(target) = &self.output {
-                        drop.write(target)?;
-                    }
-                    self.write(&drop.answer, &|out| drop.table(out), &|out| drop.csv(out), streams)?;
-                    (drop.warnings(), drop.setup.notes)
-                }
-                Answer::Plate(answer) => {
-                    let Some(scene) = setup.drop.of_level()? else { return Ok(()) };
-                    if signs.iter().any(|sign| *sign < 0.0) {
-                        let turned = "touches first and is called a here: places are turned around";
-                        setup.notes.push(("note", format!("corner {} {turned}", setup.drop.lowest())));
-                    }
-                    let drop = plate::Drop { args: self, setup, scene, at: question.at, answer: *answer };
-                    self.write(&drop.answer, &|out| drop.table(out), &|out| drop.csv(out), streams)?;
-                    (drop.warnings(), drop.setup.notes)
-                }
-                Answer::Block(answer) => {
-                    let drop = block::Drop { args: self, setup, answer: *answer };
-                    self.write(&drop.answer, &|out| drop.table(out), &|out| drop.csv(out), streams)?;
-                    (drop.warnings(), drop.setup.notes)
-                }
-            };
-        for (kind, note) in &notes {
-            streams.note(kind, note);
-        }
-        for warning in warnings {
-            streams.note("warning", warning);
-        }
-        Ok(())
+        Ok(setup)
     }
 
-    /// Writes an answer in the format of the command line.
-    fn write(
-        &self,
-        answer: &impl Serialize,
-        table: Rows<'_>,
-        csv: Rows<'_>,
-        streams: &mut Streams<'_>,
-    ) -> Result<(), Failure> {
-        match self.format {
-            RowFormat::Table => table(streams.out).map_err(Failure::Answer),
-            RowFormat::Csv => csv(streams.out).map_err(Failure::Answer),
-            RowFormat::Json => streams.json(answer),
-        }
+    /// Returns the typed places, or that of the part, in half-sides as seen from what touches first, and their names.
+    fn places(&self, setup: &Setup) -> Result<Vec<([f64; 3], String)>, Failure> {
+        let of_part = |part: &PartSetup| {
+            let along = part.middle.at_m.into_iter().zip(setup.drop.sides());
+            let units = part.units.into_iter().chain([None]).map(|unit| unit.or(setup.shown.length.unit));
+            let named = part.middle.at_m.into_iter().zip(units).map(|(si, unit)| Place::Length(Quantity { si, unit }));
+            (along.map(|(at_m, side)| 2.0 * at_m / side.m()).collect(), named.collect())
+        };
+        let typed = self.at.iter().map(|at| Ok((setup.relative(*at, [0.0; 2])?, at.values())));
+        let of_part = setup.part.iter().filter(|_| self.at.is_empty()).map(|part| Ok(of_part(part)));
+        let seen = |(along, named): (Vec<f64>, Vec<Place>)| {
+            let (mut at, signs) = ([0.0; 3], setup.drop.exchanged());
+            let names = named.into_iter().take(along.len()).zip(signs).map(|(place, sign)| place.turned(sign).said());
+            let names = names.collect::<Vec<_>>().join(",");
+            for ((at, sign), s) in at.iter_mut().zip(signs).zip(along) {
+                *at = sign * s;
+            }
+            (at, names)
+        };
+        typed.chain(of_part).map(|place| place.map(seen)).collect()
     }
 
     fn time_limit_s(&self) -> Option<f64> {
@@ -276,32 +238,31 @@ impl Args {
     }
 }
 
-/// The function that writes the rows of an answer.
-type Rows<'a> = &'a dyn Fn(&mut dyn Write) -> io::Result<()>;
-
 impl Drop<'_> {
     fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        if let Some((count, first)) = self.answer.impacts.overlaps() {
+        let (mut warnings, impacts) = (Vec::new(), &self.answer.impacts);
+        if let Some((count, first)) = impacts.overlaps() {
             let touches = if count == 1 { "strike begins" } else { "strikes begin" };
             warnings.push(format!(
                 "{count} {touches} while the other end still presses, the first is number {first}: \
                  the impulses of such strikes depend on the contact time"
             ));
         }
-        let motion = self.answer.impacts.motion();
-        match motion.stop {
+        match self.answer.stop {
             Stop::ImpactLimit { .. } => {
-                let n = motion.strikes.len();
+                let n = impacts.train().count();
                 warnings.push(format!("stopped after {n} impacts, more would follow; --impact-limit=N follows more"));
             }
             Stop::TimeLimit { time_s } if self.args.time_limit_s().is_none_or(|limit| time_s < limit) => {
                 let time = self.setup.shown.time.said(time_s);
                 warnings.push(format!("left at {time}, where the body neither rests nor strikes again in sight"));
             }
+            Stop::EnergyLimit { .. } => {
+                warnings.push("left where the energy of the body is not what it should be".to_owned());
+            }
             _ => {}
         }
-        let mut unfinished = self.answer.impacts.iter().filter(|impact| impact.unfinished).map(|impact| impact.number);
+        let mut unfinished = impacts.iter().filter(|impact| impact.unfinished).map(|impact| impact.number);
         if let Some(first) = unfinished.next() {
             let count = 1 + unfinished.count();
             let contacts = if count == 1 { "contact is" } else { "contacts are" };

@@ -65,7 +65,7 @@ impl Block {
     /// let gyration = [b.hypot(c), a.hypot(c), a.hypot(b)].map(|diagonal| diagonal / 12_f64.sqrt());
     /// let block = Block::new([a, b, c], [0.0; 3], gyration)?;
     /// assert_eq!(block.corners_m()[0], [-0.06, -0.03, -0.01]);
-    /// assert_eq!(Block::corner_name(0), "---");
+    /// assert_eq!(Block::CORNERS[0], "---");
     /// # Ok::<(), clatter::Error>(())
     /// ```
     pub fn new(size_m: [f64; 3], center_of_mass_m: [f64; 3], gyration_m: [f64; 3]) -> Result<Self, Error> {
@@ -134,11 +134,8 @@ impl Block {
         })
     }
 
-    /// Signs of x, y and z of a corner.
-    #[must_use]
-    pub fn corner_name(corner: usize) -> &'static str {
-        ["---", "+--", "-+-", "++-", "--+", "+-+", "-++", "+++"][corner & 7]
-    }
+    /// Signs of x, y and z of its corners.
+    pub const CORNERS: [&str; 8] = ["---", "+--", "-+-", "++-", "--+", "+-+", "-++", "+++"];
 
     /// Where a place is from the center of mass that is so far from the middle of the box.
     #[must_use]

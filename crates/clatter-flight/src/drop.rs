@@ -1,6 +1,7 @@
 //! One drop of a body: how it lies and moves as it touches the ground, and what the ground does to it.
 
 mod levers;
+mod points;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -202,20 +203,6 @@ impl Drop {
     #[must_use]
     pub fn first(&self) -> End {
         if self.signs()[0] < 0.0 { End::B } else { End::A }
-    }
-    /// Returns what touches first: the letter of an end or of a corner, of a box the signs of its lowest corner.
-    #[must_use]
-    pub fn lowest(&self) -> &'static str {
-        if self.is_solid() {
-            let rises = self.up().map(|up| usize::from(up < 0.0));
-            return Block::corner_name(rises[0] + 2 * rises[1] + 4 * rises[2]);
-        }
-        match self.signs().map(|sign| sign < 0.0) {
-            [false, false] => "a",
-            [true, false] => "b",
-            [true, true] => "c",
-            [false, true] => "d",
-        }
     }
     /// The direction of a bar that touches with this end first.
     #[must_use]

@@ -11,6 +11,7 @@
 //! | [`Model::Contacts`] | as `FiniteTilt` | contacts that take time, by one of two [laws](ContactLaw) |
 //!
 //! A [`Plate`] at small tilt goes by [`PlateScene::impacts_until`], which is `Ballistic`, and by [`PlateScene::contacts_until`].
+//! [`Train`] follows a [`Drop`] of any body so, impact by impact.
 //!
 //! # The picture
 //!
@@ -60,6 +61,7 @@ mod profile;
 mod rigid;
 mod roots;
 mod scene;
+mod train;
 
 pub use block::{Block, BlockDrop, BlockFlight, BlockStep, BlockStrike, LEAST_OF_BLOCKS};
 pub use body::{Body, Feet, Side, THIN};
@@ -74,3 +76,4 @@ pub use place::{Axis, Place};
 pub use plate::{Plate, PlateScene};
 pub use profile::Profile;
 pub use scene::Scene;
+pub use train::{Impact, Train};

@@ -24,3 +24,4 @@ mod plain;
 mod plate_impacts;
 mod reference;
 mod rest;
+mod train;

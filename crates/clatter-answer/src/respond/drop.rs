@@ -15,7 +15,7 @@
 //! ```
 
 use clatter_assess::{Case, Part, Swings};
-use clatter_product::{Axis, Drop, Limit, Model, Place};
+use clatter_product::{Axis, Drop, Limit, Model, Place, Side};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
@@ -76,8 +76,7 @@ pub struct Answer {
 /// # Errors
 /// [`Error::Input`] for another number of sides, and beyond the body.
 pub fn place(drop: &Drop, at: &[f64], axis: Axis) -> Result<Place, Error> {
-    let sides = [Some(drop.body.length), drop.body.width, drop.body.thickness.filter(|_| drop.is_solid())];
-    let sides: Vec<f64> = sides.into_iter().flatten().map(|side| side.m()).collect();
+    let sides: Vec<f64> = drop.sides().iter().map(Side::m).collect();
     if at.len() != sides.len() {
         let count = format!("{} values: the body has {} sides, and takes as many", at.len(), sides.len());
         return Err(Error::input("at", count));

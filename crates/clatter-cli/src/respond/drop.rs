@@ -7,7 +7,6 @@ use clatter_answer::respond::drop::{self, Answer, Question};
 use clatter_answer::respond::{AtPlace, Factors, Largest, Peaks};
 use clatter_answer::{Error, Json};
 use clatter_assess::Case;
-use clatter_flight::LEAST_OF_BLOCKS;
 use clatter_product::{
     Drop as Falls, LimitKind, Model, OwnContacts, Place, Unit,
     units::{Quantity, TIME},
@@ -67,7 +66,6 @@ impl Args {
             instant_contacts: true,
             spin_rad_s: self.spin_rad_s,
             first: self.first.map(Into::into),
-            is_of_product: true,
             file,
         })?;
         let mut fall = setup.drop;
@@ -88,11 +86,6 @@ impl Args {
         Drop { args: self, shown, part, is_found, suspension: question.suspension, answer }.write(streams)?;
         for (kind, note) in &notes {
             streams.note(kind, note);
-        }
-        let e = fall.restitution;
-        if fall.is_solid() && fall.contact_law.leaves_a_dent() && e < LEAST_OF_BLOCKS {
-            let followed = format!("e = {e:?} is followed as {LEAST_OF_BLOCKS}");
-            streams.note("warning", format!("{followed}: hysteretic contacts of a box rebound with that at least"));
         }
         self.warn(std::iter::empty(), streams);
         Ok(())
@@ -158,8 +151,7 @@ impl Drop<'_> {
 
     /// Returns the number of sides of the body along which a place is shown.
     fn axes(&self) -> usize {
-        let drop = &self.answer.drop.drop;
-        if drop.is_solid() { 3 } else { drop.body.points() / 2 }
+        self.answer.drop.drop.sides().len()
     }
 
     /// Names the place.
@@ -178,9 +170,7 @@ impl Drop<'_> {
 
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
         let (shown, Case { drop, model, tolerance, place, .. }) = (&self.shown, &self.answer.drop);
-        let thickness = drop.body.thickness.filter(|_| drop.is_solid());
-        let sides = [Some(drop.body.length), drop.body.width, thickness].into_iter().flatten();
-        let sides: Vec<_> = sides.map(|side| shown.length.given(self.input(side.m()))).collect();
+        let sides: Vec<_> = drop.sides().iter().map(|side| shown.length.given(self.input(side.m()))).collect();
         let (at, sides, e) = (self.called(), sides.join(" by "), given(self.input(drop.restitution)));
         let axis = if drop.is_solid() { format!(" along {}", place.axis.name()) } else { String::new() };
         let axis = axis.replace(" along any", " in magnitude");
@@ -200,8 +190,7 @@ impl Drop<'_> {
             }
             None => writeln!(out, "Place {at}{axis} of a body of {sides}, e = {e}; a part there is mounted rigidly")?,
         }
-        let point = if drop.body.is_wide() { "corner" } else { "end" };
-        let (lowest, speed) = (drop.lowest(), shown.speed.said(drop.speed_m_s));
+        let (point, lowest, speed) = (drop.point(), drop.lowest(), shown.speed.said(drop.speed_m_s));
         let lands = format!(
             "Model {}, to {} %: {point} {lowest} strikes first, at {speed}",
             model.name(),

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use clatter_flight::Motion;
+
 use super::Drop;
 use crate::Failure;
 use crate::numbers::digits;
@@ -13,21 +15,30 @@ const MOST_ROWS: usize = 4_000_000;
 
 impl Drop<'_> {
     pub(super) fn write(&self, Target { path, kind }: &Target) -> Result<(), Failure> {
+        let (Some(motion), Some(history)) = (self.answer.impacts.train().motion(), self.answer.with_history()) else {
+            return Err(Failure::Usage(
+                "-o writes the motion of a bar: that of a plate or a box is not written to a file, --format=json or csv has its strikes",
+            ));
+        };
         let unasked = self.args.time_limit_s().is_none() && self.args.impact_limit.is_none();
-        if unasked && self.answer.impacts.motion().rows().nth(MOST_ROWS).is_some() {
+        if unasked && motion.rows().nth(MOST_ROWS).is_some() {
             return Err(Failure::Usage(
                 "the motion has more than 4 million rows, some hundred megabytes: --time-limit-s or --impact-limit says how far it is wanted",
             ));
         }
         output::replace(path, |file| match kind {
-            Kind::Csv => output::buffered(file, |out| self.history_csv(out)),
-            Kind::Json => output::json(file, &self.answer.with_history()),
-            _ => output::buffered(file, |out| out.write_all(self.svg()?.as_bytes())),
+            Kind::Csv => output::buffered(file, |out| self.history_csv(motion, out)),
+            Kind::Json => output::json(file, &history),
+            _ => output::buffered(file, |out| out.write_all(self.svg(motion)?.as_bytes())),
         })
     }
 
-    fn svg(&self) -> Result<String, FigureError> {
-        let motion = self.answer.impacts.motion();
+    /// Returns the requested positions.
+    fn at(&self) -> Vec<f64> {
+        self.answer.at.iter().map(|[s, ..]| s.0).collect()
+    }
+
+    fn svg(&self, motion: &Motion) -> Result<String, FigureError> {
         let rows: Vec<_> = motion.rows().collect();
         clatter_figures::drop(&clatter_figures::Drop {
             model: &self.physics(),
@@ -35,7 +46,7 @@ impl Drop<'_> {
             strikes: &motion.strikes,
             pulses: &motion.presses,
             stop: motion.stop,
-            at: &self.at,
+            at: &self.at(),
             called: &self.named(),
         })
     }
@@ -43,23 +54,22 @@ impl Drop<'_> {
     /// Returns the names of the places in the picture: the part of the product, or else the length from the middle.
     fn named(&self) -> Vec<String> {
         let millimeters =
-            |s: &f64| format!("{} mm", clatter_figures::three(500.0 * self.setup.drop.body.length_m() * s));
+            |s: f64| format!("{} mm", clatter_figures::three(500.0 * self.answer.drop.body.length_m() * s));
         let part = self.setup.part.as_ref().filter(|_| self.args.at.is_empty());
-        let named = |s: &f64| {
-            part.map_or(format!("at {}", millimeters(s)), |part| format!("{}, {}", part.name, millimeters(s)))
-        };
-        self.at.iter().map(named).collect()
+        let named =
+            |s: f64| part.map_or(format!("at {}", millimeters(s)), |part| format!("{}, {}", part.name, millimeters(s)));
+        self.at().into_iter().map(named).collect()
     }
 
-    fn history_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (at, motion) = (&self.at, self.answer.impacts.motion());
+    fn history_csv(&self, motion: &Motion, out: &mut dyn Write) -> io::Result<()> {
+        let at = self.at();
         write!(out, "time_s,height_a_m,height_b_m,velocity_a_m_s,velocity_b_m_s")?;
-        for s in at {
+        for s in &at {
             write!(out, ",velocity_at_{}_m_s", digits(*s))?;
         }
         if motion.contact().is_some() {
             write!(out, ",force_per_mass_a_m_s2,force_per_mass_b_m_s2,acceleration_a_m_s2,acceleration_b_m_s2")?;
-            for s in at {
+            for s in &at {
                 write!(out, ",acceleration_at_{}_m_s2", digits(*s))?;
             }
         }

@@ -1,58 +1,43 @@
-//! This module writes the strikes for people, and as rows.
+//! This module writes the impacts for people, and as rows.
 
 use std::io::{self, Write};
 
-use clatter_answer::simulate::bar::Impact;
-use clatter_flight::{Model as Physics, Stop};
-use clatter_product::Model;
+use clatter_answer::simulate::{Impact, physics_in_words};
+use clatter_flight::Stop;
 
 use super::Drop;
 use crate::columns;
-use crate::numbers::{Json, digits, figures, given};
+use crate::numbers::{digits, figures, given};
+use crate::quantities::neat;
 
-/// Strikes whose largest shock is below this share of the largest of all are summed up.
+/// Impacts whose largest shock is below this share of the largest of all are summed up.
 const MATTERS: f64 = 0.01;
 
 impl Drop<'_> {
     /// Describes the physics that the model keeps.
     pub(super) fn physics(&self) -> String {
-        let shown = &self.setup.shown;
-        let gravity = shown.acceleration.given(self.scene.gravity_m_s2());
-        match self.answer.impacts.motion().model() {
-            Physics::Map => "Small tilt, no gravity, instant impacts".to_owned(),
-            Physics::Ballistic => format!("Small tilt, gravity {gravity}, instant impacts"),
-            Physics::FiniteTilt => format!("Any tilt, gravity {gravity}, instant impacts"),
-            Physics::Contacts(contact) => {
-                let (law, time) = (contact.law().name(), shown.time.given(contact.time_s()));
-                format!("Any tilt, gravity {gravity}, {law} contacts of {time}")
-            }
-        }
+        let (shown, drop) = (&self.setup.shown, &self.answer.drop);
+        physics_in_words(drop, self.setup.model, |g| shown.acceleration.given(g), |time_s| shown.time.given(time_s))
     }
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
         self.totals(out)?;
-        let (time, speed) = (self.setup.shown.time, self.setup.shown.speed);
+        let (time, speed, point) = (self.setup.shown.time, self.setup.shown.speed, self.answer.drop.point());
         let mut heads = vec![("time".to_owned(), time.name())];
-        heads.extend((self.setup.model == Model::Compliant).then(|| ("until".to_owned(), time.name())));
-        heads.extend(["approach", "shock at a", "shock at b"].map(|name| (name.to_owned(), speed.name())));
-        heads.extend(self.called.iter().map(|place| (format!("shock at {place}"), speed.name())));
+        heads.extend(self.answer.energy_error.map(|_| ("until".to_owned(), time.name())));
+        heads.push(("approach".to_owned(), speed.name()));
+        heads.extend(self.places().map(|place| (format!("shock at {place}"), speed.name())));
         writeln!(out)?;
-        let most = MATTERS * self.largest().fold(0.0, f64::max);
+        let most = MATTERS * self.answer.largest_delta_v_m_s.iter().fold(0.0, |most: f64, shock| most.max(shock.0));
         let matters = |impact: &Impact| self.args.all || impact.unfinished || impact.largest_m_s() >= most;
-        for (n, part) in columns::parts(14, &heads).into_iter().enumerate() {
-            if n > 0 {
-                writeln!(out)?;
-            }
-            let heads = &heads[part.clone()];
-            columns::line(out, "   impact  end", heads, heads.iter().map(|(name, _)| name.as_str()))?;
-            columns::line(out, "              ", heads, heads.iter().map(|(_, unit)| *unit))?;
-            for impact in self.answer.impacts.iter().filter(matters) {
-                let cells = cells(&impact, |x| time.figures(x), |x| speed.figures(x));
-                let first = format!("{:>9}  {:<3}", impact.number, impact.end);
-                columns::line(out, &first, heads, cells[part.start..].iter())?;
-            }
-        }
+        let row = |impact: Impact| {
+            let first = format!("{:>9}  {:<width$}", impact.number, impact.point(), width = point.len());
+            (first, cells(&impact, |x| time.figures(x), |x| speed.figures(x)))
+        };
+        columns::rows(out, &format!("   impact  {point}"), &heads, || {
+            self.answer.impacts.iter().filter(matters).map(row)
+        })?;
         let left: Vec<_> = self.answer.impacts.iter().filter(|impact| !matters(impact)).collect();
         let Some(last) = left.last() else { return Ok(()) };
         let most = left.iter().map(Impact::largest_m_s).fold(0.0, f64::max);
@@ -64,44 +49,60 @@ impl Drop<'_> {
         )
     }
 
+    /// Names the points that touch the ground, and the requested places.
+    fn places(&self) -> impl Iterator<Item = &str> {
+        let points = self.answer.drop.points().iter().copied();
+        points.chain(self.called.iter().map(String::as_str))
+    }
+
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (scene, shown) = (&self.scene, &self.setup.shown);
+        let (drop, shown) = (&self.answer.drop, &self.setup.shown);
         writeln!(out, "{}", self.physics())?;
-        let [qa, qb] = scene.body().inertia_ratios().map(figures);
-        let mass = match self.answer.center_of_mass.0 {
-            0.0 => format!("q = {qa}"),
-            s => format!("center of mass at {}: q = {qa} for strikes at end a, {qb} at end b", figures(s)),
+        let body = [Some(drop.body.length), drop.body.width, drop.body.thickness];
+        let sides = body.into_iter().flatten().map(|side| shown.length.given(neat(side.m())));
+        let radii: Vec<_> = drop.gyration_m().into_iter().map(|radius| shown.length.said(radius)).collect();
+        let radius = if radii.len() == 1 { "radius" } else { "radii" };
+        let centers: Vec<_> = drop.sides().iter().map(|side| 2.0 * side.center_m() / side.m()).collect();
+        let is_off = centers.iter().any(|s| *s != 0.0);
+        let center = centers.into_iter().map(figures).collect::<Vec<_>>().join(", ");
+        let center = if is_off { format!(", center of mass at {center}") } else { String::new() };
+        let ratios = self.answer.inertia_ratios.map(|ratios| ratios.map(|q| figures(q.0)));
+        let ratios = match ratios {
+            Some([a, b]) if is_off => format!(": q = {a} for strikes at end a, {b} at end b"),
+            Some([q, _]) => format!(", q = {q}"),
+            None => String::new(),
         };
-        let (length, gyration) =
-            (shown.length.given(self.answer.length_m.0), shown.length.said(scene.body().gyration_m()));
-        let thickness = match self.answer.thickness_m.0 {
+        writeln!(
+            out,
+            "Body of {}, {radius} of gyration {}{center}{ratios}; e = {}",
+            sides.collect::<Vec<_>>().join(" by "),
+            radii.join(", "),
+            given(drop.restitution)
+        )?;
+        let tilt = format!(", tilt {}", shown.tilt(neat(drop.tilt_rad.to_degrees())));
+        let tilt = if drop.is_level { tilt } else { String::new() };
+        let about = drop.spin_axis.map(|axis| format!(" about {}", axis.map(figures).join(", ")));
+        let spin = match drop.spin_rad_s {
             0.0 => String::new(),
-            thickness => format!(" by {}", shown.length.given(thickness)),
+            spin => format!(", turning at {}{}", shown.spin.given(spin), about.unwrap_or_default()),
         };
-        let e = given(scene.e());
-        writeln!(out, "Body of {length}{thickness}, radius of gyration {gyration}, {mass}; e = {e}")?;
-        let (speed, tilt, gap) = (
-            shown.speed.said(scene.speed_m_s()),
-            shown.tilt(self.answer.tilt_deg.0),
-            shown.length.said(scene.height_gap_m()),
-        );
-        let spin = match scene.spin_rad_s() {
-            0.0 => String::new(),
-            spin => format!(", turning at {}", shown.spin.given(spin)),
-        };
-        writeln!(out, "End a touches at {speed}, tilt {tilt}{spin}; end b is {gap} higher\n")
+        let (point, lowest, speed) = (drop.point(), drop.lowest(), shown.speed.said(drop.speed_m_s));
+        let higher = |(name, rise): (&str, f64)| format!("{point} {name} is {} higher", shown.length.said(rise));
+        let neighbors = drop.neighbors_m().into_iter().map(higher).collect::<Vec<_>>().join(", ");
+        let (initial, rest) = point.split_at(1);
+        writeln!(out, "{}{rest} {lowest} touches at {speed}{tilt}{spin}; {neighbors}\n", initial.to_uppercase())
     }
 
     fn totals(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (motion, time, speed) = (self.answer.impacts.motion(), self.setup.shown.time, self.setup.shown.speed);
-        let stop = match motion.stop {
+        let (answer, time, speed) = (&self.answer, self.setup.shown.time, self.setup.shown.speed);
+        let stop = match answer.stop {
             Stop::AtRest { .. } => "At rest at",
             Stop::BouncedClear { .. } => "Bounced clear at",
             Stop::TurnedOver { .. } => "Turned over at",
             Stop::ImpactLimit { .. } => "Stopped by limit at",
             _ => "Left at",
         };
-        let bounds = match motion.stop {
+        let bounds = match answer.stop {
             Stop::AtRest { time_bound_s, shock_bound_m_s, .. } if time_bound_s + shock_bound_m_s > 0.0 => {
                 let within = if time_bound_s.is_finite() {
                     format!("within {}; ", time.said(time_bound_s))
@@ -112,37 +113,31 @@ impl Drop<'_> {
             }
             _ => String::new(),
         };
-        let ends = ["Largest shock, end a".to_owned(), "               end b".to_owned()];
-        let names: Vec<_> =
-            ends.into_iter().chain(self.called.iter().map(|place| format!("               at {place}"))).collect();
+        let points = answer.drop.points().iter().map(|name| format!("{} {name}", answer.drop.point()));
+        let places = points.chain(self.called.iter().map(|place| format!("at {place}"))).enumerate();
+        let begins = |n: usize| if n == 0 { "Largest shock," } else { "" };
+        let names: Vec<_> = places.map(|(n, place)| format!("{:<14} {place}", begins(n))).collect();
         let wide = names.iter().map(String::len).max().unwrap_or(0).max(22);
-        writeln!(out, "{:<wide$}{:>14}", "Impacts", motion.strikes.len())?;
-        writeln!(out, "{stop:<wide$}{:>14} {}{bounds}", time.figures(motion.stop.time_s()), time.name())?;
-        for (name, shock) in names.iter().zip(self.largest().chain(self.largest_at())) {
-            writeln!(out, "{name:<wide$}{:>14} {}", speed.figures(shock), speed.name())?;
+        writeln!(out, "{:<wide$}{:>14}", "Impacts", answer.impacts.train().count())?;
+        writeln!(out, "{stop:<wide$}{:>14} {}{bounds}", time.figures(answer.stop.time_s()), time.name())?;
+        let largest = answer.largest_delta_v_m_s.iter().chain(&answer.largest_delta_v_at_m_s);
+        for (name, shock) in names.iter().zip(largest) {
+            writeln!(out, "{name:<wide$}{:>14} {}", speed.figures(shock.0), speed.name())?;
         }
         Ok(())
     }
 
-    /// Returns the largest velocity shock of each end.
-    fn largest(&self) -> impl Iterator<Item = f64> {
-        self.answer.largest_delta_v_m_s.iter().map(|shock| shock.0)
-    }
-
-    fn largest_at(&self) -> impl Iterator<Item = f64> {
-        self.answer.largest_delta_v_at_m_s.iter().map(|shock| shock.0)
-    }
-
     pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let until = if self.setup.model == Model::Compliant { ",until_s" } else { "" };
-        write!(out, "number,end,time_s{until},approach_m_s,delta_v_a_m_s,delta_v_b_m_s")?;
-        for s in &self.at {
-            write!(out, ",delta_v_at_{}_m_s", digits(*s))?;
+        let (drop, until) = (&self.answer.drop, if self.answer.energy_error.is_some() { ",until_s" } else { "" });
+        write!(out, "number,{},time_s{until},approach_m_s", drop.point())?;
+        drop.points().iter().try_for_each(|point| write!(out, ",delta_v_{point}_m_s"))?;
+        for at in &self.answer.at {
+            let at: Vec<_> = at.iter().take(drop.sides().len()).map(|s| digits(s.0)).collect();
+            write!(out, ",delta_v_at_{}_m_s", at.join("_"))?;
         }
         writeln!(out)?;
         for impact in self.answer.impacts.iter() {
-            let cells = cells(&impact, digits, digits).join(",");
-            writeln!(out, "{},{},{cells}", impact.number, impact.end)?;
+            writeln!(out, "{},{},{}", impact.number, impact.point(), cells(&impact, digits, digits).join(","))?;
         }
         Ok(())
     }
@@ -151,27 +146,13 @@ impl Drop<'_> {
 /// The cell of a shock that a limit has cut off.
 const UNFINISHED: &str = "unfinished";
 
-/// Returns the cells of a strike: time, end of the contact where it takes time, approach and shocks.
+/// Returns the cells of an impact: time, end of the contact where it takes time, approach and shocks.
 fn cells(impact: &Impact, time: impl Fn(f64) -> String, speed: impl Fn(f64) -> String) -> Vec<String> {
-    let Impact { time_s, until_s, approach_m_s, delta_v_m_s, delta_v_at_m_s, .. } = impact;
-    let shocks = delta_v_m_s.iter().chain(delta_v_at_m_s);
-    of_strike([*time_s, *approach_m_s], *until_s, shocks.copied(), time, speed)
-}
-
-/// Returns the cells of a strike of any body; a shock is none where the contact is unfinished.
-pub(super) fn of_strike(
-    [time_s, approach_m_s]: [Json; 2],
-    until_s: Option<Json>,
-    shocks: impl Iterator<Item = Option<Json>>,
-    time: impl Fn(f64) -> String,
-    speed: impl Fn(f64) -> String,
-) -> Vec<String> {
-    let mut shocks = shocks.map(|shock| shock.map_or_else(|| UNFINISHED.to_owned(), |shock| speed(shock.0))).peekable();
-    let unfinished = shocks.peek().is_some_and(|shock| shock == UNFINISHED);
-    let until = until_s.map(|until| if unfinished { UNFINISHED.to_owned() } else { time(until.0) });
+    let Impact { time_s, until_s, approach_m_s, delta_v_m_s, delta_v_at_m_s, unfinished, .. } = impact;
     let mut cells = vec![time(time_s.0)];
-    cells.extend(until);
+    cells.extend(until_s.map(|until| if *unfinished { UNFINISHED.to_owned() } else { time(until.0) }));
     cells.push(speed(approach_m_s.0));
-    cells.extend(shocks);
+    let shocks = delta_v_m_s.iter().chain(delta_v_at_m_s);
+    cells.extend(shocks.map(|shock| shock.map_or_else(|| UNFINISHED.to_owned(), |shock| speed(shock.0))));
     cells
 }
