@@ -175,8 +175,8 @@ fn overlapping_contacts_are_told() {
 }
 
 /// The answer, whatever is told beside it.
-fn simulated(arguments: Vec<String>) -> Value {
-    let outcome = clatter(arguments.into_iter().chain(["--format=json".to_owned()]));
+pub(crate) fn simulated(arguments: impl IntoIterator<Item = impl Into<String>>) -> Value {
+    let outcome = clatter(arguments.into_iter().map(Into::into).chain(["--format=json".to_owned()]));
     assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
     serde_json::from_str(&outcome.stdout).unwrap()
 }

@@ -91,11 +91,6 @@ fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), clatter::Erro
     }
 }
 
-/// Checks that all places lie on the plate.
-fn on_plate(places: &[[f64; 2]]) -> Result<(), clatter::Error> {
-    on_body(places.iter().flatten().copied())
-}
-
 /// Checks that all thresholds are in the bounds of velocities, so that no safe zone overflows.
 fn in_bounds(thresholds: &[f64]) -> Result<(), clatter::Error> {
     match thresholds.iter().find(|x| !(1e-150..=1e150).contains(*x)) {

@@ -130,9 +130,6 @@ impl Drop<'_> {
             Count::Huge(n) => figures(n),
             Count::Endless => "endless".to_owned(),
         };
-        let line = |out: &mut dyn Write, name: &str, value: &str, unit: &str| {
-            writeln!(out, "{}", format!("{name:<24}{value:>12} {unit}").trim_end())
-        };
         let rounded = !matches!(count, Count::Huge(_)) && !self.answer.count_exact;
         line(
             out,
@@ -204,6 +201,11 @@ impl Drop<'_> {
         }
         Ok(())
     }
+}
+
+/// Writes one of the totals.
+fn line(out: &mut dyn Write, name: &str, value: &str, unit: &str) -> io::Result<()> {
+    writeln!(out, "{}", format!("{name:<24}{value:>12} {unit}").trim_end())
 }
 
 /// Returns the numbers of an impact that are shown, column by column.

@@ -14,7 +14,7 @@
 use clatter::{Error, Plate, PlateCount, PlatePeak, PlateStart, PlateSummary};
 use serde::{Serialize, Serializer};
 
-use crate::{Json, on_plate};
+use crate::{Json, on_body};
 
 /// A plate and how it falls: corner a strikes first.
 #[derive(Debug, Clone)]
@@ -161,7 +161,7 @@ fn count<S: Serializer>(count: &PlateCount, serializer: S) -> Result<S::Ok, S::E
 /// A place off the plate.
 pub fn answer(question: &Question) -> Result<Answer<'_>, Error> {
     let Question { plate, start, at, limit } = question;
-    on_plate(at)?;
+    on_body(at.iter().flatten().copied())?;
     let PlateSummary { count, duration, peak, final_velocity, .. } =
         plate.summary(start, (*limit).max(FOLLOWED) as u64);
     let PlatePeak { corner, impact, struck, center, later, .. } = peak;

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use clatter::{Plate, PlateCount, PlateStart};
 use clatter_answer::impacts::plate::{self, Answer, Impact, Question};
 
-use super::Args;
+use super::{Args, line};
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, figures, given};
 use crate::{Failure, Streams, columns};
@@ -79,9 +79,6 @@ impl Drop<'_> {
             out,
             "Corner a strikes first, at {a} v0; b comes with {b} v0 from {hx} h0, d with {d} v0 from {hy} h0, c with {c} v0\n"
         )?;
-        let line = |out: &mut dyn Write, name: &str, value: &str, unit: &str| {
-            writeln!(out, "{}", format!("{name:<24}{value:>12} {unit}").trim_end())
-        };
         let (impacts, last) = match count {
             PlateCount::Finite(n) => (n.to_string(), "Last impact at"),
             PlateCount::Endless => ("endless".to_owned(), "Impacts tend to"),

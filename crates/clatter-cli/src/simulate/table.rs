@@ -72,13 +72,10 @@ impl Drop<'_> {
             Some([q, _]) => format!(", q = {q}"),
             None => String::new(),
         };
-        writeln!(
-            out,
-            "Body of {}, {radius} of gyration {}{center}{ratios}; e = {}",
-            sides.collect::<Vec<_>>().join(" by "),
-            radii.join(", "),
-            given(drop.restitution)
-        )?;
+        let (sides, radii) = (sides.collect::<Vec<_>>().join(" by "), radii.join(", "));
+        let e = given(drop.restitution);
+        let body = format!("Body of {sides}, {radius} of gyration {radii}{center}{ratios}; e = {e}");
+        columns::sentence(out, "", &body)?;
         let tilt = format!(", tilt {}", shown.tilt(neat(drop.tilt_rad.to_degrees())));
         let tilt = if drop.is_level { tilt } else { String::new() };
         let about = drop.spin_axis.map(|axis| format!(" about {}", axis.map(figures).join(", ")));
@@ -87,10 +84,15 @@ impl Drop<'_> {
             spin => format!(", turning at {}{}", shown.spin.given(spin), about.unwrap_or_default()),
         };
         let (point, lowest, speed) = (drop.point(), drop.lowest(), shown.speed.said(drop.speed_m_s));
-        let higher = |(name, rise): (&str, f64)| format!("{point} {name} is {} higher", shown.length.said(rise));
-        let neighbors = drop.neighbors_m().into_iter().map(higher).collect::<Vec<_>>().join(", ");
+        let higher = |(k, (name, rise)): (usize, (&str, f64))| {
+            let rise = shown.length.said(rise);
+            if k == 0 { format!("{point} {name} is {rise} higher") } else { format!("{name} {rise}") }
+        };
+        let neighbors = drop.neighbors_m().into_iter().enumerate().map(higher).collect::<Vec<_>>().join(", ");
         let (initial, rest) = point.split_at(1);
-        writeln!(out, "{}{rest} {lowest} touches at {speed}{tilt}{spin}; {neighbors}\n", initial.to_uppercase())
+        let touches = format!("{}{rest} {lowest} touches at {speed}{tilt}{spin}", initial.to_uppercase());
+        columns::sentence(out, "", &format!("{touches}; {neighbors}"))?;
+        writeln!(out)
     }
 
     fn totals(&self, out: &mut dyn Write) -> io::Result<()> {
