@@ -2,7 +2,7 @@
 
 use clatter_answer::simulate as simulate_of;
 use clatter_answer::{DropInputs, neat};
-use clatter_product::{Drop, Model};
+use clatter_product::Model;
 use pyo3::prelude::*;
 
 use crate::answered::{Answered, Drawing, json};
