@@ -17,7 +17,7 @@ use clatter_product::{Error, Model};
 /// let limit = &assessment.components[0].limits[0];
 /// let text = serde_json::to_string(&Case::of(&limit.worst_case.unwrap()))?;
 /// let again: Case = serde_json::from_str(&text)?;
-/// let allowed = clatter_assess::Limit::new(limit.limit, limit.allowed);
+/// let allowed = clatter_product::Limit::new(limit.limit, limit.allowed);
 /// let asked = answer(&again.drop, &again.part()?, &allowed, again.model, again.tolerance)?;
 /// assert_eq!(Some(asked.value), limit.demand);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

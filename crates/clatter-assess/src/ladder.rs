@@ -182,7 +182,7 @@ impl Ladder {
     /// let part = Part::new(0.06, None);
     /// let ladder = Ladder::measure(&drop, &part, &Limit::new(LimitKind::VelocityChange, 3.0), 0.01)?;
     /// assert!(ladder.models.last().is_some_and(|fullest| fullest.error < 0.01));
-    /// # Ok::<(), clatter_assess::Error>(())
+    /// # Ok::<(), clatter_product::Error>(())
     /// ```
     pub fn measure(drop: &Drop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
         let of = if drop.body.is_wide() {

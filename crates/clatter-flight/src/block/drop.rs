@@ -135,7 +135,7 @@ impl BlockDrop {
         self
     }
 
-    /// Returns the drop with this precision of its strikes and of what places feel, as a share; 1e−6 unless given.
+    /// Returns the drop with this precision of its strikes, as a share; 1e−6 unless given.
     ///
     /// The allowed error of a step is a hundredth of it, of depths over the deepest and of velocities over the fastest.
     ///
@@ -169,11 +169,6 @@ impl BlockDrop {
     #[must_use]
     pub fn speed_m_s(&self) -> f64 {
         self.speed
-    }
-    /// Returns the precision of its strikes and of what places feel.
-    #[must_use]
-    pub fn precision(&self) -> f64 {
-        self.precision
     }
     /// Returns the limit of time since the first touch.
     #[must_use]

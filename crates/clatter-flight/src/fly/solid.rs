@@ -45,9 +45,10 @@ fn lines(precision: f64) -> u32 {
 }
 
 impl BlockMotion {
-    pub(crate) fn new(drop: &BlockDrop, contacts: &[Contact; 8]) -> Result<Self, Error> {
+    /// Follows a drop; what places feel is straight lines to a precision.
+    pub(crate) fn new(drop: &BlockDrop, contacts: &[Contact; 8], precision: f64) -> Result<Self, Error> {
         let (mut times_s, mut felt, mut upward, mut pressed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let lines = lines(drop.precision());
+        let lines = lines(precision);
         let (block, from, mut lean) = (drop.block(), drop.upward(), 0.0_f64);
         let flight = drop.own_contacts(contacts, |step| {
             lean = lean.max(block.lean(step.upward(1.0), from));
@@ -238,7 +239,7 @@ mod tests {
     #[test]
     fn the_next_landing_is_within_what_is_told() {
         let (drop, contact, own) = flat();
-        let motion = BlockMotion::new(&drop.with_time_limit_s(0.02).unwrap(), &contact).unwrap();
+        let motion = BlockMotion::new(&drop.with_time_limit_s(0.02).unwrap(), &contact, 1e-3).unwrap();
         // Gravity works during the contact, by a thousandth.
         assert!((motion.center_m_s / (1.6 * 0.6 * 2.0) - 1.0).abs() < 5e-3, "{}", motion.center_m_s);
         // Four springs at once, each of a lone contact at a corner.
@@ -263,7 +264,7 @@ mod tests {
             let contacts = [Contact::new(ContactLaw::Hysteretic, 0.2 + 0.3 * x(11), 4e-4).unwrap(); 8];
             let most = |precision: f64| {
                 let drop = BlockDrop::upright(block, up, 4.4, 9.81).unwrap().with_precision(precision).unwrap();
-                let motion = BlockMotion::new(&drop.with_time_limit_s(4e-3).unwrap(), &contacts).unwrap();
+                let motion = BlockMotion::new(&drop.with_time_limit_s(4e-3).unwrap(), &contacts, precision).unwrap();
                 let felt = motion.felt([0.03, 0.01, 0.004], Axis::Z);
                 let pushed = felt.sections().filter(|section| !section.free);
                 pushed
@@ -281,7 +282,7 @@ mod tests {
     #[test]
     fn strikes_that_are_cut_off_leave_the_energy_of_the_drop() {
         let (drop, contact, _) = flat();
-        let motion = BlockMotion::new(&drop.with_impact_limit(3), &contact).unwrap();
+        let motion = BlockMotion::new(&drop.with_impact_limit(3), &contact, 1e-3).unwrap();
         assert!((motion.center_m_s / (1.6 * 2.0) - 1.0).abs() < 1e-3, "{}", motion.center_m_s);
     }
 
