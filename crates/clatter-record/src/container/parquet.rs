@@ -2,6 +2,29 @@
 //!
 //! Source: Apache Parquet format 2.11. Metadata and heads of pages are read by a crate; the pages of numbers are read
 //! here, within bounds, and unpacked by codecs that are Rust alone.
+//!
+//! The crates `parquet` and `arrow-ipc` 60.1 were tried in place of this module and `arrow`. The tests of torn files
+//! refuse them: a file from outside may end the program or take memory without bound. Arrow alone does not panic if its
+//! buffers are checked first, but needs C and licenses that are not allowed as well.
+//!
+//! | | here | `parquet`, `arrow-ipc` |
+//! |---|---|---|
+//! | lines, with `stored` and `codec` | 1345 | 525 |
+//! | packages in Cargo.lock | 251 | 286 |
+//! | processor time to build the crate from clean | 151 s | 470 s |
+//! | panics in torn variants of each Parquet file of the tests | 0 of 2000 | up to 27 of 20 000 |
+//! | memory for a page that tells a length | rows × (width + 8) B + 64 KiB | 2.1 GB for a file of 179 B |
+//! | memory for 4 MB of gzip that hold 4 GiB | the same | 5.4 GB |
+//! | Arrow buffer of LZ4 that tells 2⁶² bytes | refused | the program aborts |
+//! | checksums of pages | written and checked | checked alone |
+//! | Arrow in the order of big-endian machines | read | refused by its reader of files |
+//! | Zstandard | Rust | C, which needs clang for `wasm32` |
+//! | licenses | allowed | CC0-1.0 (`tiny-keccak`) is not |
+//! | time to read 10⁶ rows of 3 columns: plain, Snappy, Zstandard, gzip, LZ4 | 1 | 0.98, 0.73, 0.28, 0.90, 0.22 |
+//! | the same of Arrow: plain, LZ4, Zstandard | 1 | 1.61, 1.34, 0.36 |
+//! | time to write, to read a shard of 10⁶ rows of 20 columns | 1, 1 | 0.72 without checksums, 0.30 |
+//!
+//! The page holds no reader of either kind. Times are medians of five pairs.
 
 mod encoding;
 mod groups;
