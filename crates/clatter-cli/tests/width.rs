@@ -60,7 +60,13 @@ fn no_table_is_wider_than_a_hundred_columns() {
         vec!["help"],
     ];
     commands.push([&["impacts", "--q=0.5", "--e=0.3"][..], &places].concat());
-    commands.push([&["simulate", "--model=compliant", "--contact-time=0.4ms"][..], &drop, &places].concat());
+    let simulated = ["simulate", "--model=compliant", "--contact-time=0.4ms"];
+    commands.push([&simulated[..], &drop, &places].concat());
+    let drop = ["--length=140mm", "--width=70mm", "--e=0.3", "--height=1m", "--tilt=5deg", "--direction=40deg"];
+    let plate = ["--gyration=40mm,20mm", "--center-of-mass=0.123456,-0.03", "--at=0,0.5", "--spin-rad-s=1.2345,-2"];
+    commands.push([&simulated[..], &drop, &plate].concat());
+    let thick = ["--thickness=20mm", "--gyration=20.5mm,41mm,44mm", "--center-of-mass-m=0.01,-0.002,0.001"];
+    commands.push([&simulated[..], &drop, &thick, &["--at=0,0.5,-1", "--spin-rad-s=1.2345,-2,0.3"]].concat());
     for command in commands {
         let text = said(&command);
         for line in text.lines().filter(|line| !line.starts_with("  clatter respond ")) {
