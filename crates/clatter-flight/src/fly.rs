@@ -129,13 +129,9 @@ impl Followed {
                     Until::Past(time_s) => time_s.max(clatter_s),
                     Until::Rebounded | Until::Over => drop.settled_s(),
                 };
-                // Each press multiplies what is off before it: what is answered, and not only looked for, is followed more exactly.
-                let to_look = matches!(until, Until::Lands | Until::Rebounded);
-                let block = drop.block_drop()?;
-                let block = if to_look { block.with_precision(precision)? } else { block };
-                let block = block.with_time_limit_s(until_s)?.with_impact_limit(PRESSES_OF_BOX);
+                let block = drop.block_drop()?.with_time_limit_s(until_s)?.with_impact_limit(PRESSES_OF_BOX);
                 let block = if until == Until::Rebounded { block.with_enough(LATE) } else { block };
-                (Course::Solid(BlockMotion::new(&block, &drop.contacts_of_block()?, precision)?), 0.0)
+                (Course::Solid(BlockMotion::new(&block, &drop.contacts_of_block()?)?), 0.0)
             }
             (Engine::Level, feet, Some(width)) => {
                 let scene = drop.plate_scene(width)?.with_impact_limit(MOST_STRIKES);
@@ -174,14 +170,14 @@ impl Followed {
         Ok(followed)
     }
 
-    /// Follows a drop of a plate as one of the box that it is at real tilt, to a tolerance, until a time. The corners of its bottom alone land, however far
+    /// Follows a drop of a plate as one of the box that it is at real tilt, until a time. The corners of its bottom alone land, however far
     /// they sink in.
     ///
     /// # Errors
     /// [`Error::ContactTime`] and [`Error::NoBox`], and others for a box that is not followed so.
-    pub fn as_block(drop: &Drop, tolerance: f64, until_s: f64) -> Result<Self, Error> {
+    pub fn as_block(drop: &Drop, until_s: f64) -> Result<Self, Error> {
         let block = drop.block_drop()?.with_time_limit_s(until_s)?;
-        let motion = BlockMotion::new(&block, &drop.contacts_of_block()?, PRECISION * tolerance)?;
+        let motion = BlockMotion::new(&block, &drop.contacts_of_block()?)?;
         let largest_m_s = motion.flight.largest_m_s();
         Ok(Self { drop: *drop, motion: Course::Solid(motion), precision: 0.0, is_early: false, largest_m_s })
     }

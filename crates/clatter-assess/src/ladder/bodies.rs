@@ -23,7 +23,7 @@ pub(super) fn compared(drop: &Drop, part: &Part, limit: &Limit, tolerance: f64) 
     };
     let until_s = (BEYOND_PEAK * peak.time_s).max(drop.clatter_s());
     let until = |drop: &Drop| by_contacts(drop, Until::Past(until_s));
-    let as_block = || if drop.is_solid() { until(drop) } else { Ok(Followed::as_block(drop, tolerance, until_s)?) };
+    let as_block = || if drop.is_solid() { until(drop) } else { Ok(Followed::as_block(drop, until_s)?) };
     let (model, exact, worked_out) = match as_block().and_then(|block| of_followed(&block, part, limit)) {
         _ if drop.is_solid() => (Rung::Block, peak, BLOCK),
         Ok(block) => (Rung::Block, block, BLOCK),

@@ -43,7 +43,7 @@ const LARGEST_ERROR: f64 = 0.05;
 /// It is a picture and no proof: a worst case lies between drops.
 ///
 /// # Errors
-/// Data that product files do not allow, a file of more than the drops of one bar, a restitution outside 0 to 1.
+/// Data that product files do not allow, plates and boxes, contacts of their own, a restitution outside 0 to 1.
 pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, Error> {
     file.check()?;
     file.check_bar("the plane of q and e")?;

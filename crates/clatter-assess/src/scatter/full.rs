@@ -76,7 +76,7 @@ impl<'a> FollowedDrops<'a> {
         let lands_s = self.swing_s.max(drop.clatter_s());
         let on_bottom = |error| {
             let boxed = self.boxed.as_ref().ok_or(error)?;
-            Ok(Followed::as_block(self.drop, TOLERANCE, lands_s)?.left_early(boxed))
+            Ok(Followed::as_block(self.drop, lands_s)?.left_early(boxed))
         };
         let of_part = |followed: &Result<Followed, Error>| {
             let followed = followed.as_ref().map_err(Clone::clone)?;

@@ -182,7 +182,7 @@ impl Ranges<'_> {
         let of = |place: &Coordinates| -> Result<f64, Error> {
             let drop = self.single(place);
             let until_s = (BEYOND_PEAK * at.answer.time_s).max(drop.clatter_s());
-            let followed = Followed::as_block(&drop, self.tolerance, until_s)?;
+            let followed = Followed::as_block(&drop, until_s)?;
             followed.check_depth()?;
             let part = Candidate { place: *place, ..*at }.part_there(task.component);
             Ok(of_followed(&followed, &part, &task.limit)?.utilization())

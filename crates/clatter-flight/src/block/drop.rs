@@ -6,9 +6,6 @@ use super::Block;
 use super::system::{cross, dot};
 use crate::scene::within;
 
-/// The precision of a flight unless given.
-const PRECISION: f64 = 1e-6;
-
 /// A box at the moment when its lowest corner touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlockDrop {
@@ -21,7 +18,6 @@ pub struct BlockDrop {
     pub(super) time_limit: f64,
     pub(super) impact_limit: usize,
     pub(super) enough: f64,
-    pub(super) precision: f64,
 }
 
 impl BlockDrop {
@@ -86,7 +82,6 @@ impl BlockDrop {
             time_limit: f64::INFINITY,
             impact_limit: 100_000,
             enough: 0.0,
-            precision: PRECISION,
         })
     }
 
@@ -133,18 +128,6 @@ impl BlockDrop {
     pub fn with_impact_limit(mut self, impacts: usize) -> Self {
         self.impact_limit = impacts.max(1);
         self
-    }
-
-    /// Returns the drop with this precision of its strikes, as a share; 1e−6 unless given.
-    ///
-    /// The allowed error of a step is a hundredth of it, of depths over the deepest and of velocities over the fastest.
-    ///
-    /// # Errors
-    /// [`Error::Quantity`] unless in [1e−8, 0.1].
-    pub fn with_precision(mut self, precision: f64) -> Result<Self, Error> {
-        within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
-        self.precision = precision;
-        Ok(self)
     }
 
     /// Returns the drop with an earlier end: where the remaining energy lets later presses change the velocity of no

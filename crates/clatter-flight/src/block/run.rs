@@ -9,8 +9,9 @@ use crate::Error;
 use crate::contact::{Contact, alike};
 use crate::flight::Stop;
 
-/// Allowed error of a step over the precision of the flight: depths over the deepest, velocities over the fastest.
-const OF_STEP: f64 = 0.01;
+/// Allowed error of a step: depths over the deepest, velocities over the fastest. Peaks of parts are then within some
+/// 1e−6.
+const TOLERANCE: f64 = 1e-8;
 /// Samples of a step among which events are searched.
 const SAMPLES: u32 = 8;
 /// Halvings of the time of an event: to the last bit of a share.
@@ -157,8 +158,8 @@ impl BlockDrop {
     /// thousandth of the largest approach, or than the weight does in some contact times.
     ///
     /// # Accuracy
-    /// Steps are wrong by a hundredth of the precision of the drop, of depths and velocities: 1e−8 unless given. Peaks of parts then
-    /// differ from an independent integration by 1e−5 (`tests/block`).
+    /// Steps are wrong by 1e−8 of depths and velocities; peaks of parts differ from an independent integration by 1e−5
+    /// (`tests/block`).
     /// The restitution of a hysteretic contact is [`LEAST_OF_BLOCKS`] at least.
     ///
     /// # Errors
@@ -377,11 +378,10 @@ impl<'a> Run<'a> {
         let turn = 0.25 / dot(spin, spin).sqrt();
         let fall = 0.1 * (self.drop.block.reach() / self.drop.gravity).sqrt();
         let apart = 0.1 * self.drop.block.reach() / self.drop.speed;
-        let tolerance = OF_STEP * self.drop.precision;
         let mut h = self.stride.min(turn).min(fall.min(apart)).min(left);
         let step = loop {
             let step = Step::new(&self.y, h, |y| self.system.slope(y));
-            let over = (0..SIZE).map(|i| step.error[i].abs() / (tolerance * self.scales[i])).fold(0.0, f64::max);
+            let over = (0..SIZE).map(|i| step.error[i].abs() / (TOLERANCE * self.scales[i])).fold(0.0, f64::max);
             // Below this error the factor exceeds the largest growth of the stride.
             let factor = if over < 1e-4 { 5.0 } else { 0.9 * libm::pow(over, -0.2) };
             if over <= 1.0 {

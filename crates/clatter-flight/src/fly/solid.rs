@@ -36,24 +36,17 @@ pub struct Push {
     pub peak_m_s2: f64,
 }
 
-/// Returns the straight lines in a step of a box: steps get longer by the fifth root of what they may be off by, and the velocity change
-/// by straight lines is off by the square of their length: by 0.7 of the precision at the median, 1.2 of it at most in first landings.
-fn lines(precision: f64) -> u32 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "4 to 64")]
-    let lines = (4.0 * libm::pow(1e-3 / precision, 0.3)).clamp(4.0, 64.0).round() as u32;
-    lines
-}
+/// Straight lines in a step of a box, which is a small part of a contact.
+const LINES: u32 = 4;
 
 impl BlockMotion {
-    /// Follows a drop; what places feel is straight lines to a precision.
-    pub(crate) fn new(drop: &BlockDrop, contacts: &[Contact; 8], precision: f64) -> Result<Self, Error> {
+    pub(crate) fn new(drop: &BlockDrop, contacts: &[Contact; 8]) -> Result<Self, Error> {
         let (mut times_s, mut felt, mut upward, mut pressed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let lines = lines(precision);
         let (block, from, mut lean) = (drop.block(), drop.upward(), 0.0_f64);
         let flight = drop.own_contacts(contacts, |step| {
             lean = lean.max(block.lean(step.upward(1.0), from));
-            for k in 0..=lines {
-                let share = f64::from(k) / f64::from(lines);
+            for k in 0..=LINES {
+                let share = f64::from(k) / f64::from(LINES);
                 times_s.push(step.from_s + share * step.length_s);
                 felt.push(step.felt_everywhere(share));
                 upward.push(step.upward(share));
@@ -239,7 +232,7 @@ mod tests {
     #[test]
     fn the_next_landing_is_within_what_is_told() {
         let (drop, contact, own) = flat();
-        let motion = BlockMotion::new(&drop.with_time_limit_s(0.02).unwrap(), &contact, 1e-3).unwrap();
+        let motion = BlockMotion::new(&drop.with_time_limit_s(0.02).unwrap(), &contact).unwrap();
         // Gravity works during the contact, by a thousandth.
         assert!((motion.center_m_s / (1.6 * 0.6 * 2.0) - 1.0).abs() < 5e-3, "{}", motion.center_m_s);
         // Four springs at once, each of a lone contact at a corner.
@@ -252,37 +245,11 @@ mod tests {
         );
     }
 
-    /// What a place feels is as exact as asked: the velocity change by the pushes of the first landing, against a flight that is a hundred
-    /// times as exact, which independent integrations hold to 1e−5.
-    #[test]
-    fn what_a_place_feels_follows_the_precision() {
-        let block = Block::new([0.16, 0.075, 0.02], [0.0; 3], [0.022, 0.047, 0.051]).unwrap();
-        for k in 0..24_u32 {
-            let x = |n: u32| f64::from((k * n + 7) % 61) / 61.0;
-            let up = [[0.0, 0.0, 1.0], [0.98, 0.0, 0.2], [0.0, 0.6, 0.8], [0.5, 0.5, 0.7]][(k % 4) as usize];
-            let up = crate::turned_off(up, 0.02 + 0.08 * x(5), std::f64::consts::TAU * x(17));
-            let contacts = [Contact::new(ContactLaw::Hysteretic, 0.2 + 0.3 * x(11), 4e-4).unwrap(); 8];
-            let most = |precision: f64| {
-                let drop = BlockDrop::upright(block, up, 4.4, 9.81).unwrap().with_precision(precision).unwrap();
-                let motion = BlockMotion::new(&drop.with_time_limit_s(4e-3).unwrap(), &contacts, precision).unwrap();
-                let felt = motion.felt([0.03, 0.01, 0.004], Axis::Z);
-                let pushed = felt.sections().filter(|section| !section.free);
-                pushed
-                    .map(|section| 0.5 * section.length * (section.acceleration[0] + section.acceleration[1]))
-                    .sum::<f64>()
-            };
-            for precision in [1e-3, 1e-4] {
-                let off = most(precision) / most(1e-2 * precision) - 1.0;
-                assert!(off.abs() < 2.0 * precision, "{k}: {off} at {precision}");
-            }
-        }
-    }
-
     /// After three of four corners all of its energy is left, but for what they have lost in the first hundredth of their contact.
     #[test]
     fn strikes_that_are_cut_off_leave_the_energy_of_the_drop() {
         let (drop, contact, _) = flat();
-        let motion = BlockMotion::new(&drop.with_impact_limit(3), &contact, 1e-3).unwrap();
+        let motion = BlockMotion::new(&drop.with_impact_limit(3), &contact).unwrap();
         assert!((motion.center_m_s / (1.6 * 2.0) - 1.0).abs() < 1e-3, "{}", motion.center_m_s);
     }
 
