@@ -12,6 +12,7 @@ mod design;
 mod examples;
 mod feet;
 mod independent;
+mod inputs;
 mod late;
 mod limits;
 mod missed;

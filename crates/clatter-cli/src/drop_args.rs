@@ -272,7 +272,7 @@ impl DropArgs {
             Input::ContactTime => self.contact_time().is_some() || is_instant,
             Input::Gyration => beside.gyration.is_some() || !beside.masses.is_empty(),
             Input::Spin => beside.spin_rad_s.is_some(),
-            _ => false,
+            Input::First => beside.first.is_some(),
         })
     }
 

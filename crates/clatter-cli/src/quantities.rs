@@ -3,7 +3,7 @@
 use clatter::{Mass, Start, center_and_gyration};
 pub(crate) use clatter_answer::neat;
 use clatter_product::{
-    Slip, outside,
+    Drop, Input, Optional, Row, Slip, optional_inputs, outside,
     units::{ACCELERATION, ANGLE, Dimension, FREQUENCY, LENGTH, MASS, Quantity, SPEED, TIME, Unit},
 };
 
@@ -350,6 +350,19 @@ pub(crate) struct Shown {
 }
 
 impl Shown {
+    /// Writes the inputs that a drop may be without, each after a comma; the values as `rounded` has them.
+    pub(crate) fn optional(&self, drop: &Drop, rounded: impl Fn(f64) -> f64) -> String {
+        let told = |(row, optional): (&Row, Optional)| {
+            let value = row.input.value(drop).filter(|value| !optional.is_left_out(*value))?;
+            let (show, about) = match row.input {
+                Input::Spin => (self.spin, drop.spin_axis),
+                _ => (Show { unit: None, name: row.unit }, None),
+            };
+            let about = about.map(|axis| format!(" about {}", axis.map(figures).join(", ")));
+            Some(format!(", {} {}{}", optional.phrase, show.given(rounded(value)), about.unwrap_or_default()))
+        };
+        optional_inputs().filter_map(told).collect()
+    }
     /// Writes a tilt that is given in degrees.
     pub(crate) fn tilt(&self, degrees: f64) -> String {
         match self.angle.filter(|unit| unit.name == "rad") {

@@ -181,7 +181,13 @@ const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
 /// The arguments that describe a drop, except those of a product file.
-const OF_ONE_DROP: [&str; 30] = [
+const OF_ONE_DROP: [&str; 36] = [
+    "at_m",
+    "axis",
+    "feet_m",
+    "flat",
+    "orientation",
+    "center_of_mass_m",
     "spin_rad_s",
     "first",
     "at",
@@ -369,4 +375,30 @@ impl Args {
 /// Rounds a number to six digits.
 fn six(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, Command};
+
+    use super::*;
+
+    /// The worst drop of a product has all of its inputs: none that is typed beside it would count.
+    #[test]
+    fn no_input_of_a_drop_goes_with_the_worst() {
+        let mut command = Args::augment_args(Command::new("respond"));
+        command.build();
+        let of = |id: &str| command.get_arguments().find(|arg| arg.get_id() == id).expect("an argument");
+        let refuses = |one: &str, other: &str| {
+            let conflicts =
+                |one, other| command.get_arg_conflicts_with(of(one)).iter().any(|arg| arg.get_id() == other);
+            conflicts(one, other) || conflicts(other, one)
+        };
+        let beside =
+            ["product", "component", "worst", "tolerance", "model", "format", "equivalent_pulse", "shock_table"];
+        for id in command.get_arguments().map(|arg| arg.get_id().as_str()) {
+            let is_refused = refuses(id, "worst") || refuses(id, "product");
+            assert!(is_refused || beside.contains(&id) || ["help", "output"].contains(&id), "--worst takes --{id}");
+        }
+    }
 }

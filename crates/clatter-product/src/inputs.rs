@@ -10,7 +10,6 @@ use crate::{DropRanges, Fall, Product, Spread};
 
 /// An input of a drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Input {
     /// The end that touches first: either is as likely.
     First,
@@ -317,6 +316,32 @@ impl Search {
     }
 }
 
+/// The uniform numbers of a sample that are kept for the inputs of a product, with room for others, so that they move no number of these.
+pub const NUMBERS_OF_ALL: u32 = 16;
+/// The same of one of several drops.
+pub const NUMBERS_OF_DROP: u32 = 8;
+const _: () = {
+    let mut row = 0;
+    while row < INPUTS.len() {
+        let (all, own) = INPUTS[row].numbers;
+        assert!(all < NUMBERS_OF_ALL);
+        if let Some(own) = own {
+            assert!(own < NUMBERS_OF_DROP);
+        }
+        row += 1;
+    }
+};
+
+/// The number of axes of a search: those of [`INPUTS`], of the natural frequency and the damping ratio of a part, and of the direction.
+pub const AXES: usize = {
+    let (mut row, mut axes) = (0, 3);
+    while row < INPUTS.len() {
+        axes += INPUTS[row].search.is_some() as usize;
+        row += 1;
+    }
+    axes
+};
+
 /// Returns the inputs that a file may leave out.
 pub fn optional_inputs() -> impl Iterator<Item = (&'static Row, Optional)> {
     INPUTS.iter().filter_map(|row| row.optional.map(|optional| (row, optional)))
@@ -346,12 +371,14 @@ mod tests {
         assert_eq!(own.len(), others().filter(|row| row.numbers.1.is_some()).count());
     }
 
-    /// A value that is put into a drop is the value that it has, and the row stands for a key of the file.
+    /// A value that is put into a drop is the value that it has, and is searched, as else an assessment would not see its range; the row
+    /// stands for a key of the file.
     #[test]
     fn what_is_set_is_told() {
         let mut drop = Drop { contact_time_s: None, ..Drop::new(Body::new(0.15, 0.04).unwrap(), 3.0, 0.1, 0.4) };
         for row in INPUTS.iter().filter(|row| row.input != Input::Height) {
             let Some(set) = row.set else { continue };
+            assert!(row.search.is_some(), "{} is drawn and not searched", row.name);
             set(&mut drop, 0.05);
             assert_eq!(row.input.value(&drop).map(f64::to_bits), Some(0.05_f64.to_bits()), "{}", row.name);
         }

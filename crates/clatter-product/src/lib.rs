@@ -62,7 +62,9 @@ pub use component::{Component, Damping, Inside, Limits, Mount, places};
 pub use data_fault::DataFault;
 pub use error::Error;
 pub use fault::{Fault, Faults};
-pub use inputs::{INPUTS, Input, Optional, Row, Search, optional_inputs, searched};
+pub use inputs::{
+    AXES, INPUTS, Input, NUMBERS_OF_ALL, NUMBERS_OF_DROP, Optional, Row, Search, optional_inputs, searched,
+};
 pub use model::Model;
 pub use product::{DropName, DropRanges, Fall, First, Landing, Listed, Product, ProductFile, RecordFile};
 pub use quantity::{Limit, LimitKind, ResponsePeak, Source, Unit};

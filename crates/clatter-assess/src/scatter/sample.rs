@@ -10,8 +10,8 @@ use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, PlateAs};
 use clatter_product::{
-    Base, Component, Damping, Error, INPUTS, Input, Inside, Law, Limit, LimitKind, Listed, Mount, Product, ProductFile,
-    Source, Spread, places,
+    Base, Component, Damping, Error, INPUTS, Input, Inside, Law, Limit, LimitKind, Listed, Mount, NUMBERS_OF_ALL,
+    NUMBERS_OF_DROP, Product, ProductFile, Source, Spread, places,
 };
 
 /// An input that varies from sample to sample; parts are given by their index in the file.
@@ -82,14 +82,12 @@ impl Varied {
     /// Returns which of the uniform numbers of a sample it is drawn from, whatever else is drawn. There is room for other inputs and kinds
     /// of limits, so that they move no number of these.
     fn number(self) -> u32 {
-        const SHARED: u32 = 16;
         const OWN: u32 = 32;
         /// Beyond the last part.
         const LANDINGS: u32 = 1 << 20;
-        const OF_LANDING: u32 = 8;
         let own = match self {
             #[expect(clippy::cast_possible_truncation, reason = "a list has some tens of drops")]
-            Self::Drop(input, Some(n)) => return LANDINGS + OF_LANDING * n as u32 + input.number(true),
+            Self::Drop(input, Some(n)) => return LANDINGS + NUMBERS_OF_DROP * n as u32 + input.number(true),
             Self::Drop(input, None) => return input.number(false),
             Self::Frequency(_) => 0,
             Self::Damping(_) => 1,
@@ -100,7 +98,7 @@ impl Varied {
         };
         #[expect(clippy::cast_possible_truncation, reason = "a file has at most 1000 parts")]
         let component = self.component().unwrap_or_default() as u32;
-        SHARED + OWN * component + own
+        NUMBERS_OF_ALL + OWN * component + own
     }
 }
 
@@ -187,12 +185,13 @@ pub(super) struct PartSample {
 }
 
 impl DropInputs {
-    /// Returns whether it is tilted by a range of angles, or turns.
+    /// Returns whether it is tilted by a range of angles, or has an input that a file may leave out, such as a spin, which acts towards a
+    /// side.
     fn turns(&self) -> bool {
         let varies = |(input, drawn): &(Input, Drawn)| match input {
             Input::Tilt => drawn.input.is_some(),
-            Input::Spin => true,
-            _ => false,
+            // One that is left out is not among them.
+            _ => input.row().optional.is_some(),
         };
         self.own.iter().any(varies)
     }
@@ -304,7 +303,7 @@ impl Inputs {
         }
         let mut shared = Vec::new();
         for row in INPUTS.iter().filter(|row| !row.input.is_of_drop()) {
-            let given = row.input.given(product, drop);
+            let given = row.input.given(product, drop).filter(|_| row.input.is_there(product, drop));
             // The body has its own radius of gyration.
             let varies = |given: &Spread| row.input != Input::Gyration || !given.is_value();
             if let Some(given) = given.filter(varies) {
@@ -406,7 +405,9 @@ impl Inputs {
     pub(super) fn quantities(&self) -> Vec<Column> {
         let is_plate = self.drops[0].direction.is_some();
         let mut all = self.falls();
-        let has = |input: Input| input.value(&self.drop).is_some();
+        let is_drawn = |input: Input| self.shared.iter().any(|(drawn, _)| *drawn == input);
+        let has =
+            |input: Input| input.value(&self.drop).is_some() && (input.row().optional.is_none() || is_drawn(input));
         let shared = INPUTS.iter().map(|row| row.input).filter(|input| !input.is_of_drop() && has(*input));
         all.extend(shared.map(|input| Column::Drop(input, None)));
         for (i, part) in self.parts.iter().enumerate() {

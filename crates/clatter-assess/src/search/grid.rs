@@ -6,18 +6,15 @@ use super::budgets::{
     ALONG_EDGE, AROUND, AROUND_FACE, DROPS_OF_PLATE, LINES, LINES_A_QUARTER, OVERLAPS, OVERLAPS_A_QUARTER,
     PART_OF_CONTACT, PHASE, TILTS, TILTS_OF_FACE, TURNED_AT, TURNED_NEXT_TO_FLAT,
 };
-use super::ranges::{
-    AXES, CONTACT, Coordinates, DAMPING, DIRECTION, FREQUENCY, RESTITUTION, Ranges, SPEED, SPIN, TILT,
-};
+use super::ranges::{AXES, CONTACT, Coordinates, DAMPING, DIRECTION, FREQUENCY, RESTITUTION, Ranges, SPEED, TILT};
 use clatter::End;
 
 use super::{GOLDEN, Task};
-use clatter_product::{Mount, searched};
+use clatter_product::{Mount, Row, Search, searched};
 
 const SQRT_3: f64 = 1.732_050_807_568_877;
 const SQRT_7: f64 = 2.645_751_311_064_59;
 const SQRT_11: f64 = 3.316_624_790_355_4;
-const SQRT_13: f64 = 3.605_551_275_463_989;
 /// The places of the drops of the grid along a range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Level {
@@ -143,11 +140,13 @@ impl Ranges<'_> {
     }
 
     /// Returns drops of a box all around its posture: as it should land, and turned off that by all of its tolerance and by less, the ends
-    /// of the other ranges in turn, all of it at each end of the range of the spin and over it. Off a face they are closer; off an edge
-    /// along it, where its corners land one after the other.
+    /// of the other ranges in turn, all of it at each end of the ranges of the inputs that a file may leave out and over them. Off a face
+    /// they are closer; off an edge along it, where its corners land one after the other.
     fn around(&self) -> Vec<Coordinates> {
-        let (levels, spins) = (self.levels(), self.spins().len());
-        let of_spin = levels.len() / spins;
+        let levels = self.levels();
+        let optional = searched().filter(|(row, _)| row.optional.is_some());
+        let turns: usize = optional.map(|(row, search)| self.levels_of(row, search).len()).product();
+        let of_turn = levels.len() / turns;
         let count = self.faces();
         let (around, tilts) = if count == 1 { (AROUND_FACE, &TILTS_OF_FACE[..]) } else { (AROUND, &[1.0, 0.7][..]) };
         let share = |k: u32, of: u32| f64::from(k) / f64::from(of);
@@ -155,43 +154,50 @@ impl Ranges<'_> {
         let along = if count == 2 { ALONG_EDGE } else { 0 };
         let off = off.chain((1..=along).flat_map(|k| [0.0, 0.5].map(|direction| (share(k, along), direction))));
         let all = [(0.0, 0.0)].into_iter().chain(off).enumerate();
-        let of = |spin: usize, k: usize, (tilt, direction): (f64, f64)| {
-            let level = levels[spin * of_spin + k % of_spin];
+        let of = |turn: usize, k: usize, (tilt, direction): (f64, f64)| {
+            let level = levels[turn * of_turn + k % of_turn];
             let mut shares = shares(&level, k);
             let speed = if k % 4 == 3 { (SQRT_7 * f64::from(u32::try_from(k).unwrap_or(0))).fract() } else { 1.0 };
             (shares[TILT], shares[SPEED], shares[DIRECTION]) = (tilt, speed, direction);
             Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
         };
         let all: Vec<_> = all.collect();
-        (0..spins)
-            .flat_map(|spin| all.iter().map(move |(k, at)| (spin, *k, *at)))
+        (0..turns)
+            .flat_map(|turn| all.iter().map(move |(k, at)| (turn, *k, *at)))
             .map(|(n, k, at)| of(n, k, at))
             .collect()
     }
 
-    /// Returns the ends of the range of the spin, the faster one first, and values all over it.
-    fn spins(&self) -> Vec<Level> {
-        let spin = &self.drop.spin_rad_s;
-        match spin.hi() > -spin.lo() {
-            _ if spin.is_value() => vec![Level::At(0.0)],
-            true => vec![Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_13)],
-            false => vec![Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_13)],
+    /// Returns the ends of the range of an input, the one that lines begin with first, and values all over it. Of an input that a file may
+    /// leave out the end that is farther from the value without comes first.
+    fn levels_of(&self, row: &Row, Search { axis, line, .. }: Search) -> Vec<Level> {
+        let Some((first, by)) = line else { return vec![Level::At(0.0)] };
+        let first = match (row.optional, row.input.range(self.product, self.drop)) {
+            (Some(optional), Some([lo, hi])) if lo < hi => {
+                if hi - optional.without > optional.without - lo {
+                    1.0
+                } else {
+                    0.0
+                }
+            }
+            (Some(_), _) => 0.0,
+            (None, _) => first,
+        };
+        if self.free_in_drops()[axis] {
+            vec![Level::At(first), Level::At(1.0 - first), Level::Spread(by)]
+        } else {
+            vec![Level::At(first)]
         }
     }
 
     /// Lines of drops: each input at both ends of its range and spread over it, each with each; those that bounce most and press shortest
-    /// first, and of the spin, which takes turns last, the faster one.
+    /// first. Inputs that a file may leave out take turns last.
     fn levels(&self) -> Vec<Line> {
-        let free = self.free_in_drops();
-        let lines = searched().filter_map(|(_, search)| search.line.map(|line| (search.axis, line)));
         let mut all: Vec<Line> = vec![[Level::At(0.0); AXES]];
-        let (spin, others): (Vec<_>, Vec<_>) = lines.partition(|(axis, _)| *axis == SPIN);
-        for (axis, (first, by)) in spin.into_iter().chain(others) {
-            let levels = match axis {
-                SPIN => self.spins(),
-                _ if free[axis] => vec![Level::At(first), Level::At(1.0 - first), Level::Spread(by)],
-                _ => vec![Level::At(first)],
-            };
+        let (optional, others): (Vec<_>, Vec<_>) =
+            searched().filter(|(_, search)| search.line.is_some()).partition(|(row, _)| row.optional.is_some());
+        for (row, search) in optional.into_iter().chain(others) {
+            let (axis, levels) = (search.axis, self.levels_of(row, search));
             let with = |line: &Line| {
                 let line = *line;
                 levels.clone().into_iter().map(move |level| {
@@ -261,16 +267,22 @@ impl Ranges<'_> {
         let count = (((far * of_one).min(hi) - lo) / step).clamp(0.0, often * far) as u32;
         let share = |tilt: f64| (tilt.sqrt() - lo.sqrt()) / (hi.sqrt() - lo.sqrt());
         let spread = |k: u32, by: f64| (by * f64::from(k)).fract();
+        let free = self.free_in_drops();
         let of = |first, k: u32, [restitution, n]: [f64; 2]| {
             let direction = (spread(k, SQRT_11) + n).fract();
             let contact = (spread(k, SQRT_3) + GOLDEN * n).fract();
             let mut shares = [0.0; AXES];
-            for (_, search) in searched() {
-                shares[search.axis] = search.line.map_or(0.0, |(_, by)| spread(k, by));
+            for (row, search) in searched() {
+                let at = search.line.map_or(0.0, |(_, by)| spread(k, by));
+                // No two places differ by an input that is left out.
+                shares[search.axis] = match row.optional {
+                    Some(_) if free[search.axis] => (at + GOLDEN * n).fract(),
+                    Some(_) => 0.0,
+                    None => at,
+                };
             }
             (shares[TILT], shares[SPEED], shares[DIRECTION]) = (share(lo + f64::from(k) * step), 1.0, direction);
             (shares[RESTITUTION], shares[CONTACT]) = (restitution, contact);
-            shares[SPIN] = self.spin_share((spread(k, SQRT_13) + GOLDEN * n).fract());
             (k, Coordinates { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares })
         };
         let directions = (OVERLAPS_A_QUARTER * self.quarters()).max(1);
@@ -305,6 +317,7 @@ impl Ranges<'_> {
 
 /// Bases of Halton's sequence.
 const PRIMES: [u32; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+const _: () = assert!(AXES <= PRIMES.len());
 
 /// Returns number k of Halton's sequence along an axis.
 pub(super) fn halton(axis: usize, k: u32) -> f64 {

@@ -7,6 +7,7 @@ use clatter::End;
 use crate::WorstCase;
 use crate::search::{Candidate, Task};
 use clatter_flight::Drop;
+pub(crate) use clatter_product::AXES;
 use clatter_product::{Base, Component, ContactLaw, DropRanges, Model, Mount, Product, Spread, searched};
 
 /// The place of a drop and a part in the ranges.
@@ -22,9 +23,6 @@ pub(crate) struct Coordinates {
     pub(crate) shares: [f64; AXES],
 }
 
-/// The number of axes: those of the inputs of a drop that are searched, the natural frequency and the damping ratio of the part, and the
-/// direction.
-pub(crate) const AXES: usize = 9;
 pub(super) const TILT: usize = 0;
 pub(super) const SPEED: usize = 1;
 pub(super) const RESTITUTION: usize = 2;
@@ -33,7 +31,6 @@ pub(super) const CONTACT: usize = 3;
 pub(crate) const FREQUENCY: usize = 4;
 pub(crate) const DAMPING: usize = 5;
 pub(crate) const DIRECTION: usize = 7;
-pub(super) const SPIN: usize = 8;
 
 /// The ranges of a product's drops, and how they are followed.
 #[derive(Debug, Clone, Copy)]
@@ -210,10 +207,6 @@ impl Ranges<'_> {
     pub(super) fn reach_m(&self) -> f64 {
         libm::hypot(self.product.body.length_m(), self.product.body.width_m())
     }
-    /// Returns a share of the range of the spin; 0 where it has none, so that no two places differ by it.
-    pub(super) fn spin_share(&self, share: f64) -> f64 {
-        if self.drop.spin_rad_s.is_value() { 0.0 } else { share }
-    }
     /// Returns how fast the raised end or corner comes down as the other touches, at most and at least over the spins of the fastest drop,
     /// before that strikes; at least a tenth of the speed, as the strike turns it down.
     pub(super) fn closing_m_s(&self) -> [f64; 2] {
@@ -260,7 +253,7 @@ mod tests {
     use crate::Accuracy;
     use crate::assess::ranges;
     use crate::engine::Part;
-    use clatter_product::{Model, ProductFile};
+    use clatter_product::{Input, Model, ProductFile};
     use clatter_shock::{DampingRatio, Suspension};
 
     /// No two inputs, and none of those of a part, are searched along one axis.
@@ -282,13 +275,21 @@ component = [{ name = "part", position = "30 mm", natural_frequency = ["80 Hz", 
 "#;
         let file = ProductFile::read(text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
         let (ranges, component) = (ranges(&file, &Accuracy::default()), &file.components[0]);
-        let place = Coordinates {
-            first: End::B,
-            flat: false,
-            mirrored: [false; 2],
-            at_m: [0.03, 0.0],
-            shares: [0.3, 0.2, 0.7, 0.1, 0.6, 0.4, 0.9, 0.0, 0.8],
-        };
+        let mut shares = [0.0; AXES];
+        let of = |input| searched().find(|(row, _)| row.input == input).unwrap().1.axis;
+        let part = [(FREQUENCY, 0.6), (DAMPING, 0.4)];
+        let drop = [
+            (TILT, 0.3),
+            (SPEED, 0.2),
+            (RESTITUTION, 0.7),
+            (CONTACT, 0.1),
+            (of(Input::Gyration), 0.9),
+            (of(Input::Spin), 0.8),
+        ];
+        for (axis, share) in part.into_iter().chain(drop) {
+            shares[axis] = share;
+        }
+        let place = Coordinates { first: End::B, flat: false, mirrored: [false; 2], at_m: [0.03, 0.0], shares };
         let drop = ranges.single(&place);
         let near = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-9, "{got}, not {want}");
         near(drop.tilt_rad.to_degrees(), (1.0 + 0.3 * 2.0_f64).powi(2));

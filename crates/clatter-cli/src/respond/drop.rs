@@ -196,24 +196,21 @@ impl Drop<'_> {
             model.name(),
             given(100.0 * tolerance)
         );
-        let spin = match drop.spin_rad_s {
-            0.0 => String::new(),
-            spin => format!(", turning at {}", shown.spin.given(self.input(spin))),
-        };
+        let optional = shown.optional(drop, |si| self.input(si));
         let tilt = shown.tilt(self.input(drop.tilt_rad.to_degrees()));
         if drop.is_solid() {
             let [x, y, z] = drop.up().map(|up| figures(libm::acos(up.clamp(-1.0, 1.0)).to_degrees()));
-            writeln!(out, "{lands}{spin}; the vertical is {x}, {y} and {z} degrees from its axes")?;
+            writeln!(out, "{lands}{optional}; the vertical is {x}, {y} and {z} degrees from its axes")?;
         } else if drop.body.is_wide() && drop.tilt_rad > 0.0 {
             let (towards, [along, across]) = (drop.direction_rad.to_degrees().rem_euclid(360.0), drop.gaps_m());
             let (towards, [along, across]) =
                 (given(self.input(towards)), [along, across].map(|gap| shown.length.said(gap)));
             writeln!(
                 out,
-                "{lands}, tilt {tilt} towards {towards} degrees{spin}; its neighbors are {along} and {across} higher"
+                "{lands}, tilt {tilt} towards {towards} degrees{optional}; its neighbors are {along} and {across} higher"
             )?;
         } else {
-            writeln!(out, "{lands}, tilt {tilt}{spin}")?;
+            writeln!(out, "{lands}, tilt {tilt}{optional}")?;
         }
         let Some(time_s) = drop.contact_time_s.filter(|_| *model == Model::Compliant) else { return Ok(()) };
         let time = |time_s: f64| shown.time.given(self.input(time_s));

@@ -78,11 +78,7 @@ impl Drop<'_> {
         columns::sentence(out, "", &body)?;
         let tilt = format!(", tilt {}", shown.tilt(neat(drop.tilt_rad.to_degrees())));
         let tilt = if drop.is_level { tilt } else { String::new() };
-        let about = drop.spin_axis.map(|axis| format!(" about {}", axis.map(figures).join(", ")));
-        let spin = match drop.spin_rad_s {
-            0.0 => String::new(),
-            spin => format!(", turning at {}{}", shown.spin.given(spin), about.unwrap_or_default()),
-        };
+        let optional = shown.optional(drop, |si| si);
         let (point, lowest, speed) = (drop.point(), drop.lowest(), shown.speed.said(drop.speed_m_s));
         let higher = |(k, (name, rise)): (usize, (&str, f64))| {
             let rise = shown.length.said(rise);
@@ -90,7 +86,7 @@ impl Drop<'_> {
         };
         let neighbors = drop.neighbors_m().into_iter().enumerate().map(higher).collect::<Vec<_>>().join(", ");
         let (initial, rest) = point.split_at(1);
-        let touches = format!("{}{rest} {lowest} touches at {speed}{tilt}{spin}", initial.to_uppercase());
+        let touches = format!("{}{rest} {lowest} touches at {speed}{tilt}{optional}", initial.to_uppercase());
         columns::sentence(out, "", &format!("{touches}; {neighbors}"))?;
         writeln!(out)
     }
