@@ -1,11 +1,13 @@
 """Arguments reach the core by their names: one that it does not know is an error, and so is what is none of what is wanted."""
 
+import re
 import types
+import typing
 
 import clatter
 import numpy as np
 import pytest
-from clatter import _clatter
+from clatter import _bars, _clatter, _drops, _products, _records
 
 K = 1 / 3**0.5
 BAR = {"q": 0.5, "e": 0.3}
@@ -47,6 +49,26 @@ KNOWN_TO_RECORDS = {
     "open": lambda: clatter.Record.open("nowhere.csv"),
     "describe": lambda: RECORD.describe(),
 }
+
+
+#: A question with one name in place of those that a signature has.
+NAMED = [
+    (_drops.Model, lambda name: clatter.simulate(**{**DROP, "model": name})),
+    (_products.Model, lambda name: clatter.assess(PRODUCT, model=name)),
+    (_drops.Law, lambda name: clatter.simulate(**DROP, contact_law=name)),
+    (_bars.Quantity, lambda name: clatter.map(name, q=(0, 1, 3), e=(0, 1, 3))),
+    (_records.Of, lambda name: clatter.spectrum(PULSE, quantity=name)),
+    (_records.Between, lambda name: clatter.spectrum(PULSE, interpolation=name)),
+    (_records.Baseline, RECORD.detrend),
+]
+
+
+@pytest.mark.parametrize(("names", "ask"), NAMED)
+def test_signatures_have_the_names_of_the_core(names, ask):
+    with pytest.raises(ValueError, match="none-such") as refused:
+        ask("none-such")
+    told = str(refused.value).split(": ", 1)[1]
+    assert re.split(", | or ", told) == list(typing.get_args(names))
 
 
 def with_wind(core):

@@ -143,8 +143,8 @@ pub(crate) fn assess_these(
     let tasks: Vec<Task<'_>> = these.iter().copied().flat_map(limits_of).collect();
     let all_tasks: Vec<Task<'_>> = file.components.iter().flat_map(limits_of).collect();
     let laws = |ranges: Ranges<'_>| match ranges.model {
-        // Contacts that differ are hysteretic.
-        Model::Compliant if !own => vec![ranges.law, ranges.law.other()],
+        // Contacts that differ are hysteretic, and a law that the file names is the one that counts.
+        Model::Compliant if !own && file.product.contact_law.is_none() => vec![ranges.law, ranges.law.other()],
         _ => vec![ranges.law],
     };
     let searched: Vec<Vec<Ranges<'_>>> = listed
@@ -352,9 +352,11 @@ fn limit_of(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, judged: Ve
     let Some(own) = judged.next() else { unreachable!("drops are followed by one law at least") };
     let other = judged.next();
     let Judged { asked, mut verdict, mut doubts, notes, most, bound, flat } = own;
-    let named = file.product.contact_law.is_some();
-    let other_law = other.as_ref().and_then(|other| Some(in_unit_of(asked.as_ref()?, other.asked.as_ref()?)));
-    if let Some(other) = other.filter(|other| !named && other.verdict != verdict) {
+    let other_law = match &other {
+        Some(other) => asked.as_ref().zip(other.asked.as_ref()).map(|(own, other)| in_unit_of(own, other)),
+        None => asked.as_ref().and_then(|asked| by_other_law(ranges, task, asked)),
+    };
+    if let Some(other) = other.filter(|other| other.verdict != verdict) {
         let law = ranges.law.other();
         let decided = |of: Verdict| of != Verdict::Undecided;
         if decided(verdict) && decided(other.verdict) {
@@ -536,6 +538,16 @@ impl Judged {
         };
         Self { doubts: vec![Doubt::Unanswered(why)], ..Self::new(bound) }
     }
+}
+
+/// Returns what the worst drop by the law that the file names asks for by the other one; none where contacts take no time or differ.
+fn by_other_law(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Candidate) -> Option<f64> {
+    if ranges.model != Model::Compliant || !ranges.product.own_contacts.is_none() {
+        return None;
+    }
+    let drop = Drop { contact_law: ranges.law.other(), ..ranges.single(&worst.place) };
+    let (part, limit) = (worst.part_there(task.component), in_unit(&task.limit, worst.answer.unit));
+    answer(&drop, &part, &limit, ranges.model, ranges.tolerance).ok().map(|answer| answer.value)
 }
 
 /// Returns the demand of the worst drop by another law, in the unit of the demand.

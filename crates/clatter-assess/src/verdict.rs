@@ -322,7 +322,8 @@ pub struct LimitAssessment {
     pub uncertainty: f64,
     /// The demand of the worst drop if it landed flat: with both ends at once, and contacts where their time is known.
     pub clatter_free: Option<f64>,
-    /// The demand of the worst drop over the ranges by the other contact law, where contacts take time; else null.
+    /// The demand of the worst drop over the ranges by the other contact law, where contacts take time; else null. Where the file names its
+    /// law, the other one is not searched: that of the same worst drop by it.
     pub other_law: Option<f64>,
     /// The drop that does it; null where no drop was answered.
     pub worst_case: Option<WorstCase>,

@@ -45,10 +45,12 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     writeln!(out, "Flat drop: what the worst drop would ask if {flat}")?;
     let all = assessment.components.iter().flat_map(|component| &component.limits);
     if all.clone().any(|limit| limit.other_law.is_some()) {
-        let asks = "what the worst drop by the other contact law asks for";
-        let named = file.product.contact_law.is_some();
-        let both = if named { "." } else { "; the file names no law, and a limit has to hold by both." };
-        sentence(out, "Other law: ", &format!("{asks}{both}"))?;
+        let asks = if file.product.contact_law.is_some() {
+            "what the worst drop would ask by the other contact law, by which no drops are searched."
+        } else {
+            "what the worst drop by the other contact law asks for; the file names no law, and a limit has to hold by both."
+        };
+        sentence(out, "Other law: ", asks)?;
     }
     for [_, taken, why] in assessment.assumed.iter().filter(|row| **row == Assumed::NoFriction).map(|row| row.told()) {
         sentence(out, "Friction: ", &format!("{taken} is followed; {why}."))?;
