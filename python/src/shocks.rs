@@ -126,23 +126,18 @@ pub(crate) fn respond(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
     let inputs = drops::inputs(&given)?;
     if inputs.length_m.is_some() {
         let question = of_drop(&given, &inputs)?;
-        given.leave(&["velocity", "height_gap"])?;
         given.done()?;
         return without_picture(py, move |_| json(&drop_of::answer(&question).map_err(words)?));
     }
     let question = of_shocks(&given, inputs.e)?;
-    given.leave(&["q", "gyration_ratio", "masses", "velocity", "height_gap", "axis", "model", "tolerance"])?;
+    given.leave(&["q", "gyration_ratio", "masses", "velocity", "height_gap", "tolerance"])?;
     given.done()?;
     without_picture(py, move |_| json(&respond_of::answer(&question).map_err(words)?))
 }
 
 fn of_drop(given: &Given<'_>, inputs: &DropInputs) -> PyResult<drop_of::Question> {
-    for name in ["pulses", "shocks", "q", "gyration_ratio", "masses"] {
-        if !given.value(name)?.is_none() {
-            let others = "pulses, shocks, q, gyration_ratio and masses do not go with it";
-            return Err(refused(format!("length_m makes a drop in SI units: {others}")));
-        }
-    }
+    let of_others = ["pulses", "shocks", "q", "gyration_ratio", "masses", "velocity", "height_gap"];
+    refuse(given, &of_others, "does not go with length_m, which makes a drop in SI units")?;
     let model = given.read::<Option<Model>>("model")?.unwrap_or(Model::Compliant);
     if inputs.is_flat && model == Model::Compliant {
         return Err(refused("flat goes with instant impacts: contacts that take time land flat with tilt_deg=0"));
@@ -151,18 +146,38 @@ fn of_drop(given: &Given<'_>, inputs: &DropInputs) -> PyResult<drop_of::Question
         return Err(refused("the drop is not whole: give at"));
     };
     let drop = inputs.drop(model).map_err(refused)?;
-    let axis = given.read::<Option<String>>("axis")?;
-    let place = drop_of::place(&drop, &at, Axis::of(axis.as_deref().unwrap_or("z"))).map_err(refused)?;
+    let axis = match given.read::<Option<String>>("axis")? {
+        Some(name) => Axis::of(&name).ok_or_else(|| refused(format!("axis = '{name}' is none: x, y, z or any")))?,
+        None => Axis::default(),
+    };
+    let place = drop_of::place(&drop, &at, axis).map_err(refused)?;
     let mut question = drop_of::Question::new(drop, model, place);
-    let (omega, hz) = (given.read::<Option<f64>>("omega")?, given.read("frequency_hz")?);
-    let (ratio, q_factor) = (given.read("damping")?, given.read("q_factor")?);
+    let (ratio, q_factor) = (given.read::<Option<f64>>("damping")?, given.read::<Option<f64>>("q_factor")?);
     let swings = |hz| Suspension::from_hz(hz, damping(ratio, q_factor)?).map_err(refused);
-    question.suspension = omega.map(|omega| omega / TAU).or(hz).map(swings).transpose()?;
+    let hz = match (given.read::<Option<f64>>("omega")?, given.read::<Option<f64>>("frequency_hz")?) {
+        (Some(_), Some(_)) => return Err(refused("omega and frequency_hz say both how the part swings: give one")),
+        (None, None) if ratio.is_some() || q_factor.is_some() => {
+            return Err(refused("damping and q_factor go with omega or frequency_hz: a part without is mounted rigidly"));
+        }
+        (omega, hz) => omega.map(|omega| omega / TAU).or(hz),
+    };
+    question.suspension = hz.map(swings).transpose()?;
     question.tolerance = given.read("tolerance")?;
     Ok(question)
 }
 
+/// Refuses arguments that another question takes.
+fn refuse(given: &Given<'_>, names: &[&str], why: &str) -> PyResult<()> {
+    for name in names {
+        if !given.value(name)?.is_none() {
+            return Err(refused(format!("{name} {why}")));
+        }
+    }
+    Ok(())
+}
+
 fn of_shocks(given: &Given<'_>, e: Option<f64>) -> PyResult<respond_of::Question> {
+    refuse(given, &["axis", "model"], "goes with length_m alone, which makes a drop in SI units")?;
     let omega = match (given.read("omega")?, given.read::<Option<f64>>("frequency_hz")?) {
         (Some(omega), None) => omega,
         (None, Some(hz)) => TAU * hz,

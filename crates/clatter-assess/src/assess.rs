@@ -191,7 +191,7 @@ pub(crate) fn assess_these(
         // The results are collected for each limit over all drops, and then stops change those of each drop.
         let mut of_limits = Vec::new();
         for (n, task) in all.by_ref().take(component.limits.kinds().len()) {
-            let said = |drop: usize| Ok(limit_of(file, &searched[drop][0], task, judged(n, task, drop)?));
+            let said = |drop: usize| Ok(limit_of(&searched[drop][0], task, judged(n, task, drop)?));
             let of_drops: Vec<Result<LimitAssessment, Error>> = (0..listed.len()).into_par_iter().map(said).collect();
             // The first of all errors, not the fastest.
             of_limits.push(of_drops.into_iter().collect::<Result<Vec<_>, _>>()?);
@@ -347,7 +347,7 @@ fn landing_flat(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Candidate) -> Resu
 }
 
 /// Returns the limit by its contact laws: its own first, and then the other one where contacts take time.
-fn limit_of(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitAssessment {
+fn limit_of(ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitAssessment {
     let mut judged = judged.into_iter();
     let Some(own) = judged.next() else { unreachable!("drops are followed by one law at least") };
     let other = judged.next();
@@ -479,7 +479,7 @@ fn governing(of_drops: &[LimitAssessment], names: &[DropName]) -> LimitAssessmen
         }
         if governor.verdict == limit.verdict {
             for doubt in &mut limit.undecided {
-                if let Doubt::Others { most, .. } = doubt {
+                if let Doubt::Others { most, .. } | Doubt::Friction { most, .. } = doubt {
                     *most = most_of_all;
                 }
             }
@@ -604,11 +604,14 @@ fn worst_case(asked: &Candidate, ranges: &Ranges<'_>, component: &Component) -> 
     }
 }
 
-/// A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration.
+/// A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration. Where none of the drops that
+/// were found reaches it, one of them that exceeds another limit does so all the same.
 fn stopped(limits: &mut [&mut LimitAssessment]) {
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     let Some((verdict, margin)) = stop.map(|l| (l.verdict, l.margin)) else { return };
-    for limit in limits.iter_mut().filter(|l| l.limit.is_changed_by_stop()) {
+    let none_reaches = margin.is_some_and(|margin| margin > COVERAGE);
+    let may_change = |l: &LimitAssessment| l.limit.is_changed_by_stop() && !(none_reaches && l.verdict == Verdict::Unsafe);
+    for limit in limits.iter_mut().filter(|l| may_change(l)) {
         let margin = margin.filter(|margin| margin.is_finite());
         limit.verdict = Verdict::Undecided;
         limit.undecided = vec![Doubt::Stop { hits: verdict == Verdict::Unsafe, margin }];

@@ -4,7 +4,7 @@
 //! on, whatever the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by
 //! √(2E (1 + x²/ρ²)), of the turning by √(2E)/ρ. A suspended part has no such bound: it may add up shocks.
 
-use clatter_flight::{Axis, Body, Contact, ContactLaw, Drop, Levers, Place};
+use clatter_flight::{Body, Contact, ContactLaw, Drop, Levers, Place};
 
 use clatter_product::{Base, Component, DropRanges, Limit, Mount, Product, Source};
 
@@ -178,8 +178,7 @@ pub(crate) fn box_acceleration(drop: &Drop, place: &Place, speed: f64, stops_m_s
     let grows = 1.0 + spins * longest_s * farthest_m / least;
     let [x, y] = drop.in_radii(place).1;
     let along = (1.0 + x * x + y * y).sqrt() * grows;
-    let pushed = if place.axis == Axis::Z { along } else { along + FRICTION * across };
-    2.0 * stops_m_s2 * pushed + (1.0 + 3_f64.sqrt().recip()) * spins * spins * place_m
+    2.0 * stops_m_s2 * (along + FRICTION * across) + (1.0 + 3_f64.sqrt().recip()) * spins * spins * place_m
 }
 
 /// Returns the largest radius of gyration about an axis that a plate or a box turns about, as thick as it is taken where real tilt counts.

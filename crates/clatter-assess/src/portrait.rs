@@ -167,7 +167,7 @@ fn scales(component: &Component, assessed: &ComponentAssessment, ends: &[Places<
             let at: Vec<usize> = (0..ends.positions_m.len()).collect();
             ends.most(&ends.drops.counted(), &at, limit, &parts)
         };
-        Scale::of(assessed, found, &ends.iter().map(here).collect::<Vec<_>>())
+        Scale::of(found, &ends.iter().map(here).collect::<Vec<_>>())
     };
     Limit::of(component).iter().zip(&assessed.limits).map(of).collect()
 }

@@ -351,7 +351,7 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
 pub(crate) fn axis_of_box() -> impl TypedValueParser<Value = clatter_product::Axis> {
     let names = ["x", "y", "z"].map(PossibleValue::new).into_iter();
     let any = PossibleValue::new("any").help("The magnitude, of a place on which a part is mounted rigidly");
-    PossibleValuesParser::new(names.chain([any])).map(|name| clatter_product::Axis::of(&name))
+    PossibleValuesParser::new(names.chain([any])).map(|name| clatter_product::Axis::of(&name).unwrap_or_default())
 }
 
 /// Reads the model by which a drop is followed; the models begin with the least physics.

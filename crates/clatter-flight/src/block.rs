@@ -15,7 +15,7 @@
 mod dormand_prince;
 mod drop;
 mod run;
-mod system;
+pub(crate) mod system;
 
 pub use drop::BlockDrop;
 pub use run::{BlockFlight, BlockStep, BlockStrike, LEAST_OF_BLOCKS};

@@ -371,6 +371,18 @@ impl Followed {
     pub fn pushes(&self) -> Vec<Push> {
         if let Course::Solid(motion) = &self.motion { motion.pushes() } else { Vec::new() }
     }
+    /// What a push of 1 across the vertical at a corner that presses does at most to a place of a box along its axis while a push lasts, over
+    /// what it does to the center of mass; none of other bodies, and along any axis.
+    #[must_use]
+    pub fn across(&self, place: &Place, push: &Push) -> Option<f64> {
+        let Course::Solid(motion) = &self.motion else { return None };
+        let (block, at) = (self.drop.as_box()?, self.drop.body.from_center(place.at_m));
+        let along = match place.axis {
+            crate::Axis::Any => return None,
+            axis => std::array::from_fn(|k| f64::from(u8::from(k == axis as usize))),
+        };
+        Some(motion.across(&block, at, along, push))
+    }
 }
 
 /// Directions along a plate, between which the change of its angular velocity is at most half a percent more than along one of them.

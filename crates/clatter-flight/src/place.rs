@@ -19,10 +19,10 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// Returns the axis of a name; z of any other word.
+    /// Returns the axis of a name.
     #[must_use]
-    pub fn of(name: &str) -> Self {
-        [Self::X, Self::Y, Self::Any].into_iter().find(|axis| axis.name() == name).unwrap_or_default()
+    pub fn of(name: &str) -> Option<Self> {
+        [Self::X, Self::Y, Self::Z, Self::Any].into_iter().find(|axis| axis.name() == name)
     }
     /// `x`, `y`, `z` or `any`.
     #[must_use]

@@ -92,10 +92,14 @@ pub fn place(drop: &Drop, at: &[f64], axis: Axis) -> Result<Place, Error> {
 /// Follows one drop until nothing later counts.
 ///
 /// # Errors
-/// No place or one off the body; a part too slow or too fast, or one that would swing along no axis; those of
+/// No place or one off the body, or along another axis than z of a body that is no box; a part too slow or too fast, or one that would
+/// swing along no axis; those of
 /// [`clatter_assess::answer`].
 pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { drop, model, ref places, suspension, ref limits, tolerance, shock_table } = *question;
+    if !drop.is_solid() && places.iter().any(|place| place.axis != Axis::Z) {
+        return Err(Error::input("axis", "it is that of a box: parts of bars and plates move along the thickness"));
+    }
     if let (Some(part), true) = (suspension, places.iter().any(|place| place.axis == Axis::Any)) {
         let (name, allowed) = ("natural frequency in rad/s", "that of a part that swings: it does so along one axis");
         return Err(Error::Quantity { name, value: part.omega(), allowed });

@@ -1,7 +1,7 @@
 //! This module compares the result of the assessment for a limit with the drops of the pictures.
 
-use crate::{ComponentAssessment, LimitAssessment, Verdict};
-use clatter_product::LimitKind;
+use crate::reason::Doubt;
+use crate::{LimitAssessment, Verdict};
 
 /// The factor between the demand of the assessment and the largest demand of the drops of the pictures at the part's own place: its search
 /// climbs to the worst drop, and it adds what that may miss, and the demand of rebounds and of another contact law. Other places are
@@ -16,7 +16,7 @@ pub(super) struct Scale {
 
 impl Scale {
     /// Returns the scales of a limit for which the drops of each contact law demand `here`; none where the possible demand is not known.
-    pub(super) fn of(assessed: &ComponentAssessment, limit: &LimitAssessment, here: &[f64]) -> Option<Vec<Self>> {
+    pub(super) fn of(limit: &LimitAssessment, here: &[f64]) -> Option<Vec<Self>> {
         let demands = [limit.demand, limit.other_law];
         let mut scales = Vec::with_capacity(here.len());
         for (here, demand) in here.iter().zip(demands) {
@@ -26,8 +26,7 @@ impl Scale {
             scales.push(known.then_some(Self { counted, here: *here })?);
         }
         // The rattle space leaves undecided how a part moves otherwise that hits its stop.
-        let stops = |l: &LimitAssessment| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe;
-        let by_stop = limit.limit.is_changed_by_stop() && assessed.limits.iter().any(stops);
+        let by_stop = limit.undecided.iter().any(|doubt| matches!(doubt, Doubt::Stop { .. }));
         // The picture agrees with the verdict.
         match limit.verdict {
             Verdict::Safe => scales.iter_mut().for_each(|scale| scale.counted = scale.counted.min(1.0)),

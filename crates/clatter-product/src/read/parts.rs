@@ -11,7 +11,7 @@ impl Reader {
         let position = self.spread_of_sides(section, "position");
         let extent = self.quantity_of_sides(section, "extent");
         let height_m = self.quantity(section, "height").map_or(0.0, |height| height.value);
-        let axis = self.choice(section, "axis").map(|axis| Axis::of(axis.value));
+        let axis = self.choice(section, "axis").and_then(|axis| Axis::of(axis.value));
         let mount = self.mount(section);
         // A box comes down on any side: what is mounted rigidly in it is struck along the blow.
         let is_struck = self.is_box && mount == Some(Mount::Hard);
