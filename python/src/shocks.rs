@@ -157,7 +157,9 @@ fn of_drop(given: &Given<'_>, inputs: &DropInputs) -> PyResult<drop_of::Question
     let hz = match (given.read::<Option<f64>>("omega")?, given.read::<Option<f64>>("frequency_hz")?) {
         (Some(_), Some(_)) => return Err(refused("omega and frequency_hz say both how the part swings: give one")),
         (None, None) if ratio.is_some() || q_factor.is_some() => {
-            return Err(refused("damping and q_factor go with omega or frequency_hz: a part without is mounted rigidly"));
+            return Err(refused(
+                "damping and q_factor go with omega or frequency_hz: a part without is mounted rigidly",
+            ));
         }
         (omega, hz) => omega.map(|omega| omega / TAU).or(hz),
     };

@@ -610,7 +610,8 @@ fn stopped(limits: &mut [&mut LimitAssessment]) {
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     let Some((verdict, margin)) = stop.map(|l| (l.verdict, l.margin)) else { return };
     let none_reaches = margin.is_some_and(|margin| margin > COVERAGE);
-    let may_change = |l: &LimitAssessment| l.limit.is_changed_by_stop() && !(none_reaches && l.verdict == Verdict::Unsafe);
+    let may_change =
+        |l: &LimitAssessment| l.limit.is_changed_by_stop() && !(none_reaches && l.verdict == Verdict::Unsafe);
     for limit in limits.iter_mut().filter(|l| may_change(l)) {
         let margin = margin.filter(|margin| margin.is_finite());
         limit.verdict = Verdict::Undecided;

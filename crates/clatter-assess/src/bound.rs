@@ -104,13 +104,13 @@ fn of_plate(
     let [shortest_s, longest_s] = product.contact_times_s()?;
     let [_, fastest] = drop.speeds_m_s();
     let one = Drop {
-        is_level: base.is_none(),
-        base: base.map_or([0.0, 0.0, 1.0], |base| base.up),
-        gravity_m_s2: drop.gravity_m_s2,
+        body: product.body_at(0.0),
+        speed_m_s: fastest,
+        tilt_rad: drop.tilt_rad.hi(),
+        restitution: product.restitution.hi(),
         contact_time_s: Some(shortest_s),
         contact_law: law,
-        own_contacts: product.own_contacts,
-        ..Drop::new(product.body_at(0.0), fastest, drop.tilt_rad.hi(), product.restitution.hi())
+        ..product.unset(drop, base)
     };
     let norm = |[x, y]: [f64; 2]| libm::hypot(x, y);
     let places = || component.ends_m().into_iter().map(|at_m| component.inside.place(at_m));

@@ -159,13 +159,8 @@ impl OneDrop {
     pub(crate) fn drop(&mut self, is_given: impl Fn(Input) -> bool) -> (Drop, Option<f64>) {
         let (notes, mut height_m) = (&mut self.notes, None);
         let mut drop = self.file.one_drop(self.first, |row, spread| {
-            let at = match row.input {
-                Input::Height | Input::Speed | Input::Restitution => 1.0,
-                Input::ContactTime => 0.0,
-                _ => 0.5,
-            };
-            let value =
-                take(if is_given(row.input) { None } else { Some(&mut *notes) }, row.words, spread, at, row.unit);
+            let notes = if is_given(row.input) { None } else { Some(&mut *notes) };
+            let value = take(notes, row.words, spread, row.hardest, row.unit);
             height_m = if row.input == Input::Height { Some(value) } else { height_m };
             if row.input.is_angle() { as_typed(value) } else { value }
         });

@@ -54,6 +54,8 @@ pub struct Row {
     given: fn(&Product, &DropRanges) -> Option<Spread>,
     /// Puts a value that was drawn into a drop; none of what an attitude has.
     pub set: Option<fn(&mut Drop, f64)>,
+    /// Where in its range the demand is highest as a rule, from 0 to 1: there it is where one drop stands for all.
+    pub hardest: f64,
     /// The data of an input that a file may leave out.
     pub optional: Option<Optional>,
     /// The data of the search over it.
@@ -110,6 +112,7 @@ pub static INPUTS: [Row; 9] = [
         value: |drop| Some(if drop.first() == End::A { 0.0 } else { 1.0 }),
         given: |_, _| None,
         set: None,
+        hardest: 0.5,
         optional: None,
         search: None,
     },
@@ -124,6 +127,7 @@ pub static INPUTS: [Row; 9] = [
         value: |_| None,
         given: |_, drop| if let Fall::HeightM(height) = drop.fall { Some(height) } else { None },
         set: Some(|drop, height_m| drop.speed_m_s = (2.0 * drop.gravity_m_s2 * height_m).sqrt()),
+        hardest: 1.0,
         optional: None,
         search: None,
     },
@@ -138,6 +142,7 @@ pub static INPUTS: [Row; 9] = [
         value: |drop| Some(drop.speed_m_s),
         given: |_, drop| if let Fall::SpeedMS(speed) = drop.fall { Some(speed) } else { None },
         set: Some(|drop, speed_m_s| drop.speed_m_s = speed_m_s),
+        hardest: 1.0,
         optional: None,
         search: Some(Search { axis: 1, is_root: false, line: None }),
     },
@@ -152,6 +157,7 @@ pub static INPUTS: [Row; 9] = [
         value: |drop| Some(drop.tilt_rad),
         given: |_, drop| Some(drop.tilt_rad),
         set: Some(|drop, tilt_rad| drop.tilt_rad = tilt_rad),
+        hardest: 0.5,
         optional: None,
         search: Some(Search { axis: 0, is_root: true, line: None }),
     },
@@ -166,6 +172,7 @@ pub static INPUTS: [Row; 9] = [
         value: |drop| drop.body.is_wide().then_some(drop.direction_rad),
         given: |_, drop| drop.direction_rad,
         set: None,
+        hardest: 0.5,
         optional: None,
         search: None,
     },
@@ -180,6 +187,7 @@ pub static INPUTS: [Row; 9] = [
         value: |drop| Some(drop.restitution),
         given: |product, _| Some(product.restitution),
         set: Some(|drop, restitution| drop.restitution = restitution),
+        hardest: 1.0,
         optional: None,
         search: Some(Search { axis: 2, is_root: false, line: Some((1.0, SQRT_2)) }),
     },
@@ -194,6 +202,7 @@ pub static INPUTS: [Row; 9] = [
         value: |drop| drop.contact_time_s,
         given: |product, _| product.contact_time_s,
         set: Some(|drop, time_s| drop.contact_time_s = Some(time_s)),
+        hardest: 0.0,
         optional: None,
         search: Some(Search { axis: 3, is_root: false, line: Some((0.0, SQRT_3)) }),
     },
@@ -209,6 +218,7 @@ pub static INPUTS: [Row; 9] = [
         given: |product, _| Some(product.gyration_m),
         // Both ends of the range were checked as it was read.
         set: Some(|drop, gyration_m| drop.body = drop.body.with_gyration_m(gyration_m).unwrap_or(drop.body)),
+        hardest: 0.5,
         optional: None,
         search: Some(Search { axis: 6, is_root: false, line: Some((0.0, SQRT_5)) }),
     },
@@ -223,6 +233,7 @@ pub static INPUTS: [Row; 9] = [
         value: |drop| Some(drop.spin_rad_s),
         given: |_, drop| Some(drop.spin_rad_s),
         set: Some(|drop, spin_rad_s| drop.spin_rad_s = spin_rad_s),
+        hardest: 0.5,
         optional: Some(Optional {
             without: 0.0,
             phrase: "turning at",

@@ -77,13 +77,7 @@ impl ProductFile {
     /// ```
     #[must_use]
     pub fn one_drop(&self, first: End, mut choose: impl FnMut(&'static Row, &Spread) -> f64) -> Drop {
-        let mut drop = Drop {
-            direction_rad: Drop::towards(first),
-            gravity_m_s2: self.drop.gravity_m_s2,
-            contact_law: self.product.law(),
-            own_contacts: self.product.own_contacts,
-            ..Drop::new(self.product.body, 0.0, 0.0, 0.0)
-        };
+        let mut drop = Drop { direction_rad: Drop::towards(first), ..self.product.unset(&self.drop, None) };
         for row in &INPUTS {
             if let (Some(given), Some(set)) = (row.input.given(&self.product, &self.drop), row.set) {
                 set(&mut drop, choose(row, &given));
@@ -332,6 +326,19 @@ pub struct RecordFile {
 }
 
 impl Product {
+    /// Returns a drop of the ranges as it lands, a box on its posture, whose inputs are still to be set: they are 0.
+    #[must_use]
+    pub fn unset(&self, drop: &DropRanges, base: Option<Base>) -> Drop {
+        Drop {
+            is_level: base.is_none(),
+            base: base.map_or([0.0, 0.0, 1.0], |base| base.up),
+            spin_axis: base.and_then(|base| base.spin_axis),
+            gravity_m_s2: drop.gravity_m_s2,
+            contact_law: self.law(),
+            own_contacts: self.own_contacts,
+            ..Drop::new(self.body, 0.0, 0.0, 0.0)
+        }
+    }
     /// Positions s in [−1, 1] of a place given in m from the middle.
     #[must_use]
     pub fn relative(&self, position_m: f64) -> f64 {

@@ -223,12 +223,7 @@ pub(super) fn along(component: &Component) -> Vec<f64> {
 
 /// Returns a drop of the ranges with these inputs, lying, of the product's own body.
 pub(super) fn with(ranges: &Ranges<'_>, inputs: impl IntoIterator<Item = (&'static Row, f64)>) -> Drop {
-    let mut drop = Drop {
-        gravity_m_s2: ranges.drop.gravity_m_s2,
-        contact_law: ranges.law,
-        own_contacts: ranges.product.own_contacts,
-        ..Drop::new(ranges.product.body, 0.0, 0.0, 0.0)
-    };
+    let mut drop = Drop { contact_law: ranges.law, ..ranges.product.unset(ranges.drop, None) };
     for (row, value) in inputs {
         if let Some(set) = row.set {
             set(&mut drop, value);

@@ -162,12 +162,7 @@ impl Corners {
             let speeds = if slow && slowest < fastest { vec![fastest, slowest] } else { vec![fastest] };
             let steps = if drop.tilt_rad.is_value() { 0 } else { tilts - 1 };
             // At the ends of the ranges of all that lines of drops go through, but for what is given.
-            let mut ends = vec![Drop {
-                gravity_m_s2: drop.gravity_m_s2,
-                contact_law: product.law(),
-                own_contacts: product.own_contacts,
-                ..Drop::new(product.body, fastest, 0.0, 0.0)
-            }];
+            let mut ends = vec![Drop { speed_m_s: fastest, ..product.unset(&drop, None) }];
             for (row, _) in searched().filter(|(_, search)| search.line.is_some()) {
                 let (Some(given), Some(set)) = (row.input.given(product, &drop), row.set) else { continue };
                 if matches!(row.input, Input::Restitution | Input::Gyration) {

@@ -325,13 +325,12 @@ impl Inputs {
             of_part.push((0..of_all).chain(own..finder.varied.len()).collect());
         }
         let same = Drop {
-            is_level: listed[0].base.is_none(),
             direction_rad: Drop::towards(drop.first_ends()[0]),
-            gravity_m_s2: drop.gravity_m_s2,
+            speed_m_s: listed[0].drop.speeds_m_s()[0],
+            tilt_rad: drop.tilt_rad.lo(),
+            restitution: product.restitution.lo(),
             contact_time_s: product.contact_time_s.map(|time| time.lo()),
-            contact_law: product.law(),
-            own_contacts: product.own_contacts,
-            ..Drop::new(product.body, listed[0].drop.speeds_m_s()[0], drop.tilt_rad.lo(), product.restitution.lo())
+            ..product.unset(drop, listed[0].base)
         };
         let plate = (!is_bar && same.is_level).then(|| {
             same.boxed().map_or(PlateAs::Level, |boxed| PlateAs::Box {

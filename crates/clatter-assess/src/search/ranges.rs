@@ -57,17 +57,8 @@ impl Ranges<'_> {
         } else {
             Drop::towards(place.first)
         };
-        let mut drop = Drop {
-            is_level: self.base.is_none(),
-            base: self.base.map_or([0.0, 0.0, 1.0], |base| base.up),
-            direction_rad,
-            is_flat: place.flat,
-            spin_axis: self.base.and_then(|base| base.spin_axis),
-            gravity_m_s2: self.drop.gravity_m_s2,
-            contact_law: self.law,
-            own_contacts: self.product.own_contacts,
-            ..Drop::new(self.product.body, 0.0, 0.0, 0.0)
-        };
+        let unset = self.product.unset(self.drop, self.base);
+        let mut drop = Drop { direction_rad, is_flat: place.flat, contact_law: self.law, ..unset };
         for (row, search) in searched() {
             if let (Some(range), Some(set)) = (row.input.range(self.product, self.drop), row.set) {
                 set(&mut drop, search.at(range, place.shares[search.axis]));
