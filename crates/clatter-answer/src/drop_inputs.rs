@@ -324,6 +324,11 @@ impl DropInputs {
                 let fields = [
                     ("speed", if self.speed_m_s.is_some() { "speed_m_s" } else { "height_m" }),
                     ("tilt", "tilt_deg"),
+                    ("direction", "direction_deg"),
+                    ("height of corner", "gaps_m"),
+                    ("length of the quaternion", "orientation"),
+                    ("velocity of the lowest corner", "spin_rad_s"),
+                    ("contact time", "contact_time_s"),
                     ("gravity", "gravity_m_s2"),
                     ("spin", "spin_rad_s"),
                     ("thickness", "thickness_m"),
@@ -362,4 +367,39 @@ fn side(m: Option<f64>, gyration_m: Option<f64>, center: Option<f64>, base: Opti
         return Err(Error::input("gyration_m", reason));
     }
     Ok(Side { ends_m: [0.5 * m * (1.0 + center), 0.5 * m * (1.0 - center)], gyration_m })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A value that no drop has is refused under the name of its own input.
+    #[test]
+    fn a_refused_value_is_named() {
+        let whole = DropInputs {
+            length_m: Some(0.15),
+            width_m: Some(0.07),
+            thickness_m: Some(0.02),
+            gyration_m: Some(vec![0.022, 0.044, 0.048]),
+            e: Some(0.3),
+            speed_m_s: Some(3.0),
+            orientation: Some([1.0, 0.0, 0.0, 0.0]),
+            contact_time_s: Some(4e-4),
+            ..DropInputs::default()
+        };
+        assert!(whole.drop(Model::Compliant).is_ok());
+        let wrong = [
+            ("orientation", DropInputs { orientation: Some([2.0, 0.0, 0.0, 0.0]), ..whole.clone() }),
+            ("spin_rad_s", DropInputs { spin_rad_s: Some(vec![900.0, 900.0, 0.0]), ..whole.clone() }),
+            ("gravity_m_s2", DropInputs { gravity_m_s2: Some(-1.0), ..whole.clone() }),
+            ("speed_m_s", DropInputs { speed_m_s: Some(-3.0), ..whole.clone() }),
+            ("e", DropInputs { e: Some(1.5), ..whole.clone() }),
+            ("gyration_m", DropInputs { gyration_m: Some(vec![0.0, 0.044, 0.048]), ..whole.clone() }),
+            ("length_m", DropInputs { length_m: Some(-0.15), ..whole }),
+        ];
+        for (input, drop) in wrong {
+            let error = drop.drop(Model::Compliant).unwrap_err();
+            assert!(matches!(&error, Error::Input { name, .. } if *name == input), "{input}: {error:?}");
+        }
+    }
 }
