@@ -121,7 +121,7 @@ impl Assumed {
             Self::Bar => ["body", "bar", "if it is wider than a quarter of its length, give `width`: up to 30 % more"],
             Self::EitherLaw => ["law", "hysteretic or dashpot", "a limit is safe where it holds by both"],
             Self::NoFriction => {
-                ["friction", "none", "what a ground with friction up to 0.6 may add to parts along it is allowed for"]
+                ["friction", "none", "what a ground with friction up to 0.6 may add to parts is allowed for"]
             }
         }
     }

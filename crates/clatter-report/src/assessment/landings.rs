@@ -24,7 +24,7 @@ pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
     ],
     [
         "The ground",
-        "It is hard, level and without friction, and the same for all corners: every corner slides. What friction up to 0.6 may add to a part along the ground is allowed for; a corner that it holds turns the box otherwise.",
+        "It is hard, level and without friction, and the same for all corners: every corner slides. What friction up to 0.6 may add to a part is allowed for; a corner that it holds turns the box otherwise.",
     ],
     ["The case", "It is rigid: a case that bends rings on its own, and may take part of a blow or add to it."],
     ["Parts", "They are light and linear. A part that hits its stop is undecided."],
