@@ -311,7 +311,7 @@ impl Ranges<'_> {
         follow(&drop, self.model, self.tolerance.max(0.02), until)
     }
 
-    /// Does the same once.
+    /// Follows a drop where it was not followed yet.
     fn followed<'f>(
         &self,
         place: &Coordinates,

@@ -120,7 +120,7 @@ impl Body {
     pub fn width_m(&self) -> f64 {
         self.width.map_or(0.0, |width| width.m())
     }
-    /// Whether it is as wide as it may turn about its length: no bar.
+    /// Whether it has a width, and may turn about its length: no bar.
     #[must_use]
     pub fn is_wide(&self) -> bool {
         self.width.is_some()

@@ -85,7 +85,7 @@ impl ProductFile {
         }
         drop
     }
-    /// Returns the drops that are searched one after the other: all that are listed, or the one of the self.
+    /// Returns the drops that are searched one after the other: all that are listed, or the only one.
     #[must_use]
     pub fn listed(&self) -> Vec<Listed> {
         let base = |landing: &Landing| {
@@ -139,13 +139,6 @@ impl Product {
             contact_time_s: None,
             contact_law: None,
         }
-    }
-    /// Returns the same with this range of the radius of gyration, and the body of the middle of it.
-    ///
-    /// # Errors
-    /// [`Error::Bar`] unless that is a radius of gyration.
-    pub fn with_gyration(self, gyration_m: Spread) -> Result<Self, Error> {
-        Ok(Self { body: self.body_with(gyration_m.at(0.5))?, gyration_m, ..self })
     }
     /// Returns the contact law by which drops are followed: the one that is named, else the hysteretic one.
     #[must_use]

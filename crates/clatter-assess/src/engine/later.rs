@@ -85,7 +85,7 @@ impl PlaceHistory<'_> {
             }
             Source::Turn => later.turn_rad_s / limit.allowed,
             Source::Shock => later.turned_m_s / limit.allowed,
-            // It takes both.
+            // A damage boundary takes both: it is used up by the lesser share.
             Source::Boundary => {
                 let acceleration = later.acceleration_m_s2 / limit.critical_acceleration_m_s2;
                 (later.turned_m_s / limit.allowed).min(acceleration)

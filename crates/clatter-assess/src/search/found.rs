@@ -26,11 +26,11 @@ pub(crate) struct Worst {
     pub(crate) near: Vec<Candidate>,
     /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
     pub(crate) later: f64,
-    /// The utilization that a drop may reach with friction, of a part that moves along the ground; else 0.
+    /// The utilization that a drop of a box may reach with friction; 0 where that adds nothing.
     pub(crate) with_friction: f64,
     /// The largest demand of a drop that was found after it has bounced clear once, as a utilization.
     pub(crate) late: f64,
-    /// Drops that the model does not take, and why the first of them; of edges that touch, the one that does deepest.
+    /// Drops that the model does not take, and why the first of them; of edges that touch, why the one that sinks in deepest.
     pub(crate) refused: Option<(usize, Error)>,
     /// Drops that were followed besides climbing.
     pub(crate) drops: usize,

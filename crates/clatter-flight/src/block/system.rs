@@ -44,7 +44,7 @@ impl Corner {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct System {
     pub(super) corners: [[f64; 3]; 8],
-    /// Squares of the radii of gyration.
+    /// The box.
     pub(super) block: Block,
     pub(super) gravity: f64,
     /// θ of dashpots, and e² of the hysteretic contact of each corner.
