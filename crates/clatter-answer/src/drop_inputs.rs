@@ -390,7 +390,16 @@ mod tests {
         assert!(whole.drop(Model::Compliant).is_ok());
         let wrong = [
             ("orientation", DropInputs { orientation: Some([2.0, 0.0, 0.0, 0.0]), ..whole.clone() }),
-            ("spin_rad_s", DropInputs { spin_rad_s: Some(vec![900.0, 900.0, 0.0]), ..whole.clone() }),
+            (
+                "spin_rad_s",
+                DropInputs {
+                    orientation: None,
+                    tilt_deg: Some(10.0),
+                    direction_deg: Some(30.0),
+                    spin_rad_s: Some(vec![0.0, 200.0, 0.0]),
+                    ..whole.clone()
+                },
+            ),
             ("gravity_m_s2", DropInputs { gravity_m_s2: Some(-1.0), ..whole.clone() }),
             ("speed_m_s", DropInputs { speed_m_s: Some(-3.0), ..whole.clone() }),
             ("e", DropInputs { e: Some(1.5), ..whole.clone() }),
