@@ -389,7 +389,8 @@ fn changes_of_boxes_hold_when_assessed() {
             held.push((part.component, remedy.lever));
         }
     }
-    for lever in [Lever::Position, Lever::ContactTime, Lever::Limit(LimitKind::Acceleration)] {
+    // No place is enough: friction may turn so thick a box.
+    for lever in [Lever::ContactTime, Lever::Limit(LimitKind::Acceleration)] {
         assert!(held.contains(&(0, lever)), "{lever:?} is not among {held:?}");
     }
     assert!(held.contains(&(1, Lever::Frequency)), "{held:?}");

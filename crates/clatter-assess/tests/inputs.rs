@@ -10,7 +10,7 @@ fn ends(input: Input) -> Option<[&'static str; 2]> {
         Input::First | Input::Direction => None,
         Input::Height => Some(["0.4 m", "1 m"]),
         Input::Speed => Some(["2 m/s", "4 m/s"]),
-        Input::Tilt => Some(["2 deg", "5 deg"]),
+        Input::Tilt => Some(["0.2 deg", "5 deg"]),
         Input::Restitution => Some(["0.1", "0.4"]),
         Input::ContactTime => Some(["0.3 ms", "0.6 ms"]),
         Input::Gyration => Some(["36 mm", "44 mm"]),

@@ -80,7 +80,9 @@ impl<'a> FollowedDrops<'a> {
         };
         let of_part = |followed: &Result<Followed, Error>| {
             let followed = followed.as_ref().map_err(Clone::clone)?;
-            Ok::<_, Error>((of_part_of_box(followed, part)?, with_friction(followed, part)?))
+            // Plates are assessed without friction.
+            let friction = if self.boxed.is_none() { with_friction(followed, part)? } else { 0.0 };
+            Ok::<_, Error>((of_part_of_box(followed, part)?, friction))
         };
         let first = of_part(self.early.get_or_insert_with(|| until(self.swing_s).or_else(on_bottom)))?;
         let whole = first.0.is_open().then(|| {
