@@ -324,6 +324,13 @@ fn a_tolerance_leaves_open_whether_a_box_clatters() {
     let as_one = all[0].as_one_to_deg.unwrap().to_radians().sin() * 0.15_f64.hypot(0.07) / v;
     assert!((as_one - 2e-4).abs() < 1e-12, "{all:?}");
 
+    // Turned up, its farthest corner comes down the slower, and the last may come later.
+    let spun = self::file(&on("face", "bottom").replace("[drop]", "[drop]\nspin = [\"-4 rad/s\", \"2 rad/s\"]"));
+    let all = clatter_assess::ladders(&spun, &clatter_assess::assess(&spun).unwrap(), 0.05).unwrap().landings;
+    let far_m = (0.075_f64.powi(2) + 0.035_f64.powi(2) + 0.007_f64.powi(2)).sqrt();
+    let latest = 0.15_f64.hypot(0.07) * 2.0_f64.to_radians().sin() / (v - 4.0 * far_m);
+    assert!((all[0].last_corner_s[1] - latest).abs() < 1e-12, "{all:?}");
+
     // The worst drop of each part is on a face across which it moves: the plate that this face is says nearly as much where the box is
     // low over it.
     for (limit, most) in ladders.limits.iter().zip([0.02, 0.1]) {

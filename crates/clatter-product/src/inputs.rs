@@ -401,6 +401,17 @@ mod tests {
         }
     }
 
+    /// A range of spins to both sides turns as fast as its faster end.
+    #[test]
+    fn the_fastest_spin_is_that_of_either_end() {
+        for [lo, hi] in [[-20.0, 5.0], [-5.0, 20.0], [-20.0, -5.0], [5.0, 20.0]] {
+            let spin_rad_s = Spread::new(lo, hi, Law::Range).unwrap();
+            let drop =
+                DropRanges { spin_rad_s, ..DropRanges::new(Fall::SpeedMS(Spread::finite(3.0)), Spread::finite(0.1)) };
+            assert_eq!(drop.fastest_rad_s().to_bits(), 20.0_f64.to_bits(), "{lo} to {hi}");
+        }
+    }
+
     /// Where a share of a range is found it was taken from, evenly or along the root.
     #[test]
     fn a_share_is_where_it_was_taken_from() {

@@ -317,6 +317,30 @@ mod tests {
         assert!(LENGTH.read(&"9".repeat(100_000)).is_err(), "too long to be a quantity");
     }
 
+    /// Every unit is as large as its definition says: those of inches, pounds and ounces are exact.
+    #[test]
+    fn every_unit_has_its_size() {
+        let degree = std::f64::consts::PI / 180.0;
+        let sizes: [(&Dimension, &[f64]); 9] = [
+            (&LENGTH, &[1.0, 1e-3, 1e-2, 1e-6, 0.0254, 0.3048]),
+            (&MASS, &[1.0, 1e-3, 1e-6, 0.453_592_37, 0.453_592_37 / 16.0]),
+            (&MOMENT_OF_INERTIA, &[1.0, 1e-4, 1e-6, 1e-7, 1e-9]),
+            (&TIME, &[1.0, 1e-3, 1e-6, 60.0, 3600.0]),
+            (&SPEED, &[1.0, 1e-3, 1e-2, 1.0 / 3.6, 0.0254, 0.3048]),
+            (&ANGLE, &[1.0, degree, degree]),
+            (&ACCELERATION, &[1.0, 9.806_65, 9.806_65, 9.806_65]),
+            (&FREQUENCY, &[1.0, 1e3]),
+            (&ANGULAR_VELOCITY, &[1.0, degree, std::f64::consts::TAU / 60.0]),
+        ];
+        for (dimension, sizes) in sizes {
+            assert_eq!(dimension.units.len(), sizes.len(), "{}", dimension.name);
+            for (unit, size) in dimension.units.iter().zip(sizes) {
+                // uom knows an ounce to seven digits.
+                assert!((unit.to_si(1.0) / size - 1.0).abs() < 1e-6, "{} is {}", unit.name, unit.to_si(1.0));
+            }
+        }
+    }
+
     /// Names that are one unit twice would hide a conversion.
     #[test]
     fn every_name_is_one_unit() {

@@ -175,3 +175,21 @@ fn names_of_any_kind_and_length_are_accepted_as_they_are() {
     let faults = faults(&with("length = \"140 mm\"", &format!("{long} = \"{long}\"")));
     assert!(faults.to_string().len() < 20_000, "a long line is cut: {} bytes", faults.to_string().len());
 }
+
+/// A part lies within the product along each of its sides, with all of its extent.
+#[test]
+fn a_part_beyond_a_side_of_a_plate_is_told() {
+    let part = |position: &str| {
+        format!(
+            "[product]\nname = \"Plate\"\nlength = \"150 mm\"\nwidth = \"70 mm\"\nradius_of_gyration = [\"43 mm\", \"20 mm\"]\n\
+             restitution = 0.3\ncontact_time = \"0.4 ms\"\n[drop]\nheight = \"1 m\"\ntilt = \"3 deg\"\n[[component]]\n\
+             name = \"part\"\nposition = [{position}]\nextent = [\"4 mm\", \"10 mm\"]\nmount = \"hard\"\n\
+             acceleration_limit = \"900 gn\"\n"
+        )
+    };
+    assert!(ProductFile::read(&part("\"73 mm\", \"30 mm\""), "plate.toml").is_ok());
+    for (position, said) in [("\"73 mm\", \"31 mm\"", "up to 35 mm"), ("\"74 mm\", \"30 mm\"", "up to 75 mm")] {
+        let told = faults(&part(position)).to_string();
+        assert!(told.contains(said), "{position}: {told}");
+    }
+}

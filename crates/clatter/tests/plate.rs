@@ -243,6 +243,10 @@ proptest! {
         let mut before = 0.5;
         while let Some(impact) = train.next().filter(|impact| impact.number <= 8) {
             let after = energy(train.velocities());
+            // A corner has its own shock, and the middle the mean of all.
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|place| impact.delta_v_at(place));
+            prop_assert_eq!(corners, impact.delta_v);
+            prop_assert!((4.0 * impact.delta_v_at([0.0; 2]) - corners.iter().sum::<f64>()).abs() < 1e-13);
             let loss = 0.5 * (1.0 - e * e) * impact.approach * impact.approach / plate.weight(impact.corner);
             // Slopes are differences of velocities, and count k² times: roundings too.
             let rounded = 1e-13 * (1.0 + k[0] * k[0] + k[1] * k[1]);

@@ -224,6 +224,17 @@ mod tests {
         assert!(later.turn_rad_s >= (1.0 + e) * lands / least, "{}", later.turn_rad_s);
     }
 
+    /// All energy moves an end of a bar by √(1 + (a/ρ)²) of what it would move the center of mass by: so much more a strike may do there.
+    #[test]
+    fn what_may_come_is_more_at_an_end_than_in_the_middle() {
+        let followed = follow(&bar(2.0, 0.6), Model::Compliant, 0.01, Until::Lands).unwrap();
+        let at = |x: f64| PlaceHistory::new(&followed, Place::flat([x, 0.0])).unwrap().later();
+        let (end, middle) = (at(-0.075), at(0.0));
+        let more = 1.0_f64.hypot(0.075 / 0.045);
+        assert!(middle.shock_m_s > 0.0 && (end.shock_m_s / middle.shock_m_s / more - 1.0).abs() < 1e-12);
+        assert!((end.turned_m_s / middle.turned_m_s / more - 1.0).abs() < 1e-12);
+    }
+
     /// No acceleration acts along a box that lands flat, until it lands otherwise: that is bounded.
     #[test]
     fn where_nothing_is_felt_what_may_come_is_bounded() {
