@@ -4,9 +4,12 @@ use clatter::End;
 use clatter_assess::{
     Accuracy, Assessment, Part, Verdict, answer,
     design::{Bounds, Plane},
+    scatter::{Column, Sampler, Settings},
 };
 use clatter_flight::Body;
-use clatter_product::{DataFault, Drop, Error, Limit, LimitKind, Model, OwnContact, OwnContacts, Plan, ProductFile};
+use clatter_product::{
+    DataFault, Drop, Error, Input, Limit, LimitKind, Model, OwnContact, OwnContacts, Plan, ProductFile,
+};
 
 /// A drill of 300 mm on its side, a soft bumper at end b; the part is on that side of it.
 const BAR: &str = r#"
@@ -252,4 +255,30 @@ fn each_fault_of_a_contact_is_told() {
         let most = if said.contains("did you mean") { 2 } else { 1 };
         assert!(faults.to_string().contains(said) && faults.list().len() <= most, "{said}: {faults}");
     }
+}
+
+/// A sample is the drop that its inputs say, with the contacts of the product: those without would fail at other drops.
+#[test]
+fn samples_have_the_contacts_of_the_product() {
+    let file = read(BAR);
+    let settings = Settings { samples: 40, seed: 1, confidence: 0.95, merge_s: 1e-12 };
+    let inputs = [Input::First, Input::Tilt, Input::Restitution];
+    let columns = inputs.map(|input| Column::Drop(input, None));
+    let (part, limits) = (Part::new(0.1, None), Limit::of(&file.components[1]));
+    let mut apart = 0;
+    for (drawn, asked) in Sampler::new(&file, settings).unwrap().rows(0..40, &columns, &|_| ()) {
+        let first = if drawn[0] < 0.5 { End::A } else { End::B };
+        let drop = file.one_drop(first, |row, given| {
+            inputs.iter().position(|input| *input == row.input).map_or(given.hi(), |i| drawn[i])
+        });
+        let of = |drop: &Drop| {
+            let used =
+                limits.iter().map(|limit| answer(drop, &part, limit, Model::Compliant, 0.005).unwrap().utilization());
+            used.fold(0.0, f64::max)
+        };
+        let (found, known) = (asked[1].as_ref().unwrap().utilization, of(&drop));
+        assert!((found / known - 1.0).abs() < 0.01, "{drawn:?}: {found}, not {known}");
+        apart += u32::from((of(&Drop { own_contacts: OwnContacts::NONE, ..drop }) / known - 1.0).abs() > 0.1);
+    }
+    assert!(apart >= 10, "{apart}");
 }
