@@ -402,3 +402,16 @@ fn changes_of_boxes_hold_when_assessed() {
     }
     assert!(held.contains(&(1, Lever::Frequency)), "{held:?}");
 }
+
+/// A part along the ground feels next to nothing of a flat landing, and much more if the ground holds the box: such samples are open.
+#[test]
+fn samples_in_which_friction_may_decide_are_open() {
+    let open = |axis: &str, limit: &str| {
+        let text = on("face", "bottom").replacen("axis = \"z\"", &format!("axis = \"{axis}\""), 1);
+        let file = file(&text.replace("5000 gn", limit));
+        let rows = Sampler::new(&file, settings(20)).unwrap().rows(0..20, &[], &|_| ());
+        rows.iter().filter(|(_, asked)| asked[0].as_ref().unwrap().open).count()
+    };
+    // Some 2000 gn upward, of which friction is 0.6 at most.
+    assert_eq!([open("x", "900 gn"), open("x", "20000 gn"), open("z", "20000 gn")], [20, 0, 0]);
+}

@@ -48,9 +48,9 @@ fn build() -> Result<String, String> {
     let wasm = packed(&compiled(root, &target)?).map_err(|error| error.to_string())?;
     let page = PAGE
         .replace("/*version*/", env!("CARGO_PKG_VERSION"))
-        .replace("/*style*/", STYLE)
-        .replace("/*worker*/", WORKER)
-        .replace("/*modules*/", &MODULES.join("\n"))
+        .replace("/*style*/", &lean(STYLE))
+        .replace("/*worker*/", &lean(WORKER))
+        .replace("/*modules*/", &lean(&MODULES.join("\n")))
         .replace("/*wasm*/", &STANDARD.encode(wasm));
     let path = target.join("web/clatter.html");
     let written = fs::create_dir_all(target.join("web")).and_then(|()| fs::write(&path, &page));
@@ -60,6 +60,12 @@ fn build() -> Result<String, String> {
         return Err(format!("{}: {small} bytes compressed, more than {MOST}", path.display()));
     }
     Ok(format!("{}: {} kB, {} kB compressed", path.display(), page.len() / 1000, small / 1000))
+}
+
+/// Leaves out what only readers of the source need: indents, empty lines, and lines of comments.
+fn lean(source: &str) -> String {
+    let lines = source.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with("//"));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Compiles the crate to WebAssembly.
