@@ -336,3 +336,21 @@ fn equal_peaks_and_many_shocks_are_told() {
     let (count, listed) = (&channel["shocks"]["count"], channel["shocks"]["list"].as_array().unwrap().len());
     assert_eq!((count, listed), (&json!(1200), 1000));
 }
+
+/// Times are those of the file: of a record that begins at 1 s the shock and its peak are later by that.
+#[test]
+fn times_of_shocks_are_those_of_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |begins_s: f64| {
+        let text =
+            half_sine("time [s],acceleration [g]", |i, a| format!("{:.4},{a:.6}", begins_s + f64::from(i) * 1e-4));
+        let got = answer(["record", file(folder.path(), "late.csv", &text).to_str().unwrap(), "--find"]);
+        let shock = &got["channels"][0]["shocks"]["list"][0];
+        ["start_s", "peak_time_s"].map(|key| shock[key].as_f64().unwrap_or_else(|| panic!("{got}")))
+    };
+    let ([start, peak], [late_start, late_peak]) = (of(0.0), of(1.0));
+    assert!(
+        (late_start - start - 1.0).abs() < 1e-9 && (late_peak - peak - 1.0).abs() < 1e-9,
+        "{late_start}, {late_peak}"
+    );
+}

@@ -387,7 +387,20 @@ mod tests {
             contact_time_s: Some(4e-4),
             ..DropInputs::default()
         };
-        assert!(whole.drop(Model::Compliant).is_ok());
+        let drop = whole.drop(Model::Compliant).unwrap();
+        assert!(drop.body.products_m2 == [0.0; 3] && drop.body.length.center_m() == 0.0);
+        // Half-sides and meters say the same place.
+        let [halves, meters] = [
+            DropInputs { center_of_mass: Some(vec![0.2, -0.1, 0.3]), ..whole.clone() },
+            DropInputs { center_of_mass_m: Some([0.015, -0.0035, 0.003]), ..whole.clone() },
+        ]
+        .map(|inputs| inputs.drop(Model::Compliant).unwrap().body);
+        for (one, other) in
+            halves.faces_m().unwrap().as_flattened().iter().zip(meters.faces_m().unwrap().as_flattened())
+        {
+            assert!((one - other).abs() < 1e-15, "{halves:?}, not {meters:?}");
+        }
+        assert!((halves.length.center_m() - 0.015).abs() < 1e-15, "{halves:?}");
         let wrong = [
             ("orientation", DropInputs { orientation: Some([2.0, 0.0, 0.0, 0.0]), ..whole.clone() }),
             (
