@@ -462,6 +462,19 @@ fn a_contact_law_and_a_tolerance_can_be_asked_for() {
     assert_eq!(close["drop"]["tolerance"], json!(0.001));
 }
 
+/// Each end has the contact that is given for it, in whatever order.
+#[test]
+fn every_end_has_the_contact_that_is_given_for_it() {
+    let with = |contacts: &[&str]| {
+        let drop = ["respond", "--model=compliant", "--contact-time-s=4e-4", "--at=0.8"];
+        of(&answer(drop.iter().chain(&DROP).chain(contacts)), PEAKS[1])
+    };
+    let (a, b) = ("--contact=a,0.1,8e-4", "--contact=b,0.6,3e-4");
+    let [both, turned, first, second] = [with(&[a, b]), with(&[b, a]), with(&[a]), with(&[b])];
+    assert_eq!(both.to_bits(), turned.to_bits());
+    assert!((both / first - 1.0).abs() > 0.01 && (both / second - 1.0).abs() > 0.01, "{both}, {first}, {second}");
+}
+
 /// Contacts of a few microseconds are instants to a component of 180 Hz.
 #[test]
 fn short_contacts_are_velocity_shocks() {

@@ -318,3 +318,19 @@ fn a_file_is_opened_by_its_name() {
     let error = Record::open(&path).expect_err("no file").to_string();
     assert!(error.contains(&path.display().to_string()), "{error}");
 }
+
+/// Channels of the same rate and length that begin at other times were not sampled together.
+#[test]
+fn channels_that_begin_otherwise_have_other_times() {
+    let text = |begins_s: f64| {
+        (0..50).fold("t1 [s],a1 [g],t2 [s],a2 [g]\n".to_owned(), |text, i| {
+            let t = f64::from(i) * 1e-3;
+            text + &format!("{t:.4},{i},{:.4},{}\n", begins_s + t, 2 * i)
+        })
+    };
+    let [together, apart] = [0.0, 0.25].map(|begins_s| own(&text(begins_s)));
+    assert_eq!([together.times().len(), apart.times().len()], [1, 2]);
+    assert!(apart.one_time("a resultant").is_err() && together.one_time("a resultant").is_ok());
+    let starts: Vec<f64> = apart.times().iter().map(|times| times.start_s()).collect();
+    assert_eq!(starts, [0.0, 0.25]);
+}

@@ -373,6 +373,14 @@ fn clipping_is_told_and_coarse_steps_are_not() {
     let clipped = found(&|a| (100.0 * a).min(80.0));
     assert!(matches!(&clipped[..], [Finding::Clipped { samples: 41, value_m_s2: 80.0, .. }]), "{clipped:?}");
     assert_eq!(found(&|a| (20.0 * a).round()), [], "a converter of a few steps");
+    // In the second of two channels too.
+    let whole = text(&|a| 100.0 * a);
+    let clipped = text(&|a| (100.0 * a).min(80.0));
+    let column = |line: &str| line.split_once(',').expect("a comma").1.to_owned();
+    let both: String =
+        whole.lines().zip(clipped.lines()).map(|(one, two)| format!("{one},{}\n", column(two))).collect();
+    let found = with(format!("time,ax,ay\n{both}"), &si()).expect("a record").findings(10.0);
+    assert!(matches!(&found[..], [Finding::Clipped { channel, samples: 41, .. }] if channel == "ay"), "{found:?}");
 }
 
 /// A clock without dates goes round at midnight, as often as it is passed; with dates it does not.
