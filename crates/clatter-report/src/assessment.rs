@@ -252,6 +252,24 @@ mod tests {
         serde_json::from_str(&files.iter().find(|(name, _)| name == "assessment.json").unwrap().1).unwrap()
     }
 
+    /// Of all limits that are exceeded the first page names the one that is by most, wherever it stands in the file.
+    #[test]
+    fn the_hardest_limit_is_the_one_that_is_exceeded_by_most() {
+        let part = |name: &str, limit: u32| {
+            format!(
+                "[[component]]\nname = \"{name}\"\nposition = \"40 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"{limit} mm/s\"\n"
+            )
+        };
+        let product = "[product]\nname = \"bar\"\nlength = \"150 mm\"\nradius_of_gyration = \"43 mm\"\nrestitution = 0.3\n\
+            [drop]\nspeed = \"3 m/s\"\ntilt = \"3 deg\"\n";
+        for order in [["much", "little"], ["little", "much"]] {
+            let parts = order.map(|name| part(name, if name == "much" { 500 } else { 2000 }));
+            let file = ProductFile::read(&format!("{product}{}", parts.concat()), "bar.toml").unwrap();
+            let told = hardest(&clatter_assess::assess(&file).unwrap()).unwrap();
+            assert_eq!(told["name"], json!(name("much")), "{told}");
+        }
+    }
+
     /// A page of several drops of a bar has a row and the tilt of each, and figures as of one drop.
     #[test]
     fn several_drops_of_a_bar_have_a_row_each() {
