@@ -335,9 +335,9 @@ const _: () = {
     let mut row = 0;
     while row < INPUTS.len() {
         let (all, own) = INPUTS[row].numbers;
-        assert!(all < NUMBERS_OF_ALL);
+        assert!(all < NUMBERS_OF_ALL, "a number of another part");
         if let Some(own) = own {
-            assert!(own < NUMBERS_OF_DROP);
+            assert!(own < NUMBERS_OF_DROP, "a number of another drop");
         }
         row += 1;
     }
