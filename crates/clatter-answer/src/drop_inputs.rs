@@ -387,8 +387,7 @@ mod tests {
             contact_time_s: Some(4e-4),
             ..DropInputs::default()
         };
-        let drop = whole.drop(Model::Compliant).unwrap();
-        assert!(drop.body.products_m2 == [0.0; 3] && drop.body.length.center_m() == 0.0);
+        assert!(whole.drop(Model::Compliant).is_ok());
         // Half-sides and meters say the same place.
         let [halves, meters] = [
             DropInputs { center_of_mass: Some(vec![0.2, -0.1, 0.3]), ..whole.clone() },

@@ -25,7 +25,7 @@ fn product(input: Input, value: &str) -> ProductFile {
     let drop = fall.into_iter().chain([("tilt", "3 deg")]);
     let key = input.row().name.replace('-', "_");
     let is_of_product = product.iter().any(|(name, _)| *name == key);
-    let own = |is: bool| (is_of_product == is).then(|| format!("{key} = {value}\n")).unwrap_or_default();
+    let own = |is: bool| if is_of_product == is { format!("{key} = {value}\n") } else { String::new() };
     let line = |(name, text): (&str, &str)| {
         if name == key { String::new() } else { format!("{name} = \"{text}\"\n").replace("\"0.3\"", "0.3") }
     };
