@@ -609,7 +609,12 @@ fn worst_case(asked: &Candidate, ranges: &Ranges<'_>, component: &Component) -> 
 fn stopped(limits: &mut [&mut LimitAssessment]) {
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     let Some((verdict, margin)) = stop.map(|l| (l.verdict, l.margin)) else { return };
-    let none_reaches = margin.is_some_and(|margin| margin > COVERAGE);
+    // By either law, where the file names none.
+    let within = |limit: &&mut LimitAssessment| {
+        let mut demands = limit.demand.into_iter().chain(limit.other_law);
+        limit.demand.is_some() && demands.all(|demand| demand * (1.0 + COVERAGE) < limit.allowed)
+    };
+    let none_reaches = limits.iter().filter(|l| l.limit == LimitKind::RattleSpace).all(within);
     let may_change =
         |l: &LimitAssessment| l.limit.is_changed_by_stop() && !(none_reaches && l.verdict == Verdict::Unsafe);
     for limit in limits.iter_mut().filter(|l| may_change(l)) {
