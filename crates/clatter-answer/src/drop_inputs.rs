@@ -113,6 +113,7 @@ impl DropInputs {
             ..drop
         };
         // A value that no flight accepts is refused under the name of its input.
+        clatter::Restitution::new(drop.restitution).map_err(|error| self.input(error))?;
         drop.of_box().and(drop.of_level()).map_err(|error| self.input(error))?;
         if !drop.body.is_wide() {
             drop.scene().map_err(|error| self.input(error))?;
