@@ -19,22 +19,15 @@ use crate::{Failure, Streams};
 /// The options whose names hold the unit, and take a number without one.
 pub(crate) const IN_SI: &str = "The same as plain numbers in SI units";
 
-/// The product file that a drop is one of.
+/// All of a drop but its model, the inertia and the restitution.
 #[derive(Debug, clap::Args)]
-pub(crate) struct FileArgs {
+pub(crate) struct DropArgs {
     /// Take the drop from a product file, - for standard input, each range at one value, which is told; options given beside it count instead
     #[arg(long, value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath, group = "followed")]
     pub(crate) product: Option<PathBuf>,
     /// The part of the product that is asked about, by its name; may be left out where there is one alone
     #[arg(long, value_name = "NAME", requires = "product")]
     component: Option<String>,
-}
-
-/// All of a drop but its model, the inertia and the restitution.
-#[derive(Debug, clap::Args)]
-pub(crate) struct DropArgs {
-    #[command(flatten)]
-    pub(crate) of: FileArgs,
     /// Length of the body from end to end, 2L, such as 150mm
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::length, requires = "followed", conflicts_with = "length_m")]
     length: Option<Quantity>,
@@ -184,8 +177,8 @@ impl DropArgs {
         files: &Files<'_>,
         streams: &mut Streams<'_>,
     ) -> Result<Option<OneDrop>, Failure> {
-        let Some(path) = &self.of.product else { return Ok(None) };
-        let file = OneDrop::read(path, self.of.component.as_deref(), first, worst.is_some(), files, streams)?;
+        let Some(path) = &self.product else { return Ok(None) };
+        let file = OneDrop::read(path, self.component.as_deref(), first, worst.is_some(), files, streams)?;
         Ok(Some(match worst {
             Some((of, accuracy)) => file.at_worst(of, &accuracy)?,
             None => file,
@@ -422,7 +415,7 @@ impl DropArgs {
                 };
                 let (give, file) =
                     (names.iter().map(option).collect::<Vec<_>>().join(", "), "--product=FILE, which says all of it");
-                let or = if self.of.product.is_none() { format!("; or {file}") } else { String::new() };
+                let or = if self.product.is_none() { format!("; or {file}") } else { String::new() };
                 Failure::Wrong(format!("the drop is not whole: give {give}{or}"))
             }
             Error::Input { name, reason } => self.named(name, gyration, &reason),

@@ -180,23 +180,44 @@ const GIVEN: [&str; 4] = ["shocks_file", "pulses_file", "followed", "case"];
 const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
-/// The arguments that describe a drop, or groups of them, except those of a product file.
-const OF_ONE_DROP: [&str; 15] = [
-    "DropArgs",
-    "fall",
-    "at",
+/// The arguments that describe a drop, except those of a product file.
+const OF_ONE_DROP: [&str; 36] = [
     "at_m",
     "axis",
-    "damping",
-    "e",
     "feet_m",
-    "first",
     "flat",
-    "frequency",
-    "inertia",
-    "omega",
-    "q_factor",
+    "orientation",
+    "center_of_mass_m",
     "spin_rad_s",
+    "first",
+    "at",
+    "e",
+    "omega",
+    "frequency",
+    "damping",
+    "q_factor",
+    "gyration",
+    "gyration_m",
+    "mass",
+    "length",
+    "length_m",
+    "center_of_mass",
+    "thickness",
+    "thickness_m",
+    "speed",
+    "speed_m_s",
+    "height",
+    "height_m",
+    "tilt",
+    "tilt_deg",
+    "direction",
+    "direction_deg",
+    "product_of_inertia_m2",
+    "gravity",
+    "gravity_m_s2",
+    "contact_time",
+    "contact_time_s",
+    "contact_law",
 ];
 
 /// How the mass lies.
@@ -252,7 +273,7 @@ impl Args {
                 .iter()
                 .chain(&self.pulses_file)
                 .chain(&self.case)
-                .chain(&self.drop.of.product)
+                .chain(&self.drop.product)
                 .map(AsRef::as_ref)
                 .collect(),
             writes: self.output.iter().map(|target| target.path.as_path()).collect(),
@@ -260,7 +281,7 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        if self.output.is_some() && (self.model.is_some() || self.drop.of.product.is_some()) {
+        if self.output.is_some() && (self.model.is_some() || self.drop.product.is_some()) {
             return Err(Failure::Usage(
                 "-o writes the rule over W h0/v0 of a bar from --q and --e: --output cannot be used with --model or --product",
             ));

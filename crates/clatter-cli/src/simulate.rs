@@ -149,7 +149,7 @@ struct Drop<'a> {
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
         Files {
-            reads: self.drop.of.product.iter().map(AsRef::as_ref).collect(),
+            reads: self.drop.product.iter().map(AsRef::as_ref).collect(),
             writes: self.output.iter().map(|target| target.path.as_path()).collect(),
         }
     }
