@@ -46,6 +46,7 @@ def simulate(
     gravity_m_s2: float = STANDARD_GRAVITY,
     contact_time_s: float | None = None,
     contact_law: Law | None = None,
+    friction: float | None = None,
     time_limit_s: float | None = None,
     impact_limit: int | None = None,
     at: Sequence[float] | Sequence[tuple[float, float]] = (),
@@ -85,6 +86,8 @@ def simulate(
         Of a lone contact, in s; for compliant.
     contact_law : {'hysteretic', 'dashpot'}, optional
         What the ground does meanwhile; hysteretic unless given.
+    friction : float, optional
+        Of a box: coefficient of friction of the ground; none unless given.
     time_limit_s : float, optional
         Time for which the motion is followed, in s.
     impact_limit : int, optional
@@ -143,6 +146,7 @@ def respond(
     gravity_m_s2: float = STANDARD_GRAVITY,
     contact_time_s: float | None = None,
     contact_law: Law | None = None,
+    friction: float | None = None,
     first: End | None = None,
     flat: bool = False,
     tolerance: float = 0.01,
@@ -166,7 +170,7 @@ def respond(
     damping, q_factor : float
         Damping ratio, or 1/(2 damping); Q = 10 unless given.
     model, length_m, width_m, thickness_m, gyration_m, center_of_mass_m, speed_m_s, height_m, tilt_deg, direction_deg, gaps_m
-    orientation, spin_rad_s, gravity_m_s2, contact_time_s, contact_law
+    orientation, spin_rad_s, gravity_m_s2, contact_time_s, contact_law, friction
         Else a drop as in :func:`simulate`, with e and center_of_mass.
     first : {'a', 'b'}, optional
         Of a drop: the end that touches first.
@@ -203,6 +207,7 @@ def boxes(
     gyration_m: tuple[ArrayLike, ArrayLike, ArrayLike],
     center_of_mass_m: tuple[ArrayLike, ArrayLike, ArrayLike] = (0.0, 0.0, 0.0),
     spin_rad_s: tuple[ArrayLike, ArrayLike, ArrayLike] = (0.0, 0.0, 0.0),
+    friction: ArrayLike = 0.0,
     orientation: ArrayLike,
     contact_law: Law = "hysteretic",
 ) -> Answer:
@@ -216,7 +221,7 @@ def boxes(
         Along or about the three axes of the box; m, m, rad/s.
     orientation : array_like, shape (..., 4)
         Unit quaternions w, x, y, z that turn the axes of the box into those of the world, z upward.
-    e, speed_m_s, contact_time_s, gravity_m_s2 : array_like
+    e, speed_m_s, contact_time_s, gravity_m_s2, friction : array_like
         As in :func:`simulate`.
     contact_law : {'hysteretic', 'dashpot'}
         Of all.

@@ -34,7 +34,7 @@ class Product:
         From end a to end b.
     restitution : float or range
         Rebound over approach speed.
-    radius_of_gyration, moment_of_inertia, mass, masses, center_of_mass, contact_time, contact_law
+    radius_of_gyration, moment_of_inertia, mass, masses, center_of_mass, contact_time, contact_law, friction
         As in a product file, ``clatter init`` explains them.
     **more
         Further keys of the table ``[product]``.
@@ -64,6 +64,7 @@ class Product:
         center_of_mass: Quantity | None = None,
         contact_time: Quantity | None = None,
         contact_law: Literal["hysteretic", "dashpot"] | None = None,
+        friction: Quantity | None = None,
         **more: Any,
     ) -> None:
         self._text: str | None = None

@@ -295,6 +295,7 @@ pub(crate) fn boxes<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) 
     let (length, width, thickness) = (column("length_m")?, column("width_m")?, column("thickness_m")?);
     let (e, speed, gravity) = (column("e")?, column("speed_m_s")?, column("gravity_m_s2")?);
     let (contact_time, law) = (column("contact_time_s")?, given.read("contact_law")?);
+    let friction = column("friction")?;
     given.done()?;
     let row = move |i| {
         let inputs = DropInputs {
@@ -310,6 +311,7 @@ pub(crate) fn boxes<'py>(py: Python<'py>, shape: Vec<usize>, given: Given<'py>) 
             gravity_m_s2: Some(gravity.at(i)),
             contact_time_s: Some(contact_time.at(i)),
             contact_law: Some(law),
+            friction: Some(friction.at(i)),
             ..DropInputs::default()
         };
         let question = simulate::Question::new(inputs.drop(Model::Compliant)?, Model::Compliant);

@@ -30,6 +30,7 @@ pub(crate) fn inputs(given: &Given<'_>) -> PyResult<DropInputs> {
         gravity_m_s2: given.read("gravity_m_s2")?,
         contact_time_s: given.read("contact_time_s")?,
         contact_law: given.read("contact_law")?,
+        friction: given.read("friction")?,
         first: given.read("first")?,
         is_flat: given.read::<Option<bool>>("flat")?.unwrap_or_default(),
         ..DropInputs::default()

@@ -67,6 +67,8 @@ pub struct DropInputs {
     pub contact_time_s: Option<f64>,
     /// The law by which the ground acts during a contact; hysteretic unless given.
     pub contact_law: Option<ContactLaw>,
+    /// Coefficient of friction of the ground under a box; none unless given.
+    pub friction: Option<f64>,
     /// The end of a bar that touches first; end a unless given.
     pub first: Option<End>,
     /// True where both ends of a bar land at the same instant, without a tilt.
@@ -110,8 +112,12 @@ impl DropInputs {
         let drop = Drop {
             contact_time_s: self.contact_time_s.or(base.and_then(|drop| drop.contact_time_s)),
             contact_law: self.contact_law.or(base.map(|drop| drop.contact_law)).unwrap_or_default(),
+            friction: self.friction.or(base.map(|drop| drop.friction)).unwrap_or_default(),
             ..drop
         };
+        if self.friction.is_some() && !drop.is_solid() {
+            return Err(Error::input("friction", "it is that of the ground under a box: give width and thickness"));
+        }
         // A value that no flight accepts is refused under the name of its input.
         clatter::Restitution::new(drop.restitution).map_err(|error| self.input(error))?;
         drop.of_box().and(drop.of_level()).map_err(|error| self.input(error))?;
@@ -329,6 +335,7 @@ impl DropInputs {
                     ("height of corner", "gaps_m"),
                     ("length of the quaternion", "orientation"),
                     ("velocity of the lowest corner", "spin_rad_s"),
+                    ("friction", "friction"),
                     ("contact time", "contact_time_s"),
                     ("gravity", "gravity_m_s2"),
                     ("spin", "spin_rad_s"),

@@ -75,9 +75,24 @@ pub struct Answer {
     /// Times in which one end of a bar lay on the ground and the body turned about it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pivots: Option<Vec<PivotAnswer>>,
+    /// How a box moves where it ends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end: Option<EndAnswer>,
     /// The reason why the motion ends.
     #[serde(serialize_with = "stop")]
     pub stop: Stop,
+}
+
+/// The motion of a box at the end of a drop.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct EndAnswer {
+    /// The time since the first touch.
+    pub time_s: Json,
+    /// Velocity of the center of mass, along the axes of the world.
+    pub velocity_m_s: [Json; 3],
+    /// Spin, about the axes of the box.
+    pub spin_rad_s: [Json; 3],
 }
 
 /// A time in which one end lay on the ground.
@@ -213,6 +228,11 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     let pivots = motion.map(|motion| motion.pivots.iter().map(pivot).collect());
     let inertia_ratios = motion.map(|_| drop.body.inertia_ratios().map(Json));
     let energy_error = train.energy_error.map(Json);
+    let end = train.end().map(|end| EndAnswer {
+        time_s: Json(end.time_s),
+        velocity_m_s: end.velocity_m_s.map(Json),
+        spin_rad_s: end.spin_rad_s.map(Json),
+    });
     let impacts = Impacts { drop, at: at.clone(), train };
     Ok(Answer {
         model: model.name(),
@@ -226,6 +246,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         largest_delta_v_at_m_s: at.iter().map(|at| impacts.largest(|impact| impact.delta_v_at(*at))).collect(),
         impacts,
         pivots,
+        end,
         stop,
     })
 }

@@ -291,11 +291,6 @@ fn judge(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst
             Err(error) => of.doubts.push(Doubt::NoTilt(error)),
         }
     }
-    let frictionless = of.most;
-    if worst.with_friction > 0.0 {
-        of.most += (worst.with_friction - utilization).max(0.0);
-        of.notes.push(Note::Friction(worst.with_friction));
-    }
     if let Some((count, error)) = worst.refused.clone() {
         of.doubts.push(Doubt::Refused { count, drops: worst.drops, error });
     }
@@ -312,8 +307,7 @@ fn judge(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst
         of.doubts.push(Doubt::NoBound);
     } else if utilization <= 1.0 && of.most > 1.0 {
         let (found, most) = (utilization, of.most);
-        let others = if frictionless > 1.0 { Doubt::Others { found, most } } else { Doubt::Friction { found, most } };
-        of.doubts.push(others);
+        of.doubts.push(Doubt::Others { found, most });
     }
     of.most = of.most.max(utilization);
     let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
@@ -479,7 +473,7 @@ fn governing(of_drops: &[LimitAssessment], names: &[DropName]) -> LimitAssessmen
         }
         if governor.verdict == limit.verdict {
             for doubt in &mut limit.undecided {
-                if let Doubt::Others { most, .. } | Doubt::Friction { most, .. } = doubt {
+                if let Doubt::Others { most, .. } = doubt {
                     *most = most_of_all;
                 }
             }

@@ -8,10 +8,6 @@ use clatter_flight::{Body, Contact, ContactLaw, Drop, Levers, Place};
 
 use clatter_product::{Base, Component, DropRanges, Limit, Mount, Product, Source};
 
-/// Drops are followed without friction. Parts of a box that move along the ground are assessed with the demand that so much friction may
-/// add: steel, glass and hard plastics on concrete and wood have less, rubber may have more.
-pub(crate) const FRICTION: f64 = 0.6;
-
 /// Returns the largest value of a limited quantity that the energy of the drops allows; none for the response of a suspended part and for
 /// contacts without a bound.
 ///
@@ -110,6 +106,7 @@ fn of_plate(
         restitution: product.restitution.hi(),
         contact_time_s: Some(shortest_s),
         contact_law: law,
+        friction: product.friction.map_or(0.0, |friction| friction.hi()),
         ..product.unset(drop, base)
     };
     let norm = |[x, y]: [f64; 2]| libm::hypot(x, y);
@@ -169,8 +166,8 @@ fn of_plate(
 /// its arm was when it touched, and presses with at most √(2E_i) ω₁/√μ_i of that moment; while it presses √μ grows at most by
 /// 1 + ω τ r/k, as the box turns by ω τ (r the distance of the farthest corner, k the least radius of gyration, ω = √(2E)/k). Four
 /// corners of a face do at most √4 times as much as one that has all of the energy. A place of a turning box has an acceleration of ω² |p|
-/// as well, and of a torque-free change of its axis of spin at most ω² |p|/√3. Friction of the ground pushes across by [`FRICTION`] of each
-/// force.
+/// as well, and of a torque-free change of its axis of spin at most ω² |p|/√3. Friction of the ground pushes across by its
+/// coefficient of each force.
 pub(crate) fn box_acceleration(drop: &Drop, place: &Place, speed: f64, stops_m_s2: f64, longest_s: f64) -> f64 {
     let Some(Levers { farthest_m, place_m, across }) = drop.levers(place) else { return f64::INFINITY };
     let least = drop.least_gyration_m();
@@ -178,7 +175,7 @@ pub(crate) fn box_acceleration(drop: &Drop, place: &Place, speed: f64, stops_m_s
     let grows = 1.0 + spins * longest_s * farthest_m / least;
     let [x, y] = drop.in_radii(place).1;
     let along = (1.0 + x * x + y * y).sqrt() * grows;
-    2.0 * stops_m_s2 * (along + FRICTION * across) + (1.0 + 3_f64.sqrt().recip()) * spins * spins * place_m
+    2.0 * stops_m_s2 * (along + drop.friction * across) + (1.0 + 3_f64.sqrt().recip()) * spins * spins * place_m
 }
 
 /// Returns the largest radius of gyration about an axis that a plate or a box turns about, as thick as it is taken where real tilt counts.

@@ -3,7 +3,6 @@
 //! [`answer`] follows a drop by a model, takes the acceleration at the place of the part, and gives the largest value of one limited
 //! quantity. Commands that need many answers of one drop keep the drop between them; nothing else is different.
 
-mod friction;
 mod later;
 
 use std::f64::consts::FRAC_PI_2;

@@ -4,7 +4,6 @@ use std::fmt::{Display, Formatter};
 
 use serde::Serializer;
 
-use crate::bound::FRICTION;
 use clatter_product::{ContactLaw, DropName, Error, Model};
 
 /// The reason why a limit is undecided, or would be if nothing exceeded it. Shares are of the allowed value.
@@ -38,13 +37,6 @@ pub enum Doubt {
         /// The demand of the worst drop found, as a share.
         found: f64,
         /// The demand that other drops may have, as a share.
-        most: f64,
-    },
-    /// Without friction no drop exceeds the limit; with it some may.
-    Friction {
-        /// The demand of the worst drop found without friction, as a share.
-        found: f64,
-        /// The demand that other drops may have with friction up to 0.6, as a share.
         most: f64,
     },
     /// The assessment contradicts itself.
@@ -88,13 +80,6 @@ impl Display for Doubt {
             Self::Others { found, most } => write!(
                 f,
                 "the worst drop found asks for {} % of the limit, and others may ask for up to {} %",
-                percent(*found),
-                percent(*most)
-            ),
-            Self::Friction { found, most } => write!(
-                f,
-                "without friction the worst drop found asks for {} % of the limit; friction of the ground up to {FRICTION} may bring others \
-                 to {} %",
                 percent(*found),
                 percent(*most)
             ),
@@ -166,8 +151,6 @@ pub enum Note {
     Error(f64),
     /// The demand of rebounds may be up to this share, by their energy.
     Rebounds(f64),
-    /// Friction up to 0.6, which drops are followed without, may bring them to this share.
-    Friction(f64),
     /// Nothing tells how far other drops may exceed the worst one found, for this.
     Open(Vec<Doubt>),
     /// The same of another drop of the list.
@@ -207,12 +190,6 @@ impl Display for Note {
                 f,
                 "it may be off by {} %: later strikes add, and multiply what those before got wrong",
                 percent(*share)
-            ),
-            Self::Friction(most) => write!(
-                f,
-                "drops are followed without friction: pushes along the ground of up to {FRICTION} of those of the ground upward may ask for \
-                 up to {} % of the limit",
-                percent(*most)
             ),
             Self::Open(doubts) => {
                 let why = joined(doubts).unwrap_or_default();

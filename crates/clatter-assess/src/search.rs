@@ -140,7 +140,7 @@ impl Ranges<'_> {
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
         }
-        let Candidates { mut found, refused, drops, later, with_friction, .. } = all;
+        let Candidates { mut found, refused, drops, later, .. } = all;
         let most_starts = [usize::MAX, 2, 2, 1][self.faces()];
         let climbs: Vec<(usize, Candidate)> = found
             .iter_mut()
@@ -168,7 +168,6 @@ impl Ranges<'_> {
             let mut worst =
                 if in_time { self.settle(&tasks[n], reached) } else { self.settle_at_once(&tasks[n], reached) };
             (worst.drops, worst.later, worst.near) = (drops, later[n], near);
-            worst.with_friction = with_friction[n];
             if let Some((count, error)) = &refused {
                 worst.refuse(*count, error);
             }
@@ -269,22 +268,16 @@ impl Ranges<'_> {
                     if later > 0.0 {
                         of_drop.later.push((number, later));
                     }
-                    let mut friction = felt.most_friction(&task.limit, &parts);
                     if later > 0.0 && to_rest {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
                         of_drop.lean = rebounded.lean();
                         let longer = felt.longer(rebounded)?;
-                        friction = friction.max(longer.most_friction(&task.limit, &parts));
                         let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());
                         asked = self.most(task, &place, &longer, *k, late, above(asked))?.or(asked);
                         if longer.later_most(&task.limit, &parts, reached(asked)) > 0.0 {
                             let longest = longer.longer(self.followed(drop, Until::Over, &mut over)?)?;
                             asked = self.most(task, &place, &longest, *k, late, above(asked))?.or(asked);
                         }
-                    }
-                    if friction > 0.0 {
-                        let own = asked.map_or(near.max(0.0), |asked| asked.answer.utilization());
-                        of_drop.with_friction.push((number, own + friction));
                     }
                     if let Some(mut asked) = asked {
                         asked.late = asked.answer.time_s > early.drop.clear_s();

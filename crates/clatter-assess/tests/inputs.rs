@@ -15,11 +15,25 @@ fn ends(input: Input) -> Option<[&'static str; 2]> {
         Input::ContactTime => Some(["0.3 ms", "0.6 ms"]),
         Input::Gyration => Some(["36 mm", "44 mm"]),
         Input::Spin => Some(["-4 rad/s", "6 rad/s"]),
+        Input::Friction => Some(["0.1", "0.5"]),
     }
+}
+
+/// A box with a part across that lands on its bottom, with a value or a range of the friction.
+fn slides(value: &str) -> ProductFile {
+    let text = format!(
+        "[product]\nname = \"Box\"\nlength = \"150 mm\"\nwidth = \"70 mm\"\nthickness = \"30 mm\"\nradius_of_gyration = [\"43 mm\", \"20 mm\"]\n\
+         restitution = 0.3\ncontact_time = \"0.4 ms\"\ncontact_law = \"hysteretic\"\nfriction = {value}\n[[drop]]\nheight = \"1 m\"\nface = \"bottom\"\n\
+         [[component]]\nname = \"part\"\nposition = [\"40 mm\", \"0 mm\"]\naxis = \"x\"\nmount = \"hard\"\nacceleration_limit = \"3000 gn\"\n"
+    );
+    ProductFile::read(&text, "box.toml").unwrap_or_else(|faults| panic!("{faults}\n{text}"))
 }
 
 /// A product with a value or a range of an input.
 fn product(input: Input, value: &str) -> ProductFile {
+    if input == Input::Friction {
+        return slides(value);
+    }
     let fall = if input == Input::Speed { None } else { Some(("height", "1 m")) };
     let product = [("radius_of_gyration", "43 mm"), ("restitution", "0.3"), ("contact_time", "0.4 ms")];
     let drop = fall.into_iter().chain([("tilt", "3 deg")]);

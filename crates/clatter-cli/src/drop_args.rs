@@ -87,6 +87,11 @@ pub(crate) struct DropArgs {
     #[arg(long, value_enum, value_name = "LAW", requires = "followed")]
     contact_law: Option<Law>,
 
+    /// Coefficient of friction of the ground under a box, for compliant: of plastics, glass and steel on wood and concrete 0.1 to 0.6, of
+    /// rubber up to 1 [default: none]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = inputs::number, requires = "followed")]
+    friction: Option<f64>,
+
     /// --length in m
     #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::length_m, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
     length_m: Option<f64>,
@@ -272,6 +277,7 @@ impl DropArgs {
             Input::ContactTime => self.contact_time().is_some() || is_instant,
             Input::Gyration => beside.gyration.is_some() || !beside.masses.is_empty(),
             Input::Spin => beside.spin_rad_s.is_some(),
+            Input::Friction => self.friction.is_some(),
             Input::First => beside.first.is_some(),
         })
     }
@@ -315,6 +321,7 @@ impl DropArgs {
             gravity_m_s2: si(self.gravity, self.gravity_m_s2),
             contact_time_s: self.contact_time().map(|time| time.si),
             contact_law: self.contact_law.map(|law| law.0),
+            friction: self.friction,
             first: beside.first,
             is_flat: beside.is_flat,
             ..DropInputs::default()
@@ -346,6 +353,7 @@ impl DropArgs {
             ("height", either(self.fall.height, self.fall.height_m)),
             ("contact_time", self.contact_time()),
             ("radius_of_gyration", radius),
+            ("friction", self.friction.map(Quantity::of_si)),
         ];
         let slips = given.into_iter().filter_map(|(key, quantity)| slip(key, &quantity?));
         slips.map(|slip| ("warning", slip.to_string())).collect()

@@ -181,7 +181,7 @@ const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
 /// The arguments that describe a drop, except those of a product file.
-const OF_ONE_DROP: [&str; 36] = [
+const OF_ONE_DROP: [&str; 37] = [
     "at_m",
     "axis",
     "feet_m",
@@ -218,6 +218,7 @@ const OF_ONE_DROP: [&str; 36] = [
     "contact_time",
     "contact_time_s",
     "contact_law",
+    "friction",
 ];
 
 /// How the mass lies.

@@ -65,6 +65,12 @@ pub struct Drop {
     pub contact_law: ContactLaw,
     /// Ends, corners or feet with a contact of their own.
     pub own_contacts: OwnContacts,
+    /// Coefficient of friction of the ground, which a box alone feels.
+    #[serde(default)]
+    pub friction: f64,
+    /// The axis x of the world, along the ground, in axes of a box; where none is given, that of the box made level.
+    #[serde(default)]
+    pub along: Option<[f64; 3]>,
 }
 
 /// Which of the engines follows a drop.
@@ -101,6 +107,8 @@ impl Drop {
             contact_time_s: None,
             contact_law: ContactLaw::Hysteretic,
             own_contacts: OwnContacts::NONE,
+            friction: 0.0,
+            along: None,
         }
     }
     /// The drop that a scene of a plate has, corner a the lowest one; how long its contacts take is not known.
@@ -151,6 +159,8 @@ impl Drop {
             spin_rad_s,
             spin_axis: (spin_rad_s > 0.0).then(|| spin.map(|about| about / spin_rad_s)),
             gravity_m_s2: drop.gravity_m_s2(),
+            friction: drop.friction(),
+            along: Some(drop.along()),
             ..Self::new(Body::from(drop.block()), drop.speed_m_s(), 0.0, restitution)
         }
     }
@@ -388,7 +398,8 @@ impl Drop {
         } else {
             BlockDrop::tilted(block, self.tilt_rad, self.direction_rad % TAU, speed, gravity)?
         };
-        Ok(drop.with_spin(self.spin())?)
+        let drop = self.along.map_or(Ok(drop), |along| drop.with_along(along))?;
+        Ok(drop.with_spin(self.spin())?.with_friction(self.friction)?)
     }
     /// The drop of a box that lands on anything, as flights take it; none of a bar and of a plate.
     ///

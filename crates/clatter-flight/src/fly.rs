@@ -10,8 +10,6 @@ use crate::motion::{Ahead, FeetMotion, Motion, PlateMotion};
 use crate::{Contact, Error, Feet, Model, Place, Stop};
 use solid::{BlockMotion, axes};
 
-pub use solid::Push;
-
 /// A drop as far as it was followed.
 #[derive(Debug, Clone)]
 pub struct Followed {
@@ -365,23 +363,6 @@ impl Followed {
     pub fn weight_to_come_m_s2(&self) -> f64 {
         let flies = matches!(self.stop(), Stop::BouncedClear { .. });
         if flies || self.lies() { 0.0 } else { self.gravity_m_s2() }
-    }
-    /// Contacts that push a box, those that overlap as one, in order; none of other bodies.
-    #[must_use]
-    pub fn pushes(&self) -> Vec<Push> {
-        if let Course::Solid(motion) = &self.motion { motion.pushes() } else { Vec::new() }
-    }
-    /// What a push of 1 across the vertical at a corner that presses does at most to a place of a box along its axis while a push lasts, over
-    /// what it does to the center of mass; none of other bodies, and along any axis.
-    #[must_use]
-    pub fn across(&self, place: &Place, push: &Push) -> Option<f64> {
-        let Course::Solid(motion) = &self.motion else { return None };
-        let (block, at) = (self.drop.as_box()?, self.drop.body.from_center(place.at_m));
-        let along = match place.axis {
-            crate::Axis::Any => return None,
-            axis => std::array::from_fn(|k| f64::from(u8::from(k == axis as usize))),
-        };
-        Some(motion.across(&block, at, along, push))
     }
 }
 

@@ -39,6 +39,17 @@ impl Impact<'_> {
     }
 }
 
+/// The motion of a box at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoxEnd {
+    /// Time since the first touch.
+    pub time_s: f64,
+    /// Velocity of the center of mass, along the axes of the world.
+    pub velocity_m_s: [f64; 3],
+    /// Spin, about the axes of the box.
+    pub spin_rad_s: [f64; 3],
+}
+
 /// A drop, followed impact by impact: the whole impact train, or what a limit leaves of it.
 ///
 /// # Examples
@@ -144,6 +155,13 @@ impl Train {
                 Impact { point, time_s: *time_s, approach_m_s: *approach_m_s, delta_v_m_s, until_s }
             }
         })
+    }
+    /// Returns how a box moves where it ends; none of other bodies.
+    #[must_use]
+    pub fn end(&self) -> Option<BoxEnd> {
+        let Course::Solid(flight) = &self.course else { return None };
+        let ([x, y], z) = (flight.along_m_s, flight.center_m_s);
+        Some(BoxEnd { time_s: flight.stop.time_s(), velocity_m_s: [x, y, z], spin_rad_s: flight.spin_rad_s })
     }
     /// Returns the whole motion of a bar; none of other bodies.
     #[must_use]

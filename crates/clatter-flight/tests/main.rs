@@ -18,6 +18,7 @@ mod ends;
 mod energy;
 mod extremes;
 mod feet;
+mod friction;
 mod independent;
 mod own_contacts;
 mod plain;

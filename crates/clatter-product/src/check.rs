@@ -53,6 +53,9 @@ impl ProductFile {
         self.drop.check(&self.product)?;
         self.check_landings()?;
         self.check_feet()?;
+        if self.product.friction.is_some() && !self.is_box() {
+            return Err(DataFault::FrictionOfLevel.into());
+        }
         self.check_spin()?;
         self.check_apart(MERGE_S)?;
         number_of_components(self.components.len())?;

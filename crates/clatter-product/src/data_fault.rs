@@ -74,6 +74,8 @@ pub enum DataFault {
         /// The key.
         field: &'static str,
     },
+    /// Friction of a product that does not land as a box.
+    FrictionOfLevel,
     /// A box without its thickness.
     BoxWithoutThickness,
     /// A drop that is listed twice.
@@ -313,6 +315,10 @@ impl DataFault {
             Self::OfBar { field } => {
                 [format!("a product without `width` has no `{field}`"), "leave it out, or give the width".to_owned()]
             }
+            Self::FrictionOfLevel => [
+                "`friction` is followed of boxes alone, which land on faces, edges or corners or with an `attitude_tolerance`".to_owned(),
+                "leave it out, or say on what the box lands".to_owned(),
+            ],
             Self::BoxWithoutThickness => [
                 "a drop on a face, an edge or a corner is that of a box".to_owned(),
                 "add `width` and `thickness` to [product]".to_owned(),

@@ -29,6 +29,8 @@ pub enum Input {
     ContactTime,
     /// Radius of gyration of the product.
     Gyration,
+    /// Coefficient of friction of the ground.
+    Friction,
 }
 
 /// Everything that differs from input to input.
@@ -98,9 +100,10 @@ pub struct Search {
 const SQRT_3: f64 = 1.732_050_807_568_877;
 const SQRT_5: f64 = 2.236_067_977_499_79;
 const SQRT_13: f64 = 3.605_551_275_463_989;
+const SQRT_17: f64 = 4.123_105_625_617_661;
 
 /// The inputs of a drop. A new one stands last.
-pub static INPUTS: [Row; 9] = [
+pub static INPUTS: [Row; 10] = [
     Row {
         input: Input::First,
         name: "first",
@@ -242,6 +245,22 @@ pub static INPUTS: [Row; 9] = [
         }),
         search: Some(Search { axis: 8, is_root: false, line: Some((1.0, SQRT_13)) }),
     },
+    Row {
+        input: Input::Friction,
+        name: "friction",
+        words: "friction",
+        column: "friction",
+        unit: "1",
+        key: (keys::PRODUCT, "friction"),
+        numbers: (8, None),
+        value: |drop| drop.is_solid().then_some(drop.friction),
+        given: |product, _| product.friction,
+        set: Some(|drop, friction| drop.friction = friction),
+        // Friction takes energy from the blows along the thickness.
+        hardest: 0.0,
+        optional: None,
+        search: Some(Search { axis: 9, is_root: false, line: Some((1.0, SQRT_17)) }),
+    },
 ];
 
 impl Input {
@@ -374,7 +393,7 @@ mod tests {
     #[test]
     fn every_input_is_told_from_the_others() {
         let names: HashSet<_> = INPUTS.iter().flat_map(|row| [row.name, row.column]).collect();
-        assert_eq!(names.len(), 2 * INPUTS.len() - 1, "restitution is called as its column");
+        assert_eq!(names.len(), 2 * INPUTS.len() - 2, "restitution and friction are called as their columns");
         let others = || INPUTS.iter().filter(|row| row.input != Input::Height);
         let numbers: HashSet<_> = others().map(|row| row.numbers.0).collect();
         let own: HashSet<_> = others().filter_map(|row| row.numbers.1).collect();

@@ -147,6 +147,13 @@ pub(crate) static PRODUCT: &[Key] = &[
          the contact_time.",
     ),
     key(
+        "friction",
+        false,
+        Spread(&units::SHARE, ["0", "10"]),
+        "Coefficient of friction of the ground: of plastics, glass and steel on wood and concrete 0.1 to 0.6, of rubber 0.6 to 1. Of a box, where \
+         it is 0 to 0.6 unless given, and of a plate at real tilt.",
+    ),
+    key(
         "contacts",
         false,
         Tables(CONTACT),

@@ -6,7 +6,14 @@ use clatter::End;
 use clatter_flight::{Body, Contact, ContactLaw, Drop, OwnContacts};
 use serde::{Serialize, Serializer};
 
-use crate::{Attitude, Base, Component, Error, INPUTS, Row, Spread};
+use crate::{Attitude, Base, Component, Error, INPUTS, Law, Row, Spread};
+
+/// The least side along a broad face over the thickness of a thin product: a phone has 77 mm over 9 mm.
+const THIN: f64 = 8.0;
+/// Tilt to which it is level.
+const LEVEL_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
+/// The largest friction of products on floors that is taken where the file gives none; rubber may have more.
+const FRICTION: f64 = 0.6;
 
 /// A product, its drop and its parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +63,26 @@ impl ProductFile {
     #[must_use]
     pub fn is_box(&self) -> bool {
         self.landings.first().is_some_and(|landing| landing.attitude.is_some())
+    }
+    /// Takes the friction of a box whose file gives none to be any from 0 to 0.6, as of plastics, glass and steel on wood and concrete, where
+    /// it counts.
+    ///
+    /// It hardly does for parts along the thickness of a thin product on a broad face: of phones, tablets and laptops tilted by up to 10°
+    /// friction of 0.2 and 0.5 changed their demand by −11 to +2 % in independent integrations. Of thick bodies it was −49 to +37 %.
+    pub(crate) fn assume_friction(&mut self) {
+        if self.product.friction.is_some() || !self.is_box() {
+            return;
+        }
+        let body = &self.product.body;
+        let is_thin = THIN * body.thickness().m() <= body.length_m().min(body.width_m());
+        let is_level = |landing: &Landing| {
+            let up = landing.attitude.zip(body.faces_m()).map_or(0.0, |(attitude, faces_m)| attitude.upward(faces_m)[2]);
+            libm::acos(up.abs().min(1.0)) + landing.tolerance_rad() <= LEVEL_RAD
+        };
+        let is_along = |component: &Component| component.inside.axis == clatter_flight::Axis::Z;
+        let counts = !(is_thin && self.landings.iter().all(is_level) && self.components.iter().all(is_along));
+        self.product.is_friction_assumed = true;
+        self.product.friction = if counts { Spread::new(0.0, FRICTION, Law::Range).ok() } else { None };
     }
     /// Returns the names of its drops, in order; none of a product that falls once.
     #[must_use]
@@ -123,6 +150,10 @@ pub struct Product {
     pub contact_time_s: Option<Spread>,
     /// The law of the force of the ground on an end while it touches; where none is named, no limit is decided by one law alone.
     pub contact_law: Option<ContactLaw>,
+    /// Coefficient of friction of the ground; none of a product that is followed without.
+    pub friction: Option<Spread>,
+    /// True where the file does not give the friction, and it is taken to be any that is usual.
+    pub is_friction_assumed: bool,
 }
 
 impl Product {
@@ -138,6 +169,8 @@ impl Product {
             restitution,
             contact_time_s: None,
             contact_law: None,
+            friction: None,
+            is_friction_assumed: false,
         }
     }
     /// Returns the contact law by which drops are followed: the one that is named, else the hysteretic one.

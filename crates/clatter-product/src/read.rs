@@ -283,8 +283,13 @@ impl Reader {
         if let (true, Some((key, _))) = (has_own, root.table.get_key_value("record")) {
             self.data(key.span(), &DataFault::OwnContactsMeasured, "here");
         }
+        let friction = product.as_ref().and_then(|section| section.table.get_key_value("friction"));
+        let friction = friction.map(|(key, _)| key.span());
         let product = product.and_then(|section| self.product(&section));
         let (drop, landings) = self.drops(root, product.as_ref());
+        if let (Some(key), false) = (friction, self.is_box) {
+            self.data(key, &DataFault::FrictionOfLevel, "here");
+        }
         if let (false, Some((key, _))) = (landings.is_empty(), root.table.get_key_value("record")) {
             self.data(key.span(), &DataFault::ListMeasured, "here");
         }
@@ -296,7 +301,9 @@ impl Reader {
         }
         let records = self.tables(root, "record");
         let records = records.iter().filter_map(|section| self.record(section, product.as_ref())).collect();
-        Some(ProductFile { product: product?, drop: drop?, landings, components, records })
+        let mut file = ProductFile { product: product?, drop: drop?, landings, components, records };
+        file.assume_friction();
+        Some(file)
     }
 
     /// Refuses components of one name: answers could not be distinguished.

@@ -4,7 +4,7 @@ use crate::STANDARD_GRAVITY_M_S2;
 use crate::units::{ACCELERATION, Dimension, FREQUENCY, LENGTH, MASS, Quantity, SHARE, SPEED, TIME, Unit};
 
 /// The usual values of products, by the key of the product file, in SI: far apart, so that no sound product is doubted.
-static USUAL: [(&str, &Dimension, [f64; 2]); 11] = [
+static USUAL: [(&str, &Dimension, [f64; 2]); 12] = [
     ("length", &LENGTH, [2e-3, 10.0]),
     ("radius_of_gyration", &LENGTH, [2e-4, 5.0]),
     ("mass", &MASS, [1e-5, 200.0]),
@@ -17,6 +17,7 @@ static USUAL: [(&str, &Dimension, [f64; 2]); 11] = [
     ("acceleration_limit", &ACCELERATION, [STANDARD_GRAVITY_M_S2, 1e5 * STANDARD_GRAVITY_M_S2]),
     ("acceleration", &ACCELERATION, [STANDARD_GRAVITY_M_S2, 1e5 * STANDARD_GRAVITY_M_S2]),
     ("rattle_space", &LENGTH, [1e-5, 0.5]),
+    ("friction", &SHARE, [0.0, 2.0]),
 ];
 
 /// The reach of a mass over the half-length, beyond which it is doubted.

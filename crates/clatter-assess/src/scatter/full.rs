@@ -80,19 +80,15 @@ impl<'a> FollowedDrops<'a> {
         };
         let of_part = |followed: &Result<Followed, Error>| {
             let followed = followed.as_ref().map_err(Clone::clone)?;
-            // Plates are assessed without friction.
-            let friction = if self.boxed.is_none() { with_friction(followed, part)? } else { 0.0 };
-            Ok::<_, Error>((of_part_of_box(followed, part)?, friction))
+            of_part_of_box(followed, part)
         };
         let first = of_part(self.early.get_or_insert_with(|| until(self.swing_s).or_else(on_bottom)))?;
-        let whole = first.0.is_open().then(|| {
+        let whole = first.is_open().then(|| {
             let on_s = if drop.gravity_m_s2 > 0.0 { BOUNCES * drop.speed_m_s / drop.gravity_m_s2 } else { 0.0 };
             // A motion that is too long to be followed stays open.
             of_part(self.whole.get_or_insert_with(|| until(on_s.max(self.swing_s)))).ok()
         });
-        let (mut asked, friction) = whole.flatten().unwrap_or(first);
-        asked.within[1] = asked.within[1].max(friction);
-        Ok(asked)
+        Ok(whole.flatten().unwrap_or(first))
     }
 
     /// Returns the larger of a utilization and the demand of the drop on a part.
@@ -175,21 +171,6 @@ fn of_part_of_box(followed: &Followed, part: &PartSample) -> Result<SampleDemand
         }
     }
     Ok(asked)
-}
-
-/// Returns the largest demand of a drop of a box on a part, with the demand that friction may add.
-fn with_friction(followed: &Followed, part: &PartSample) -> Result<f64, Error> {
-    let mut most = 0.0_f64;
-    for spot in part.spots() {
-        let felt = PlaceHistory::new(followed, spot)?;
-        for limit in &part.limits {
-            let friction = felt.most_friction(limit, part.suspension.as_slice());
-            if friction > 0.0 {
-                most = most.max(felt.answer_or_nothing(limit, part.suspension.as_ref())?.utilization() + friction);
-            }
-        }
-    }
-    Ok(most)
 }
 
 /// Returns the acceleration that a damage boundary has together with its velocity change, as a limit of its own; without a contact time no

@@ -25,8 +25,7 @@
 //!
 //! A drop of a box is followed through its first landing, and on through what follows, for 4 v/g at most, where the energy left may decide
 //! whether a limit holds. Where in the end it still may, the sample counts as a failure for the lower end and as none for the upper:
-//! it is open, too, and so it is where friction of the ground up to 0.6, which no drop is followed with, may decide. Utilizations are those
-//! of what was followed.
+//! it is open. Utilizations are those of what was followed.
 //!
 //! # Samples
 //! Input i of sample k is the counter (k, i) of Philox4x32-10 under the seed: it is the same alone, in any run, on any number of

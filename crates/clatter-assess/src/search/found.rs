@@ -26,8 +26,6 @@ pub(crate) struct Worst {
     pub(crate) near: Vec<Candidate>,
     /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
     pub(crate) later: f64,
-    /// The utilization that a drop of a box may reach with friction; 0 where that adds nothing.
-    pub(crate) with_friction: f64,
     /// The largest demand of a drop that was found after it has bounced clear once, as a utilization.
     pub(crate) late: f64,
     /// Drops that the model does not take, and why the first of them; of edges that touch, why the one that sinks in deepest.
@@ -45,8 +43,6 @@ pub(super) struct OfDrop {
     pub(super) asked: Vec<(usize, Candidate)>,
     /// The demand that the energy allows after the body has come down once, on tasks where that is more.
     pub(super) later: Vec<(usize, f64)>,
-    /// The largest demand with friction, on tasks to which friction adds.
-    pub(super) with_friction: Vec<(usize, f64)>,
     /// The lean of a box that was followed on, from the posture in which it landed.
     pub(super) lean: f64,
 }
@@ -54,7 +50,7 @@ pub(super) struct OfDrop {
 impl Worst {
     pub(super) fn none() -> Self {
         let near = Vec::new();
-        Self { asked: None, near, later: 0.0, late: 0.0, with_friction: 0.0, refused: None, drops: 0, stopped: false }
+        Self { asked: None, near, later: 0.0, late: 0.0, refused: None, drops: 0, stopped: false }
     }
     pub(super) fn refuse(&mut self, count: usize, error: &Error) {
         let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
@@ -70,8 +66,6 @@ pub(super) struct Candidates {
     pub(super) refused: Option<(usize, Error)>,
     /// The demand that rebounds may have by their energy, for each task; 0 where that is less than the worst.
     pub(super) later: Vec<f64>,
-    /// The largest demand that a drop may have with friction, for each task; 0 where friction adds nothing.
-    pub(super) with_friction: Vec<f64>,
     pub(super) drops: usize,
     /// The box that leaned most, and how far.
     pub(super) leaning: Option<(f64, Coordinates)>,
@@ -83,8 +77,7 @@ impl Candidates {
         Self {
             found: vec![Vec::new(); tasks],
             refused: None,
-            later: nothing.clone(),
-            with_friction: nothing,
+            later: nothing,
             drops: 0,
             leaning: None,
         }
@@ -104,9 +97,6 @@ impl Candidates {
                     }
                     of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
                     of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
-                    for (task, most) in of_drop.with_friction {
-                        self.with_friction[task] = most.max(self.with_friction[task]);
-                    }
                 }
                 Err(error) => {
                     self.refused = Some(
@@ -162,12 +152,10 @@ mod tests {
             };
             let of = |most: f64| OfDrop {
                 later: vec![(0, most)],
-                with_friction: vec![(0, 2.0 * most)],
                 ..OfDrop::default()
             };
             all.take(order.map(|most| (place, Ok(of(most)))).into());
             assert!((all.later[0] - 3.0).abs() < 1e-12 && all.drops == 3, "{:?} of {order:?}", all.later);
-            assert!((all.with_friction[0] - 6.0).abs() < 1e-12, "{:?} of {order:?}", all.with_friction);
         }
     }
 }

@@ -155,7 +155,8 @@ impl Ranges<'_> {
         let off = off.chain((1..=along).flat_map(|k| [0.0, 0.5].map(|direction| (share(k, along), direction))));
         let all = [(0.0, 0.0)].into_iter().chain(off).enumerate();
         let of = |turn: usize, k: usize, (tilt, direction): (f64, f64)| {
-            let level = levels[turn * of_turn + k % of_turn];
+            // Each direction begins with the next level, as else every level would have tilts of its own.
+            let level = levels[turn * of_turn + (k + k / tilts.len()) % of_turn];
             let mut shares = shares(&level, k);
             let speed = if k % 4 == 3 { (SQRT_7 * f64::from(u32::try_from(k).unwrap_or(0))).fract() } else { 1.0 };
             (shares[TILT], shares[SPEED], shares[DIRECTION]) = (tilt, speed, direction);

@@ -1,10 +1,6 @@
 //! One step of the method of Dormand and Prince, 5(4), with its continuous extension of order 4 (Hairer, Nørsett, Wanner, Solving
 //! Ordinary Differential Equations I, II.5 and II.6).
 
-/// Numbers of a state: height, velocity, vertical, spin.
-pub(super) const SIZE: usize = 8;
-pub(super) type Vector = [f64; SIZE];
-
 /// Weights of the earlier slopes in each stage.
 const STAGES: [&[f64]; 6] = [
     &[1.0 / 5.0],
@@ -30,47 +26,47 @@ const DENSE: [f64; 7] = [
 
 /// A step, and the state anywhere within it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Step {
-    from: Vector,
+pub(super) struct Step<const N: usize> {
+    from: [f64; N],
     /// Coefficients of θ, θ(1−θ), θ²(1−θ) and θ²(1−θ)².
-    powers: [Vector; 4],
+    powers: [[f64; N]; 4],
     /// Estimate of its error.
-    pub(super) error: Vector,
+    pub(super) error: [f64; N],
 }
 
-fn combined(from: &Vector, h: f64, weights: &[f64], slopes: &[Vector]) -> Vector {
-    let mut sum = [0.0; SIZE];
+fn combined<const N: usize>(from: &[f64; N], h: f64, weights: &[f64], slopes: &[[f64; N]]) -> [f64; N] {
+    let mut sum = [0.0; N];
     for (weight, slope) in weights.iter().zip(slopes) {
         sum = std::array::from_fn(|i| sum[i] + weight * slope[i]);
     }
     std::array::from_fn(|i| from[i] + h * sum[i])
 }
 
-impl Step {
-    pub(super) fn new(from: &Vector, h: f64, slope: impl Fn(&Vector) -> Vector) -> Self {
-        let mut slopes = [[0.0; SIZE]; 7];
+impl<const N: usize> Step<N> {
+    pub(super) fn new(from: &[f64; N], h: f64, slope: impl Fn(&[f64; N]) -> [f64; N]) -> Self {
+        let mut slopes = [[0.0; N]; 7];
         slopes[0] = slope(from);
         let mut to = *from;
         for (k, weights) in STAGES.iter().enumerate() {
             to = combined(from, h, weights, &slopes[..=k]);
             slopes[k + 1] = slope(&to);
         }
-        let zero = [0.0; SIZE];
-        let change: Vector = std::array::from_fn(|i| to[i] - from[i]);
-        let begin: Vector = std::array::from_fn(|i| h * slopes[0][i] - change[i]);
-        let end: Vector = std::array::from_fn(|i| change[i] - h * slopes[6][i] - begin[i]);
+        let zero = [0.0; N];
+        let change: [f64; N] = std::array::from_fn(|i| to[i] - from[i]);
+        let begin: [f64; N] = std::array::from_fn(|i| h * slopes[0][i] - change[i]);
+        let end: [f64; N] = std::array::from_fn(|i| change[i] - h * slopes[6][i] - begin[i]);
         let powers = [change, begin, end, combined(&zero, h, &DENSE, &slopes)];
         Self { from: *from, powers, error: combined(&zero, h, &ERROR, &slopes) }
     }
 
     /// Returns a bound on the change of each number within the step, from the largest values of those powers.
-    pub(super) fn reach(&self) -> Vector {
+    pub(super) fn reach(&self) -> [f64; N] {
         let [p0, p1, p2, p3] = &self.powers;
         std::array::from_fn(|i| p0[i].abs() + 0.25 * p1[i].abs() + 0.15 * p2[i].abs() + 0.0625 * p3[i].abs())
     }
 
     /// Returns the state at a share of the step.
-    pub(super) fn at(&self, share: f64) -> Vector {
+    pub(super) fn at(&self, share: f64) -> [f64; N] {
         let (now, rest) = (share, 1.0 - share);
         let [p0, p1, p2, p3] = &self.powers;
         std::array::from_fn(|i| self.from[i] + now * (p0[i] + rest * (p1[i] + now * (p2[i] + rest * p3[i]))))
@@ -84,9 +80,8 @@ mod tests {
     /// The first two numbers obey x″ = −x; the order is 5 at the end and 4 within.
     #[test]
     fn halves_of_a_step_are_wrong_by_its_order_less() {
-        let turn = |y: &Vector| std::array::from_fn(|i| [y[1], -y[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0][i]);
-        let mut from = [0.0; SIZE];
-        from[0] = 1.0;
+        let turn = |y: &[f64; 2]| [y[1], -y[0]];
+        let from = [1.0, 0.0];
         let off = |h: f64, share: f64| (Step::new(&from, h, turn).at(share)[0] - libm::cos(share * h)).abs();
         // The local error is of one order more; cos is even, which gains one more at the end.
         let gain = |share: f64| (off(0.4, share) / off(0.2, share)).log2();
@@ -98,8 +93,8 @@ mod tests {
     #[test]
     fn a_step_reaches_no_further_than_said() {
         let powers = std::array::from_fn(|k| std::array::from_fn(|i| if i == k { -3.0 } else { 0.0 }));
-        let step = Step { from: [0.5; SIZE], powers, error: [0.0; SIZE] };
-        for (i, reach) in step.reach().into_iter().enumerate().take(4) {
+        let step = Step { from: [0.5; 4], powers, error: [0.0; 4] };
+        for (i, reach) in step.reach().into_iter().enumerate() {
             let most = (0..=300).map(|k| (step.at(f64::from(k) / 300.0)[i] - 0.5).abs()).fold(0.0, f64::max);
             assert!(most <= reach && most > 0.98 * reach, "power {i}: {most} of {reach}");
         }

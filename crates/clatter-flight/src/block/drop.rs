@@ -12,6 +12,9 @@ pub struct BlockDrop {
     pub(super) block: Block,
     /// Vertical in axes of the box.
     pub(super) upward: [f64; 3],
+    /// The axis x of the world, along the ground, in axes of the box.
+    pub(super) along: [f64; 3],
+    pub(super) friction: f64,
     pub(super) spin: [f64; 3],
     pub(super) speed: f64,
     pub(super) gravity: f64,
@@ -31,12 +34,9 @@ impl BlockDrop {
         let length = orientation.iter().map(|x| x * x).sum::<f64>().sqrt();
         within("length of the quaternion", length, 1.0 - 1e-6, 1.0 + 1e-6, "1: a rotation is a unit quaternion")?;
         let [w, x, y, z] = orientation.map(|part| part / length);
-        Self::toward(
-            block,
-            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
-            speed_m_s,
-            gravity_m_s2,
-        )
+        let upward = [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)];
+        let along = [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)];
+        Self::toward(block, upward, speed_m_s, gravity_m_s2)?.with_along(along)
     }
 
     /// Creates a drop of a box whose bottom is tilted by an angle, highest in a direction that turns from x towards y.
@@ -76,6 +76,8 @@ impl BlockDrop {
         Ok(Self {
             block,
             upward,
+            along: level(upward, if upward[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }),
+            friction: 0.0,
             spin: [0.0; 3],
             speed: speed_m_s,
             gravity: gravity_m_s2 + 0.0,
@@ -108,6 +110,28 @@ impl BlockDrop {
             -1e-9,
             "downward: with this spin it does not land",
         )?;
+        Ok(self)
+    }
+
+    /// Returns the drop with this axis x of the world, made level, in axes of the box.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] for one that is upright or none.
+    pub fn with_along(mut self, along: [f64; 3]) -> Result<Self, Error> {
+        let rises = dot(along, self.upward);
+        let level = (dot(along, along) - rises * rises).max(0.0).sqrt();
+        within("level part of the axis x of the world", level, 1e-9, 1e9, "in [1e-9, 1e9]")?;
+        self.along = self::level(self.upward, along);
+        Ok(self)
+    }
+
+    /// Returns the drop on ground with a coefficient of friction.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless it is in [0, 10].
+    pub fn with_friction(mut self, friction: f64) -> Result<Self, Error> {
+        within("friction", friction, 0.0, 10.0, "in [0, 10]")?;
+        self.friction = friction + 0.0;
         Ok(self)
     }
 
@@ -158,6 +182,16 @@ impl BlockDrop {
     pub fn time_limit_s(&self) -> f64 {
         self.time_limit
     }
+    /// Returns the coefficient of friction of the ground.
+    #[must_use]
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+    /// Returns the axis x of the world in axes of the box.
+    #[must_use]
+    pub fn along(&self) -> [f64; 3] {
+        self.along
+    }
     /// Returns the acceleration of gravity.
     #[must_use]
     pub fn gravity_m_s2(&self) -> f64 {
@@ -168,4 +202,12 @@ impl BlockDrop {
     pub fn spin_rad_s(&self) -> [f64; 3] {
         self.spin
     }
+}
+
+/// Returns the direction of the level part of an axis.
+fn level(upward: [f64; 3], axis: [f64; 3]) -> [f64; 3] {
+    let rises = dot(axis, upward);
+    let level: [f64; 3] = std::array::from_fn(|k| axis[k] - rises * upward[k]);
+    let length = dot(level, level).sqrt();
+    level.map(|part| part / length)
 }

@@ -2,8 +2,8 @@
 
 use clatter::Error as InputError;
 
-use super::dormand_prince::{SIZE, Step, Vector};
-use super::system::{Corner, Hold, System, Turns, cross, dot, parts};
+use super::dormand_prince::Step;
+use super::system::{Corner, Hold, ROUGH, SMOOTH, System, Turns, cross, dot, ground, in_box, parts, set_stretch};
 use super::{Block, BlockDrop, times};
 use crate::Error;
 use crate::contact::{Contact, alike};
@@ -12,6 +12,8 @@ use crate::flight::Stop;
 /// Allowed error of a step: depths over the deepest, velocities over the fastest. Peaks of parts are then within some
 /// 1e−6.
 const TOLERANCE: f64 = 1e-8;
+/// The same of stretches along the ground, over that of depths.
+const STRETCH: f64 = 30.0;
 /// Samples of a step among which events are searched.
 const SAMPLES: u32 = 8;
 /// Halvings of the time of an event: to the last bit of a share.
@@ -29,7 +31,7 @@ const ENERGY: f64 = 0.01;
 /// The least restitution of hysteretic contacts of a box: unloading is then a hundred times as fast as loading.
 pub const LEAST_OF_BLOCKS: f64 = 0.01;
 /// Largest depth that a corner may have, over the smallest size.
-const SUNK: f64 = 0.25;
+const SUNK: f64 = 1.0;
 
 /// One press of a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +63,8 @@ pub struct BlockFlight {
     pub center_m: f64,
     /// Velocity of the center of mass at the end, upward.
     pub center_m_s: f64,
+    /// The same along x and y of the ground, 0 without friction.
+    pub along_m_s: [f64; 2],
     /// The vertical in axes of the box, at the end.
     pub upward: [f64; 3],
     /// Spin in axes of the box, at the end.
@@ -97,13 +101,36 @@ pub struct BlockStep<'a> {
     /// Duration of the part.
     pub length_s: f64,
     whole: f64,
-    step: &'a Step,
+    step: &'a dyn Sampled,
     system: &'a System,
 }
 
+/// A step without or with friction.
+trait Sampled: std::fmt::Debug {
+    /// Returns the numbers of a state that both have, at a share of the step.
+    fn state(&self, share: f64) -> [f64; SMOOTH];
+    /// Returns the force and the moment of the ground over the mass, in axes of the box.
+    fn load(&self, system: &System, share: f64) -> [[f64; 3]; 2];
+}
+
+impl<const N: usize> Sampled for Step<N> {
+    fn state(&self, share: f64) -> [f64; SMOOTH] {
+        let y = self.at(share);
+        std::array::from_fn(|k| y[k])
+    }
+    fn load(&self, system: &System, share: f64) -> [[f64; 3]; 2] {
+        let y = self.at(share);
+        let load = system.load(&y);
+        [load.force(&y), load.moment]
+    }
+}
+
 impl BlockStep<'_> {
-    fn state(&self, share: f64) -> Vector {
-        self.step.at(share * self.length_s / self.whole)
+    fn part(&self, share: f64) -> f64 {
+        share * self.length_s / self.whole
+    }
+    fn state(&self, share: f64) -> [f64; SMOOTH] {
+        self.step.state(self.part(share))
     }
     /// Returns the acceleration above free fall at a place from the center of mass, along the axes of the box, at a
     /// share of the step.
@@ -115,9 +142,8 @@ impl BlockStep<'_> {
     /// increase per meter along x, y and z.
     #[must_use]
     pub fn felt_everywhere(&self, share: f64) -> [[f64; 4]; 3] {
-        let y = self.state(share);
-        let (_, _, n, spin) = parts(&y);
-        let (force, moment) = self.system.load(&y);
+        let (_, _, _, spin) = parts(&self.state(share));
+        let [force, moment] = self.step.load(self.system, self.part(share));
         let [tx, ty, tz] = self.system.turning(spin, moment);
         let turning = [[0.0, -tz, ty], [tz, 0.0, -tx], [-ty, tx, 0.0]];
         let square = dot(spin, spin);
@@ -125,7 +151,7 @@ impl BlockStep<'_> {
             // Towards the axis of the spin: ω (ω·r) − ω² r.
             let around = |j: usize| spin[i] * spin[j] - if i == j { square } else { 0.0 };
             let [x, y, z] = [0, 1, 2].map(|j| turning[i][j] + around(j));
-            [force * n[i], x, y, z]
+            [force[i], x, y, z]
         })
     }
     /// Returns whether the ground presses on a corner.
@@ -143,7 +169,7 @@ impl BlockStep<'_> {
     pub fn place_m(&self, place_m: [f64; 3], share: f64) -> (f64, f64) {
         System::place(&self.state(share), place_m)
     }
-    /// Returns the forces of the ground on the corners over the mass.
+    /// Returns the forces of the ground on the corners over the mass, upward.
     #[must_use]
     pub fn force_per_mass_m_s2(&self, share: f64) -> [f64; 8] {
         let y = self.state(share);
@@ -193,7 +219,11 @@ impl BlockDrop {
     ) -> Result<BlockFlight, Error> {
         alike(contacts)?;
         contacts.iter().try_for_each(|contact| self.check(contact))?;
-        Run::new(self, contacts).run(each)
+        if self.friction == 0.0 {
+            Run::<SMOOTH>::new(self, contacts).run(each)
+        } else {
+            Run::<ROUGH>::new(self, contacts).run(each)
+        }
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {
@@ -228,7 +258,7 @@ impl Block {
     }
 }
 
-struct Run<'a> {
+struct Run<'a, const N: usize> {
     drop: &'a BlockDrop,
     contacts: &'a [Contact; 8],
     /// Largest restitution of all contacts.
@@ -236,12 +266,12 @@ struct Run<'a> {
     /// Shortest and longest contact times.
     times_s: [f64; 2],
     system: System,
-    y: Vector,
+    y: [f64; N],
     now: f64,
     /// Length of the next step.
     stride: f64,
     /// Scales of the numbers of a state.
-    scales: Vector,
+    scales: [f64; N],
     strikes: Vec<BlockStrike>,
     fastest: f64,
     opened: f64,
@@ -251,7 +281,7 @@ struct Run<'a> {
     sunk: f64,
 }
 
-impl<'a> Run<'a> {
+impl<'a, const N: usize> Run<'a, N> {
     fn new(drop: &'a BlockDrop, contacts: &'a [Contact; 8]) -> Self {
         let block = drop.block;
         let has_dents = contacts[0].law().leaves_a_dent();
@@ -263,14 +293,24 @@ impl<'a> Run<'a> {
         let delay = 2.0 * contacts[0].damping_ratio() / contacts[0].frequency_rad_s();
         let shortest = contacts.iter().fold(f64::INFINITY, |least, contact| least.min(contact.time_s()));
         let longest = contacts.iter().fold(0.0_f64, |most, contact| most.max(contact.time_s()));
-        let up = Corner { hold: Hold::Up, ground: 0.0, stiffness: 0.0, strike: 0 };
-        let system = System { corners, block, gravity: drop.gravity, delay, loss, holds: [up; 8] };
-        let n = drop.upward;
-        let lowest = corners.iter().map(|corner| dot(n, *corner)).fold(f64::INFINITY, f64::min);
-        let y = [-lowest, -drop.speed, n[0], n[1], n[2], drop.spin[0], drop.spin[1], drop.spin[2]];
+        let up = Corner { hold: Hold::Up, ground: 0.0, stiffness: 0.0, frequency: 0.0, slips: false, strike: 0 };
+        let (gravity, friction) = (drop.gravity, drop.friction);
         let (fastest, time) = (drop.fastest(), shortest);
         let (depth, turn) = (fastest * time, fastest * time / reach);
+        let system = System { corners, block, gravity, friction, depth, delay, loss, holds: [up; 8] };
+        let n = drop.upward;
+        let lowest = corners.iter().map(|corner| dot(n, *corner)).fold(f64::INFINITY, f64::min);
+        let smooth = [-lowest, -drop.speed, n[0], n[1], n[2], drop.spin[0], drop.spin[1], drop.spin[2]];
         let (fast, spin) = (fastest, fastest / reach);
+        let mut y = [0.0; N];
+        y[..SMOOTH].copy_from_slice(&smooth);
+        // Friction follows a stretch less exactly than a force its depth.
+        let mut scales = [STRETCH * depth; N];
+        scales[..SMOOTH].copy_from_slice(&[depth, fast, turn, turn, turn, spin, spin, spin]);
+        if N == ROUGH {
+            y[10..13].copy_from_slice(&drop.along);
+            scales[8..13].copy_from_slice(&[fast, fast, turn, turn, turn]);
+        }
         Self {
             drop,
             contacts,
@@ -280,7 +320,7 @@ impl<'a> Run<'a> {
             y,
             now: 0.0,
             stride: 0.01 * time,
-            scales: [depth, fast, turn, turn, turn, spin, spin, spin],
+            scales,
             strikes: Vec::new(),
             fastest: 0.0,
             opened: system.energy(&y) + drop.gravity * reach,
@@ -366,7 +406,8 @@ impl<'a> Run<'a> {
     fn available_energy(&self) -> f64 {
         let (_, _, n, spin) = parts(&self.y);
         let energy = self.system.energy(&self.y) + self.system.stored(&self.y);
-        let momentum = dot(n, times(&self.drop.block.inertia, spin));
+        // Friction may brake any turning.
+        let momentum = if N == SMOOTH { dot(n, times(&self.drop.block.inertia, spin)) } else { 0.0 };
         let ground = std::array::from_fn(|i| self.system.dent(i, &self.y));
         (energy - self.drop.block.kept(n, energy, self.drop.gravity, momentum, ground)).max(0.0)
     }
@@ -381,7 +422,7 @@ impl<'a> Run<'a> {
         let mut h = self.stride.min(turn).min(fall.min(apart)).min(left);
         let step = loop {
             let step = Step::new(&self.y, h, |y| self.system.slope(y));
-            let over = (0..SIZE).map(|i| step.error[i].abs() / (TOLERANCE * self.scales[i])).fold(0.0, f64::max);
+            let over = (0..N).map(|i| step.error[i].abs() / (TOLERANCE * self.scales[i])).fold(0.0, f64::max);
             // Below this error the factor exceeds the largest growth of the stride.
             let factor = if over < 1e-4 { 5.0 } else { 0.9 * libm::pow(over, -0.2) };
             if over <= 1.0 {
@@ -407,15 +448,21 @@ impl<'a> Run<'a> {
             after
         });
         let share = event.unwrap_or(1.0);
-        let part = BlockStep { from_s: self.now, length_s: share * h, whole: h, step: &step, system: &self.system };
-        each(&part);
+        let (from_s, system) = (self.now, &self.system);
+        each(&BlockStep { from_s, length_s: share * h, whole: h, step: &step, system });
         self.push(&step, h, share);
         self.now += share * h;
         if event.is_some() {
-            self.stride = self.stride.min(0.01 * self.times_s[0]);
             for i in 0..8 {
-                if self.system.has_happened(i, &self.y) {
-                    self.happens(i);
+                if self.system.has_turned(i, &self.y) {
+                    self.stride = self.stride.min(0.01 * self.times_s[0]);
+                    self.turns(i);
+                } else if self.system.has_happened(i, &self.y) {
+                    if self.system.holds[i].slips {
+                        self.system.sticks(i, &mut self.y);
+                    } else {
+                        self.system.slides_on(i, &mut self.y);
+                    }
                 }
             }
             return false;
@@ -424,7 +471,7 @@ impl<'a> Run<'a> {
     }
 
     /// Books the effect of the forces over a part of a step, by Simpson's rule, and the error of its energy.
-    fn push(&mut self, step: &Step, h: f64, share: f64) {
+    fn push(&mut self, step: &Step<N>, h: f64, share: f64) {
         let states = [0.0, 0.5, 1.0].map(|of| step.at(of * share));
         let mut work = 0.0;
         for (y, weight) in states.iter().zip([1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0]) {
@@ -441,6 +488,15 @@ impl<'a> Run<'a> {
                 for (j, delta_v) in self.strikes[strike].delta_v_m_s.iter_mut().enumerate() {
                     *delta_v += impulse * turns.coupling(i, j);
                 }
+                if N == ROUGH {
+                    let grip = self.system.friction(i, y);
+                    let along = grip.force.map(|force| weight * h * share * force);
+                    work += along[0] * grip.slides[0] + along[1] * grip.slides[1];
+                    let turned = times(&self.drop.block.inverse, cross(self.system.corners[i], in_box(y, along)));
+                    for (j, delta_v) in self.strikes[strike].delta_v_m_s.iter_mut().enumerate() {
+                        *delta_v += dot(turned, turns.arms[j]);
+                    }
+                }
             }
         }
         let before = self.system.energy(&self.y);
@@ -453,14 +509,34 @@ impl<'a> Run<'a> {
         let n = [self.y[2], self.y[3], self.y[4]];
         let length = dot(n, n).sqrt();
         (2..5).for_each(|i| self.y[i] /= length);
+        if N == ROUGH {
+            let ((_, _, n, _), along) = (parts(&self.y), ground(&self.y)[0]);
+            let off = dot(n, along);
+            let level: [f64; 3] = std::array::from_fn(|axis| along[axis] - off * n[axis]);
+            let length = dot(level, level).sqrt();
+            (0..3).for_each(|axis| self.y[10 + axis] = level[axis] / length);
+            for i in 0..8 {
+                if self.system.holds[i].bears() && self.system.holds[i].slips {
+                    self.system.slides_on(i, &mut self.y);
+                }
+            }
+        }
     }
 
     fn touch(&mut self, i: usize, velocity: f64) {
         let (_, _, n, _) = parts(&self.y);
         let own = self.system.turns(n).coupling(i, i);
         let corner = &mut self.system.holds[i];
-        corner.stiffness = self.contacts[i].frequency_rad_s().powi(2) / own;
+        corner.frequency = self.contacts[i].frequency_rad_s();
+        corner.stiffness = corner.frequency * corner.frequency / own;
         (corner.hold, corner.strike) = (Hold::Loads, self.strikes.len());
+        if N == ROUGH {
+            let slides = System::slides(&self.y, self.system.corners[i]);
+            self.system.holds[i].slips = false;
+            if self.system.slips_at_once(slides, velocity) {
+                self.system.slides_on(i, &mut self.y);
+            }
+        }
         self.fastest = self.fastest.max(-velocity);
         self.strikes.push(BlockStrike {
             number: self.strikes.len() as u64 + 1,
@@ -472,7 +548,7 @@ impl<'a> Run<'a> {
         });
     }
 
-    fn happens(&mut self, i: usize) {
+    fn turns(&mut self, i: usize) {
         let (height, velocity) = System::place(&self.y, self.system.corners[i]);
         let corner = &mut self.system.holds[i];
         let depth = corner.ground - height;
@@ -492,16 +568,20 @@ impl<'a> Run<'a> {
 
     fn parts(&mut self, i: usize, hold: Hold) {
         self.system.holds[i].hold = hold;
+        if N == ROUGH {
+            set_stretch(&mut self.y, i, [0.0; 2]);
+        }
         self.strikes[self.system.holds[i].strike].until_s = self.now;
     }
 
     fn finish(self, stop: Stop) -> Result<BlockFlight, Error> {
         self.check_depth()?;
         let (center_m, center_m_s, upward, spin_rad_s) = parts(&self.y);
+        let along_m_s = if N == ROUGH { [self.y[8], self.y[9]] } else { [0.0; 2] };
         let (energy_error, left_m_s) = (self.misfit / self.opened, (2.0 * self.available_energy()).sqrt());
         let strikes = self.strikes;
         let deepest_m = self.sunk;
-        Ok(BlockFlight { strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s, left_m_s, deepest_m })
+        Ok(BlockFlight { strikes, stop, energy_error, center_m, center_m_s, along_m_s, upward, spin_rad_s, left_m_s, deepest_m })
     }
 }
 

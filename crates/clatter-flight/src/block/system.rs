@@ -1,6 +1,5 @@
 //! A box with its contacts: forces at its corners, and the accelerations by them.
 
-use super::dormand_prince::Vector;
 use super::{Block, times};
 
 pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -10,6 +9,23 @@ pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
+
+fn length([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+/// Numbers of a state without friction: height and vertical velocity of the center of mass, vertical, spin.
+pub(super) const SMOOTH: usize = 8;
+/// With friction, behind them: the velocity along both axes of the ground, the first of these axes in axes of the box, and the stretch of
+/// each corner along both.
+pub(super) const ROUGH: usize = 29;
+const STRETCHES: usize = 13;
+
+/// Stiffness of a contact along the ground over the one across it, of two spheres: 2 (1 − ν)/(2 − ν), for Poisson's ratio ν = 0.3 (Mindlin 1949).
+const MINDLIN: f64 = 0.8;
+/// The direction of a slipping stretch turns towards that of the velocity at most so fast, over the frequency of the contact. It does so within
+/// a way of μ F/(κ k), which is too short to be followed in steps that the force needs where F or μ is small: there the force is small too.
+const TURNS: f64 = 30.0;
 
 /// State of the contact of a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,15 +43,18 @@ pub(super) struct Corner {
     pub(super) hold: Hold,
     /// Height of the ground of this corner: 0, or the bottom of its dent.
     pub(super) ground: f64,
-    /// Stiffness of loading over the mass.
+    /// Stiffness of loading over the mass, and the angular frequency of the contact.
     pub(super) stiffness: f64,
+    pub(super) frequency: f64,
+    /// True while it slips along the ground, false while it sticks.
+    pub(super) slips: bool,
     /// Index of its press, from 0.
     pub(super) strike: usize,
 }
 
 impl Corner {
     /// Returns whether the ground presses on it.
-    fn bears(&self) -> bool {
+    pub(super) fn bears(&self) -> bool {
         !matches!(self.hold, Hold::Up | Hold::Slack)
     }
 }
@@ -47,6 +66,10 @@ pub(super) struct System {
     /// The box.
     pub(super) block: Block,
     pub(super) gravity: f64,
+    /// Coefficient of friction; 0 in states of [`SMOOTH`] numbers.
+    pub(super) friction: f64,
+    /// How deep corners sink in, about.
+    pub(super) depth: f64,
     /// θ of dashpots, and e² of the hysteretic contact of each corner.
     pub(super) delay: f64,
     pub(super) loss: [f64; 8],
@@ -55,7 +78,7 @@ pub(super) struct System {
 
 /// Moment of a force of 1 on each corner, and the angular acceleration by it.
 pub(super) struct Turns {
-    arms: [[f64; 3]; 8],
+    pub(super) arms: [[f64; 3]; 8],
     turned: [[f64; 3]; 8],
 }
 
@@ -66,18 +89,66 @@ impl Turns {
     }
 }
 
-pub(super) fn parts(y: &Vector) -> (f64, f64, [f64; 3], [f64; 3]) {
+/// Forces of the ground over the mass, upward and along both axes of the ground, and their moment about the center of mass.
+pub(super) struct Load {
+    pub(super) up: f64,
+    along: [f64; 2],
+    pub(super) moment: [f64; 3],
+}
+
+impl Load {
+    /// Returns the force in axes of the box.
+    pub(super) fn force<const N: usize>(&self, y: &[f64; N]) -> [f64; 3] {
+        let upward = parts(y).2.map(|n| self.up * n);
+        if N == SMOOTH {
+            return upward;
+        }
+        let along = in_box(y, self.along);
+        std::array::from_fn(|axis| upward[axis] + along[axis])
+    }
+}
+
+/// Friction at a corner.
+pub(super) struct Grip {
+    /// Its force over the mass, along both axes of the ground.
+    pub(super) force: [f64; 2],
+    /// The velocity of the corner along them.
+    pub(super) slides: [f64; 2],
+    /// The rate of the stretch along them; of a corner that slips, of its direction.
+    pub(super) stretches: [f64; 2],
+    /// The length of the stretch, that at which it slips, and how much faster the first grows.
+    stretch: f64,
+    limit: f64,
+    outward: f64,
+}
+
+pub(super) fn parts<const N: usize>(y: &[f64; N]) -> (f64, f64, [f64; 3], [f64; 3]) {
     (y[0], y[1], [y[2], y[3], y[4]], [y[5], y[6], y[7]])
+}
+
+/// Returns both axes of the ground in axes of the box, of a state with friction.
+pub(super) fn ground<const N: usize>(y: &[f64; N]) -> [[f64; 3]; 2] {
+    let along = [y[10], y[11], y[12]];
+    [along, cross(parts(y).2, along)]
+}
+
+/// Returns the stretch of a corner, of a state with friction; of one that slips its direction, as long as [`System::depth`].
+pub(super) fn stretch<const N: usize>(y: &[f64; N], corner: usize) -> [f64; 2] {
+    [y[STRETCHES + 2 * corner], y[STRETCHES + 2 * corner + 1]]
+}
+
+pub(super) fn set_stretch<const N: usize>(y: &mut [f64; N], corner: usize, [a, b]: [f64; 2]) {
+    (y[STRETCHES + 2 * corner], y[STRETCHES + 2 * corner + 1]) = (a, b);
 }
 
 impl System {
     /// Returns the height and vertical velocity of a place from the center of mass.
     #[inline]
-    pub(super) fn place(y: &Vector, place: [f64; 3]) -> (f64, f64) {
+    pub(super) fn place<const N: usize>(y: &[f64; N], place: [f64; 3]) -> (f64, f64) {
         let (z, v, n, spin) = parts(y);
         (z + dot(n, place), v + dot(n, cross(spin, place)))
     }
-    pub(super) fn force(&self, corner: usize, y: &Vector) -> f64 {
+    pub(super) fn force<const N: usize>(&self, corner: usize, y: &[f64; N]) -> f64 {
         if self.holds[corner].bears() { self.press(corner, Self::place(y, self.corners[corner])) } else { 0.0 }
     }
     #[inline]
@@ -89,34 +160,109 @@ impl System {
             _ => stiffness * (depth - self.delay * velocity),
         }
     }
+    /// Returns the stretch at which a corner slips over its force.
+    fn slip(&self, corner: usize) -> f64 {
+        self.friction / (MINDLIN * self.holds[corner].stiffness)
+    }
+    /// Returns whether a corner that touches slips at once, at these velocities along the ground and down.
+    pub(super) fn slips_at_once(&self, slides: [f64; 2], approach: f64) -> bool {
+        // Dashpots press with a force from the start.
+        self.delay == 0.0 && MINDLIN * length(slides) > self.friction * approach.abs()
+    }
+    /// Returns the velocity of a place along both axes of the ground.
+    pub(super) fn slides<const N: usize>(y: &[f64; N], place: [f64; 3]) -> [f64; 2] {
+        let moved = cross(parts(y).3, place);
+        let [along, across] = ground(y);
+        [y[8] + dot(along, moved), y[9] + dot(across, moved)]
+    }
+    /// Returns the friction of a corner that is pressed with a force, which grows at a rate.
+    ///
+    /// It is −κ k s of a stretch s from the touch on, ds/dt = u, the velocity along the ground, up to μ F; from there s stays on the circle
+    /// of r = μ F/(κ k), of what would take it outside without the part outward: its direction turns towards that of u by u/r.
+    pub(super) fn grip<const N: usize>(&self, corner: usize, y: &[f64; N], force: f64, grows: f64) -> Grip {
+        let (slides, stretch) = (Self::slides(y, self.corners[corner]), stretch(y, corner));
+        let Corner { stiffness, frequency, slips, .. } = self.holds[corner];
+        let (size, speed, most) = (length(stretch), length(slides), self.slip(corner));
+        let towards = if size > 0.0 { stretch.map(|s| s / size) } else { [0.0; 2] };
+        let limit = most * force.max(0.0);
+        let along = slides[0] * towards[0] + slides[1] * towards[1];
+        let outward = along - most * grows;
+        let stretches = if slips {
+            let radius = limit.max(speed / (TURNS * frequency)).max(f64::MIN_POSITIVE);
+            [0, 1].map(|k| self.depth / radius * (slides[k] - along * towards[k]))
+        } else {
+            slides
+        };
+        let stretch = if slips { limit } else { size };
+        Grip { force: towards.map(|part| -MINDLIN * stiffness * stretch * part), slides, stretches, stretch, limit, outward }
+    }
+    /// Returns how fast the force on a corner grows.
+    fn grows<const N: usize>(&self, corner: usize, y: &[f64; N], slope: &[f64; N]) -> f64 {
+        let Corner { hold, stiffness, .. } = self.holds[corner];
+        let (_, velocity) = Self::place(y, self.corners[corner]);
+        match hold {
+            Hold::Unloads(_) => -stiffness / self.loss[corner] * velocity,
+            _ if self.delay == 0.0 => -stiffness * velocity,
+            _ => {
+                let ((_, _, n, spin), (_, rises, _, spun)) = (parts(y), parts(slope));
+                let around = cross(spin, cross(spin, self.corners[corner]));
+                let turned = cross(spun, self.corners[corner]);
+                let acceleration = rises + dot(n, [0, 1, 2].map(|k| around[k] + turned[k]));
+                -stiffness * (velocity + self.delay * acceleration)
+            }
+        }
+    }
+    /// Returns the friction of a corner that bears, of a state with friction.
+    pub(super) fn friction<const N: usize>(&self, corner: usize, y: &[f64; N]) -> Grip {
+        let grows = if self.delay == 0.0 { self.grows(corner, y, y) } else { self.grows(corner, y, &self.slope(y)) };
+        self.grip(corner, y, self.force(corner, y), grows)
+    }
     /// Returns whether the ground presses on a corner.
     pub(super) fn presses(&self) -> bool {
         self.holds.iter().any(Corner::bears)
     }
     /// Returns the force over the mass, and moment over the mass.
-    pub(super) fn load(&self, y: &Vector) -> (f64, [f64; 3]) {
+    #[inline]
+    pub(super) fn load<const N: usize>(&self, y: &[f64; N]) -> Load {
         let (_, _, n, _) = parts(y);
-        let (mut force, mut moment) = (0.0, [0.0; 3]);
+        let mut load = Load { up: 0.0, along: [0.0; 2], moment: [0.0; 3] };
         for (i, corner) in self.corners.iter().enumerate().filter(|(i, _)| self.holds[*i].bears()) {
             let own = self.press(i, Self::place(y, *corner));
             if own != 0.0 {
                 let arm = cross(*corner, n);
-                force += own;
-                (0..3).for_each(|axis| moment[axis] += own * arm[axis]);
+                load.up += own;
+                (0..3).for_each(|axis| load.moment[axis] += own * arm[axis]);
+            }
+            if N == ROUGH {
+                let along = self.grip(i, y, own, 0.0).force;
+                let moment = cross(*corner, in_box(y, along));
+                (0..2).for_each(|axis| load.along[axis] += along[axis]);
+                (0..3).for_each(|axis| load.moment[axis] += moment[axis]);
             }
         }
-        (force, moment)
+        load
     }
     /// Returns the angular acceleration.
     pub(super) fn turning(&self, spin: [f64; 3], moment: [f64; 3]) -> [f64; 3] {
         let gyration = cross(spin, times(&self.block.inertia, spin));
         times(&self.block.inverse, std::array::from_fn(|axis| moment[axis] - gyration[axis]))
     }
-    pub(super) fn slope(&self, y: &Vector) -> Vector {
+    pub(super) fn slope<const N: usize>(&self, y: &[f64; N]) -> [f64; N] {
         let (_, v, n, spin) = parts(y);
-        let (force, moment) = self.load(y);
+        let Load { up, along, moment } = self.load(y);
         let (turn, spun) = (cross(n, spin), self.turning(spin, moment));
-        [v, force - self.gravity, turn[0], turn[1], turn[2], spun[0], spun[1], spun[2]]
+        let smooth = [v, up - self.gravity, turn[0], turn[1], turn[2], spun[0], spun[1], spun[2]];
+        let mut slope = [0.0; N];
+        slope[..SMOOTH].copy_from_slice(&smooth);
+        if N == ROUGH {
+            slope[8..10].copy_from_slice(&along);
+            slope[10..13].copy_from_slice(&cross(ground(y)[0], spin));
+            for i in (0..8).filter(|i| self.holds[*i].bears()) {
+                let grip = self.grip(i, y, self.force(i, y), self.grows(i, y, &slope));
+                set_stretch(&mut slope, i, grip.stretches);
+            }
+        }
+        slope
     }
     /// Returns the effect of a vertical force on each corner on the rotation of the box.
     pub(super) fn turns(&self, n: [f64; 3]) -> Turns {
@@ -124,7 +270,7 @@ impl System {
         Turns { arms, turned: arms.map(|arm| times(&self.block.inverse, arm)) }
     }
     /// Returns the height at which a corner parts from the ground, from its present depth.
-    pub(super) fn dent(&self, i: usize, y: &Vector) -> f64 {
+    pub(super) fn dent<const N: usize>(&self, i: usize, y: &[f64; N]) -> f64 {
         let Corner { hold, ground, .. } = self.holds[i];
         let deepest = match hold {
             Hold::Up | Hold::Slack => 0.0,
@@ -134,12 +280,13 @@ impl System {
         ground - deepest * (1.0 - self.loss[i])
     }
     /// Returns the kinetic and potential energy over the mass.
-    pub(super) fn energy(&self, y: &Vector) -> f64 {
+    pub(super) fn energy<const N: usize>(&self, y: &[f64; N]) -> f64 {
         let (z, v, _, spin) = parts(y);
-        0.5 * (v * v + dot(spin, times(&self.block.inertia, spin))) + self.gravity * z
+        let along = if N == ROUGH { y[8] * y[8] + y[9] * y[9] } else { 0.0 };
+        0.5 * (v * v + along + dot(spin, times(&self.block.inertia, spin))) + self.gravity * z
     }
     /// Returns the energy that pressed corners may give back, over the mass.
-    pub(super) fn stored(&self, y: &Vector) -> f64 {
+    pub(super) fn stored<const N: usize>(&self, y: &[f64; N]) -> f64 {
         let one = |i: usize| {
             let Corner { hold, ground, stiffness, .. } = self.holds[i];
             let (depth, loss) = (ground - Self::place(y, self.corners[i]).0, self.loss[i]);
@@ -149,17 +296,27 @@ impl System {
                 Hold::Unloads(deepest) => 0.5 * stiffness / loss * (depth - deepest * (1.0 - loss)).powi(2),
             }
         };
-        (0..8).map(one).sum()
+        let stretched = |i: usize| {
+            let stretch = self.grip(i, y, self.force(i, y), 0.0).stretch;
+            0.5 * MINDLIN * self.holds[i].stiffness * stretch * stretch
+        };
+        let bears = (0..8).filter(|i| N == ROUGH && self.holds[*i].bears());
+        let of_friction = bears.map(stretched).sum::<f64>();
+        (0..8).map(one).sum::<f64>() + of_friction
     }
     /// Returns whether a corner is up all along a step from y within which the numbers change by `reach` at most, with
     /// a margin for roundings.
-    pub(super) fn stays_up(&self, i: usize, y: &Vector, reach: &Vector) -> bool {
+    pub(super) fn stays_up<const N: usize>(&self, i: usize, y: &[f64; N], reach: &[f64; N]) -> bool {
         let (Corner { hold, ground, .. }, corner) = (self.holds[i], self.corners[i]);
         let falls = reach[0] + dot([reach[2], reach[3], reach[4]], corner.map(f64::abs));
         hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], corner) > falls * (1.0 + 1e-6)
     }
     /// Returns whether a corner has come to its next event.
-    pub(super) fn has_happened(&self, i: usize, y: &Vector) -> bool {
+    pub(super) fn has_happened<const N: usize>(&self, i: usize, y: &[f64; N]) -> bool {
+        self.has_turned(i, y) || N == ROUGH && self.holds[i].bears() && self.changes_grip(i, y)
+    }
+    /// Returns whether a corner has touched, parted, or come to its lowest.
+    pub(super) fn has_turned<const N: usize>(&self, i: usize, y: &[f64; N]) -> bool {
         let Corner { hold, ground, .. } = self.holds[i];
         // Most corners are up, most of the time.
         if hold == Hold::Up && ground == 0.0 && y[0] + dot([y[2], y[3], y[4]], self.corners[i]) >= 0.0 {
@@ -175,4 +332,31 @@ impl System {
             Hold::Slack => depth <= 0.0 || self.press(i, motion) > 0.0,
         }
     }
+    /// Returns whether a corner that sticks begins to slip, or one that slips sticks.
+    pub(super) fn changes_grip<const N: usize>(&self, i: usize, y: &[f64; N]) -> bool {
+        let grip = self.friction(i, y);
+        // By more than roundings, as a corner at rest may lie just there.
+        let is_beyond = grip.stretch > grip.limit * (1.0 + 1e-7);
+        if self.holds[i].slips { grip.outward < 0.0 } else { grip.outward > 0.0 && is_beyond }
+    }
+    /// Lets a corner slip in the direction of its stretch, of its velocity where it has none yet, or keeps its length where it slips already.
+    pub(super) fn slides_on<const N: usize>(&mut self, i: usize, y: &mut [f64; N]) {
+        self.holds[i].slips = true;
+        let (now, slides) = (stretch(y, i), Self::slides(y, self.corners[i]));
+        let of = if length(now) > 0.0 { now } else { slides };
+        let size = length(of);
+        set_stretch(y, i, if size > 0.0 { of.map(|part| self.depth * part / size) } else { of });
+    }
+    /// Lets a corner that slips stick with the stretch that it has.
+    pub(super) fn sticks<const N: usize>(&mut self, i: usize, y: &mut [f64; N]) {
+        let limit = self.slip(i) * self.force(i, y).max(0.0);
+        self.holds[i].slips = false;
+        set_stretch(y, i, stretch(y, i).map(|part| part * limit / self.depth));
+    }
+}
+
+/// Returns a force along the ground in axes of the box.
+pub(super) fn in_box<const N: usize>(y: &[f64; N], [a, b]: [f64; 2]) -> [f64; 3] {
+    let [along, across] = ground(y);
+    std::array::from_fn(|axis| a * along[axis] + b * across[axis])
 }

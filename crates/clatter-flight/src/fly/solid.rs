@@ -1,7 +1,6 @@
 //! The motion of a box as places in it feel it.
 
-use crate::block::system::{cross, dot};
-use crate::{Axis, Block, BlockDrop, BlockFlight, Contact, Error, Stop};
+use crate::{Axis, BlockDrop, BlockFlight, Contact, Error, Stop};
 use clatter::{Excitation, Section};
 
 /// A motion of a box, followed to a time, as places in it feel it.
@@ -22,21 +21,6 @@ pub(crate) struct BlockMotion {
     upward: Vec<[f64; 3]>,
     /// Whether a corner is pressed from a sample to the next.
     pressed: Vec<bool>,
-}
-
-/// Contacts that push a box at once, as one.
-#[derive(Debug, Clone, Copy)]
-pub struct Push {
-    /// When it begins.
-    pub from_s: f64,
-    /// When it ends.
-    pub until_s: f64,
-    /// The change of velocity of the center of mass, with g.
-    pub impulse_m_s: f64,
-    /// Its largest acceleration.
-    pub peak_m_s2: f64,
-    /// The least share of the vertical along the thickness of the box: 1 where it lies on a broad face.
-    pub level: f64,
 }
 
 /// Straight lines in a step of a box, which is a small part of a contact.
@@ -118,21 +102,9 @@ impl BlockMotion {
             Axis::Any => libm::hypot(libm::hypot(x, y), z),
         }
     }
-    /// When contacts press, in order of their beginning.
-    pub(crate) fn pressed(&self) -> Vec<[f64; 2]> {
-        let mut all: Vec<[f64; 2]> = self.presses().map(|(_, press)| press).collect();
-        all.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        all
-    }
     /// How far a corner has sunk in at most.
     pub(crate) fn deepest_m(&self) -> f64 {
         self.flight.deepest_m
-    }
-    /// What pushes the center of mass, as straight lines: when each begins and ends, and the force over the mass.
-    pub(crate) fn pushed(&self) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
-        let size = |felt: &[[f64; 4]; 3]| libm::hypot(libm::hypot(felt[0][0], felt[1][0]), felt[2][0]);
-        let lines = self.times_s.windows(2).zip(self.felt.windows(2));
-        lines.map(move |(times, ends)| ([times[0], times[1]], [size(&ends[0]), size(&ends[1])]))
     }
     /// When corners touch and part.
     pub(crate) fn presses(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
@@ -175,57 +147,6 @@ impl BlockMotion {
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         all
     }
-
-    /// The samples within a push.
-    fn samples(&self, push: &Push) -> std::ops::Range<usize> {
-        self.times_s.partition_point(|time_s| *time_s < push.from_s)
-            ..self.times_s.partition_point(|time_s| *time_s <= push.until_s)
-    }
-
-    /// Returns what a push of 1 across the vertical, at the corner and to the side where it does most, does to a place from the center of
-    /// mass along an axis while a push lasts.
-    ///
-    /// # Formula
-    /// A force f over the mass at corner c gives it f·(a + w × c) along a, w = J⁻¹ (p × a) at p: of an f of 1 across the vertical at most
-    /// the part of a + w × c across the vertical.
-    pub(crate) fn across(&self, block: &Block, place: [f64; 3], axis: [f64; 3], push: &Push) -> f64 {
-        let (spins, corners) = (block.turned_by(cross(place, axis)), block.corners_m());
-        let during = |[from_s, until_s]: [f64; 2]| from_s <= push.until_s && until_s >= push.from_s;
-        let presses = self.presses().filter(|(_, press)| during(*press));
-        let of_corner = |(corner, _): (usize, [f64; 2])| {
-            let turned = cross(spins, corners[corner]);
-            let does: [f64; 3] = std::array::from_fn(|k| axis[k] + turned[k]);
-            let level = |k: usize| (dot(does, does) - dot(does, self.upward[k]).powi(2)).max(0.0).sqrt();
-            self.samples(push).map(level).fold(0.0, f64::max)
-        };
-        presses.map(of_corner).fold(0.0, f64::max)
-    }
-
-    /// Returns what pushes the box, presses that overlap as one, in order.
-    pub(crate) fn pushes(&self) -> Vec<Push> {
-        let mut all: Vec<Push> = Vec::new();
-        for [from_s, until_s] in self.pressed() {
-            match all.last_mut() {
-                Some(last) if from_s <= last.until_s => last.until_s = last.until_s.max(until_s),
-                _ => all.push(Push { from_s, until_s, impulse_m_s: 0.0, peak_m_s2: 0.0, level: 1.0 }),
-            }
-        }
-        for push in &mut all {
-            push.level = self.samples(push).map(|k| self.upward[k][2].abs()).fold(1.0, f64::min);
-        }
-        let mut k = 0;
-        for (times, ends) in self.pushed() {
-            let middle_s = 0.5 * (times[0] + times[1]);
-            while k < all.len() && all[k].until_s < middle_s {
-                k += 1;
-            }
-            if let Some(pushed) = all.get_mut(k).filter(|pushed| pushed.from_s <= middle_s) {
-                pushed.impulse_m_s += 0.5 * (ends[0] + ends[1]) * (times[1] - times[0]);
-                pushed.peak_m_s2 = pushed.peak_m_s2.max(ends[0]).max(ends[1]);
-            }
-        }
-        all
-    }
 }
 
 /// Half of what it does to places on both sides, by the curl of what they feel.
@@ -253,7 +174,7 @@ mod tests {
     /// A box that lands flat, with μ = 1 + (60/Ry)² + (40/Rx)² of a corner.
     fn flat() -> (BlockDrop, [Contact; 8], f64) {
         let (across, along, turning) = (0.04_f64, 0.059_f64, 0.07_f64);
-        let block = Block::new([0.12, 0.08, 0.02], [0.0; 3], [across, along, turning]).unwrap();
+        let block = crate::Block::new([0.12, 0.08, 0.02], [0.0; 3], [across, along, turning]).unwrap();
         let own = 1.0 + (0.06 / along).powi(2) + (0.04 / across).powi(2);
         let drop = BlockDrop::tilted(block, 0.0, 0.0, 2.0, 9.81).unwrap();
         (drop, [Contact::new(ContactLaw::Hysteretic, 0.6, 2e-4).unwrap(); 8], own)
@@ -274,22 +195,6 @@ mod tests {
             "{}",
             motion.parted_s()
         );
-    }
-
-    /// Pushes along the ground, 10 mm below the center of mass, turn a box that lies flat about its width, and so a part off the middle; one
-    /// in the middle is pushed along the ground alone.
-    #[test]
-    fn friction_at_the_corners_turns_the_box() {
-        let (drop, contact, _) = flat();
-        let motion = BlockMotion::new(&drop.with_time_limit_s(1e-3).unwrap(), &contact).unwrap();
-        let pushes = motion.pushes();
-        assert!(pushes.len() == 1 && (pushes[0].level - 1.0).abs() < 1e-9, "{pushes:?}");
-        let of = |place, axis| motion.across(&drop.block(), place, axis, &pushes[0]);
-        assert!((of([0.05, 0.0, 0.0], [0.0, 0.0, 1.0]) / (0.05 * 0.01 / (0.059 * 0.059)) - 1.0).abs() < 1e-9);
-        assert!((of([0.0; 3], [1.0, 0.0, 0.0]) - 1.0).abs() < 1e-12 && of([0.0; 3], [0.0, 0.0, 1.0]) < 1e-12);
-        // About the vertical, at the farthest corner: 1 + 30 mm 40 mm/(70 mm)² along, 30 mm 60 mm/(70 mm)² across.
-        let [along, across]: [f64; 2] = [1.0 + 0.03 * 0.04 / (0.07 * 0.07), 0.03 * 0.06 / (0.07 * 0.07)];
-        assert!((of([0.0, 0.03, 0.0], [1.0, 0.0, 0.0]) / libm::hypot(along, across) - 1.0).abs() < 1e-9);
     }
 
     /// After three of four corners all of its energy is left, but for what they have lost in the first hundredth of their contact.

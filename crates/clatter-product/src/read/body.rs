@@ -26,6 +26,7 @@ impl Reader {
         let restitution = self.spread(section, "restitution");
         let contact_time = self.spread(section, "contact_time");
         let contact_law = self.choice(section, "contact_law");
+        let friction = self.spread(section, "friction");
         let own_contacts = self.own_contacts(section)?;
         let gyration = self.spread_of_sides(section, "radius_of_gyration");
         let moment = self.quantity_of_sides(section, "moment_of_inertia");
@@ -105,6 +106,8 @@ impl Reader {
             restitution: restitution?.value,
             contact_time_s: contact_time.map(|t| t.value),
             contact_law: contact_law.and_then(|law| ContactLaw::from_name(law.value)),
+            friction: friction.map(|friction| friction.value),
+            is_friction_assumed: false,
         };
         if let Err(fault @ (DataFault::ProductOfInertia { .. } | DataFault::CenterOfMass { .. })) = product.check() {
             self.data(span, &fault, "these together");

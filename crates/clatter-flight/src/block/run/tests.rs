@@ -12,7 +12,7 @@ fn block(size: [f64; 3]) -> Block {
 }
 
 /// Returns the speed of the fastest corner, up or down.
-fn fastest(run: &Run<'_>) -> f64 {
+fn fastest(run: &Run<'_, SMOOTH>) -> f64 {
     let speed = |corner: [f64; 3]| System::place(&run.y, corner).1.abs();
     run.system.corners.map(speed).into_iter().fold(0.0, f64::max)
 }
@@ -32,7 +32,7 @@ fn nothing_after_rest_passes_its_bound() {
         let drop = BlockDrop::upright(block(size), upward, speed, GRAVITY).unwrap();
         let law = if n % 2 == 0 { ContactLaw::Hysteretic } else { ContactLaw::Dashpot };
         let contacts = [Contact::new(law, 0.1 + 0.5 * x(23), 1e-4).unwrap(); 8];
-        let mut run = Run::new(&drop, &contacts);
+        let mut run: Run<'_, SMOOTH> = Run::new(&drop, &contacts);
         run.first_touches();
         let bound = loop {
             match run.ends() {
@@ -60,14 +60,14 @@ fn nothing_after_rest_passes_its_bound() {
 fn dents_add_up() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
     let contacts = [Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap(); 8];
-    let mut run = Run::new(&drop, &contacts);
+    let mut run: Run<'_, SMOOTH> = Run::new(&drop, &contacts);
     run.first_touches();
     let i = run.strikes[0].corner;
     // These are two presses by 10 µm, of which a quarter springs back.
     for dent in [-7.5e-6, -15e-6] {
         run.system.holds[i].hold = Hold::Unloads(1e-5);
         assert!((run.system.dent(i, &run.y) - dent).abs() < 1e-15);
-        run.happens(i);
+        run.turns(i);
         assert!((run.system.holds[i].ground - dent).abs() < 1e-15, "{}", run.system.holds[i].ground);
     }
 }
@@ -78,7 +78,7 @@ fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
     let drop = BlockDrop::tilted(block([0.15, 0.07, 0.014]), 0.1, 0.3, 1.0, GRAVITY).unwrap();
     let contacts = [Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap(); 8];
     for (off, ends) in [(0.0099, false), (0.0101, true)] {
-        let mut run = Run::new(&drop, &contacts);
+        let mut run: Run<'_, SMOOTH> = Run::new(&drop, &contacts);
         run.misfit = off * run.opened;
         assert_eq!(matches!(run.ends(), Some(Stop::EnergyLimit { .. })), ends, "off by {off}");
     }
@@ -92,7 +92,7 @@ fn without_gravity_it_is_clear_where_no_corner_reaches_the_ground() {
     let contacts = [Contact::new(ContactLaw::Hysteretic, 0.5, 1e-4).unwrap(); 8];
     let reach = 0.5 * (0.15_f64.powi(2) + 0.07_f64.powi(2) + 0.014_f64.powi(2)).sqrt();
     for (height, rises, clear) in [(0.99, 1.0, false), (1.01, 1.0, true), (1.01, -1.0, false)] {
-        let mut run = Run::new(&drop, &contacts);
+        let mut run: Run<'_, SMOOTH> = Run::new(&drop, &contacts);
         (run.y[0], run.y[1]) = (height * reach, rises);
         assert_eq!(matches!(run.ends(), Some(Stop::BouncedClear { .. })), clear, "{height}, {rises}");
     }
