@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::bound::bound;
 use crate::engine::answer;
 use crate::reason::{Contradiction, Doubt, Note, Reason};
-use crate::search::{Candidate, Coordinates, Ranges, Task, Watch, Worst};
+use crate::search::{Candidate, Coordinates, LaterLandings, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Assumed, ComponentAssessment, LandingAssessment, LimitAssessment, ModelChoice, Sides,
     Verdict, WorstCase,
@@ -159,10 +159,12 @@ pub(crate) fn assess_these(
         numbered.flat_map(|(listed, laws)| (0..laws).map(move |n| (listed, n))).collect();
     let mut worst: Vec<Vec<Vec<Worst>>> = searched.iter().map(|_| Vec::new()).collect();
     let progress = SideBySide { done: AtomicUsize::new(0), told: AtomicUsize::new(0), count: searches.len(), watch };
+    // What a box does as it lands again depends on the law, and not on the drop.
+    let landings = [LaterLandings::default(), LaterLandings::default()];
     for some in searches.chunks(SIDE_BY_SIDE) {
         let search = |&(listed, n): &(usize, usize)| {
             let watch = |done, all| progress.goes_on(done, all);
-            let found = searched[listed][n].worst(&tasks, &all_tasks, most[n], &watch);
+            let found = searched[listed][n].worst(&tasks, &all_tasks, &landings[n], most[n], &watch);
             progress.done.fetch_add(1, Ordering::Relaxed);
             found
         };
@@ -256,8 +258,9 @@ fn judge(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst
     } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
         of.notes.push(Note::Error(found.error()));
     }
-    if worst.later > of.most {
-        of.most = worst.later;
+    let later = if ranges.base.is_some() { worst.later * (1.0 + COVERAGE_WHERE_ROUGH) } else { worst.later };
+    if later > of.most {
+        of.most = later;
         of.notes.push(Note::Rebounds(of.most));
     }
     // With contacts the edges beyond feet are followed.

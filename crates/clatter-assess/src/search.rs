@@ -14,6 +14,7 @@ mod climb;
 mod edges;
 mod found;
 mod grid;
+mod landings;
 mod ranges;
 mod settle;
 
@@ -25,13 +26,17 @@ use rayon::prelude::*;
 
 use crate::engine::{Part, PlaceHistory, once};
 use crate::model::follow;
-use budgets::{CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, NEAR, REBOUNDS, SAMPLE, SAMPLE_OF_BOX};
+use budgets::{
+    CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, LATER_COUNTS, LATER_DECIDES, NEAR, REBOUNDS, SAMPLE,
+    SAMPLE_OF_BOX,
+};
 use clatter_flight::{Drop, Followed, Place, Until};
 use clatter_product::{Component, Error, Limit, Model, Mount, Source};
 use climb::starts;
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
+pub(crate) use landings::LaterLandings;
 pub(crate) use ranges::{Coordinates, Ranges};
 pub(crate) use ranges::{DAMPING, FREQUENCY};
 
@@ -86,6 +91,7 @@ impl Ranges<'_> {
         &self,
         tasks: &[Task<'_>],
         all_tasks: &[Task<'_>],
+        landings: &LaterLandings,
         most: f64,
         watch: Watch<'_>,
     ) -> Result<Vec<Worst>, Coordinates> {
@@ -127,7 +133,19 @@ impl Ranges<'_> {
         }
         // The demand of rebounds is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
-        let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
+        if self.base.is_some() && all.energy_m2_s2 > 0.0 {
+            match self.later_landings(landings, tasks, all.energy_m2_s2, &work) {
+                Ok(landings) => all.land_again(&landings),
+                // The search was stopped.
+                Err(_) => all.later.fill(f64::INFINITY),
+            }
+        }
+        // A box is followed that far only where that may decide, or tells much more.
+        let counts = |(later, best): (&f64, f64)| {
+            let tells = self.base.is_none() || self.listed == 1 && *later > LATER_COUNTS * best;
+            *later > 0.0 && (tells || *later > LATER_DECIDES)
+        };
+        let only: Vec<bool> = all.later.iter().zip(all.best()).map(counts).collect();
         if only.contains(&true) {
             let sample: Vec<(u32, Coordinates)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
             ask(&mut all, &sample, Some(&only), true)?;
@@ -265,7 +283,12 @@ impl Ranges<'_> {
                         |asked: Option<Candidate>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
                     let parts = Self::softest_and_stiffest(task, &place)?;
                     let later = felt.later_most(&task.limit, &parts, reached(asked));
-                    if later > 0.0 {
+                    if let (Some(energy_m2_s2), false) = (early.energy_m2_s2(), to_rest) {
+                        if early.is_early() {
+                            of_drop.energy_m2_s2 = energy_m2_s2;
+                            of_drop.later.push((number, felt.rings(&task.limit, &parts)));
+                        }
+                    } else if later > 0.0 && self.base.is_none() {
                         of_drop.later.push((number, later));
                     }
                     if later > 0.0 && to_rest {

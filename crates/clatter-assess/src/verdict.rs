@@ -124,7 +124,11 @@ impl Assumed {
             // Plates of products that are given as bars had a demand 18 to 30 % larger.
             Self::Bar => ["body", "bar", "if it is wider than a quarter of its length, give `width`: up to 30 % more"],
             Self::EitherLaw => ["law", "hysteretic or dashpot", "a limit is safe where it holds by both"],
-            Self::Friction => ["friction", "0 to 0.6", "that of plastics, glass and steel on wood and concrete; give `friction` for another"],
+            Self::Friction => [
+                "friction",
+                "0 to 0.6",
+                "that of plastics, glass and steel on wood and concrete; give `friction` for another",
+            ],
             Self::NoFriction => {
                 let why = "along the thickness of a thin product near level it changes the demand by -11 to +2 %; `friction` follows it";
                 ["friction", "none", why]

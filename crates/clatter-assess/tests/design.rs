@@ -501,17 +501,13 @@ fn least_margin(file: &ProductFile, of: &ComponentAssessment) -> f64 {
     asked.fold(f64::INFINITY, f64::min)
 }
 
-/// Products as they are handed out, one of them with a contact law that is named; a plate, a box and a list of drops.
+/// Products as they are handed out, one of them with a contact law that is named; a plate and a list of drops. Boxes
+/// have a test of their own.
 fn worked() -> Vec<(&'static str, String)> {
     let plate = r#"
 product = { name = "plate", length = "150 mm", width = "70 mm", radius_of_gyration = ["43 mm", "20 mm"], restitution = 0.3, contact_time = "0.5 ms" }
 drop = { speed = "4 m/s", tilt = "5 deg", direction = "60 deg" }
 component = [{ name = "part", position = ["30 mm", "0 mm"], natural_frequency = "200 Hz", damping_ratio = 0.05, acceleration_limit = "400 gn" }]
-"#;
-    let block = r#"
-product = { name = "box", length = "150 mm", width = "70 mm", thickness = "30 mm", masses = [{ name = "all", mass = "200 g", from = ["-75 mm", "-35 mm"], to = ["75 mm", "35 mm"] }], restitution = 0.2, contact_time = "1 ms" }
-drop = [{ height = "0.5 m", face = "bottom", attitude_tolerance = "2 deg" }]
-component = [{ name = "part", position = ["30 mm", "0 mm"], mount = "hard", acceleration_limit = "500 gn" }]
 "#;
     let list = r#"
 product = { name = "list", length = "150 mm", radius_of_gyration = "43 mm", restitution = 0.3, contact_time = "0.5 ms" }
@@ -526,10 +522,8 @@ component = [{ name = "part", position = "30 mm", natural_frequency = "200 Hz", 
     vec![
         ("example", EXAMPLE.to_owned()),
         ("named", named),
-        ("phone", include_str!("../../../reports/examples/phone.toml").to_owned()),
         ("laptop", laptop.to_owned()),
         ("plate", plate.to_owned()),
-        ("block", block.to_owned()),
         ("list", list.to_owned()),
     ]
 }

@@ -91,7 +91,7 @@ fn covers(seed: u64, count: usize, (share, is_given): (f64, bool)) {
 #[test]
 fn six_strikes_keep_all_strikes_and_intervals_hold_the_truth() {
     for (seed, kind) in (101..).zip(KINDS) {
-        covers(seed, 20, kind);
+        covers(seed, 8, kind);
     }
 }
 
@@ -108,7 +108,7 @@ fn of_many_records_no_true_strike_is_left_out() {
 #[test]
 fn exact_strikes_of_a_real_drop_give_the_truth() {
     let mut random = Random(105);
-    for _ in 0..20 {
+    for _ in 0..8 {
         let (truth, list) = drop(7, &mut random);
         for deviation_s in [Some(1e-7), None] {
             let found = fitted(&truth.known(0.01, &mut random), &list, deviation_s);
@@ -198,7 +198,7 @@ fn explanations_that_are_about_as_good_are_all_told() {
 #[test]
 fn scatter_above_the_timing_is_no_fit() {
     let mut random = Random(107);
-    for _ in 0..10 {
+    for _ in 0..5 {
         let (truth, list) = drop(8, &mut random);
         let list = noisy(&list, 40.0 * DEVIATION_S, &mut random);
         let measured = [Measured::Strikes { strikes: strikes(&list), deviation_s: Some(DEVIATION_S) }];

@@ -167,6 +167,12 @@ impl Block {
         times(&self.inverse, moment)
     }
 
+    /// Moment of inertia over the mass about an axis through the center of mass.
+    #[must_use]
+    pub fn inertia_about(&self, axis: [f64; 3]) -> f64 {
+        system::dot(axis, times(&self.inertia, axis))
+    }
+
     /// Size from face to face.
     #[must_use]
     pub fn size_m(&self) -> [f64; 3] {

@@ -68,6 +68,9 @@ pub struct Drop {
     /// Coefficient of friction of the ground, which a box alone feels.
     #[serde(default)]
     pub friction: f64,
+    /// Velocity of the center of mass along x and y of the world, of which a box on ground with friction takes notice.
+    #[serde(default)]
+    pub slide_m_s: [f64; 2],
     /// The axis x of the world, along the ground, in axes of a box; where none is given, that of the box made level.
     #[serde(default)]
     pub along: Option<[f64; 3]>,
@@ -108,6 +111,7 @@ impl Drop {
             contact_law: ContactLaw::Hysteretic,
             own_contacts: OwnContacts::NONE,
             friction: 0.0,
+            slide_m_s: [0.0; 2],
             along: None,
         }
     }
@@ -399,7 +403,36 @@ impl Drop {
             BlockDrop::tilted(block, self.tilt_rad, self.direction_rad % TAU, speed, gravity)?
         };
         let drop = self.along.map_or(Ok(drop), |along| drop.with_along(along))?;
-        Ok(drop.with_spin(self.spin())?.with_friction(self.friction)?)
+        Ok(drop.with_spin(self.spin())?.with_friction(self.friction)?.with_slide(self.slide_m_s)?)
+    }
+    /// A later landing of a box: with this vertical in its axes, turning about this axis, its energy over the mass shared between fall, spin and
+    /// slide. The energy counts from where the center of mass lies on the ground; none where it does not lift the box into that posture.
+    #[must_use]
+    pub fn landing(
+        &self,
+        up: [f64; 3],
+        about: [f64; 3],
+        energy_m2_s2: f64,
+        [fall, spin, slide]: [f64; 3],
+    ) -> Option<Self> {
+        let block = self.as_box()?;
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let height_m = block.corners_m().into_iter().map(|corner| -dot(up, corner)).fold(0.0, f64::max);
+        let moves = energy_m2_s2 - self.gravity_m_s2 * height_m;
+        let speed = |share: f64, inertia: f64| (2.0 * share * moves / inertia).sqrt();
+        let landing = Self {
+            base: up,
+            tilt_rad: 0.0,
+            direction_rad: 0.0,
+            speed_m_s: speed(fall, 1.0),
+            spin_rad_s: speed(spin, block.inertia_about(about)),
+            spin_axis: Some(about),
+            slide_m_s: [speed(slide, 1.0), 0.0],
+            along: None,
+            ..*self
+        };
+        // One that goes up lands nowhere.
+        (moves > 0.0 && landing.block_drop().is_ok()).then_some(landing)
     }
     /// The drop of a box that lands on anything, as flights take it; none of a bar and of a plate.
     ///

@@ -65,6 +65,8 @@ pub const PRECISION: f64 = 0.1;
 pub enum Until {
     /// Until it comes down after its clatter.
     Lands,
+    /// Until it comes down after a time in s.
+    LandsAfter(f64),
     /// Until the energy allows no shock above a quarter of the largest.
     Rebounded,
     /// The same, or until it comes down after a time in s.
@@ -113,6 +115,7 @@ impl Followed {
             later <= share * largest
                 || match until {
                     Until::Lands => lands && time_s > clatter_s,
+                    Until::LandsAfter(most_s) => lands && time_s > most_s,
                     Until::Rebounded => lands && time_s > clatter_s && later <= LATE * largest,
                     Until::Past(most_s) => lands && time_s > clatter_s && (later <= LATE * largest || time_s > most_s),
                     Until::Over => false,
@@ -122,12 +125,17 @@ impl Followed {
         let (motion, precision) = match (drop.engine(), drop.body.feet, &drop.body.width) {
             (Engine::Level | Engine::Solid, ..) if !takes_time => return Err(Error::Instant),
             (Engine::Solid, ..) => {
-                let until_s = match until {
-                    Until::Lands => clatter_s,
-                    Until::Past(time_s) => time_s.max(clatter_s),
-                    Until::Rebounded | Until::Over => drop.settled_s(),
+                let lands_s = match until {
+                    Until::Lands => Some(clatter_s),
+                    Until::LandsAfter(time_s) => Some(time_s),
+                    Until::Past(time_s) => Some(time_s.max(clatter_s)),
+                    Until::Rebounded | Until::Over => None,
                 };
-                let block = drop.block_drop()?.with_time_limit_s(until_s)?.with_impact_limit(PRESSES_OF_BOX);
+                let block = drop.block_drop()?.with_impact_limit(PRESSES_OF_BOX);
+                let block = match lands_s {
+                    Some(lands_s) => block.with_time_limit_s(drop.settled_s())?.until_it_lands_after_s(lands_s),
+                    None => block.with_time_limit_s(drop.settled_s())?,
+                };
                 let block = if until == Until::Rebounded { block.with_enough(LATE) } else { block };
                 (Course::Solid(BlockMotion::new(&block, &drop.contacts_of_block()?)?), 0.0)
             }
@@ -231,6 +239,11 @@ impl Followed {
     #[must_use]
     pub fn later_m_s(&self) -> f64 {
         of_each!(&self.motion, motion => motion.later_m_s, block => block.center_m_s)
+    }
+    /// Energy over the mass of a box as it was left, counted from where the center of mass lies on the ground; none of other bodies.
+    #[must_use]
+    pub fn energy_m2_s2(&self) -> Option<f64> {
+        if let Course::Solid(motion) = &self.motion { Some(motion.flight.energy_m2_s2) } else { None }
     }
     /// How far a box has leaned at most from the face that it landed over: 1 balanced over an edge, more where it has fallen over.
     #[must_use]

@@ -76,7 +76,8 @@ impl ProductFile {
         let body = &self.product.body;
         let is_thin = THIN * body.thickness().m() <= body.length_m().min(body.width_m());
         let is_level = |landing: &Landing| {
-            let up = landing.attitude.zip(body.faces_m()).map_or(0.0, |(attitude, faces_m)| attitude.upward(faces_m)[2]);
+            let up =
+                landing.attitude.zip(body.faces_m()).map_or(0.0, |(attitude, faces_m)| attitude.upward(faces_m)[2]);
             libm::acos(up.abs().min(1.0)) + landing.tolerance_rad() <= LEVEL_RAD
         };
         let is_along = |component: &Component| component.inside.axis == clatter_flight::Axis::Z;

@@ -93,6 +93,16 @@ impl PlaceHistory<'_> {
         };
         if most > above { most } else { 0.0 }
     }
+    /// Returns the utilization to which parts still ring as the motion is left; 0 of a limit that is no response.
+    pub(crate) fn rings<'p>(&self, limit: &Limit, parts: impl IntoIterator<Item = &'p Suspension>) -> f64 {
+        let Source::Response(peak) = limit.kind.source() else { return 0.0 };
+        let of = |part: &Suspension| {
+            let (omega, rest) = (part.omega(), self.end_of(part));
+            let per_velocity = peak.of_velocity(peak.after_impulse(part.damping()), omega) / limit.allowed;
+            per_velocity * libm::hypot(omega * rest.displacement, rest.velocity)
+        };
+        parts.into_iter().map(of).fold(0.0, f64::max)
+    }
     /// Returns the bounds on strikes here after the motion was left.
     pub(super) fn later(&self) -> Later {
         let drop = &self.followed.drop;

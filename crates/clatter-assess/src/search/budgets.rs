@@ -67,6 +67,19 @@ pub(super) const SAMPLE: [usize; 2] = [128, 512];
 /// at least.
 pub(super) const SAMPLE_OF_BOX: [usize; 2] = [96, 8];
 
+// Later landings of a box.
+
+/// Landings with the energy left, in any posture.
+pub(super) const LANDINGS: u32 = 360;
+/// Range of the tries of a climb from the worst of them.
+pub(super) const LANDING_REACH: f64 = 0.15;
+/// Tries of such a climb.
+pub(super) const LANDING_TRIES: u32 = 64;
+/// A box that falls once is followed to its later landings where they may ask for so much more than the worst drop found.
+pub(super) const LATER_COUNTS: f64 = 1.25;
+/// The same of any box where they may ask for so much of a limit.
+pub(super) const LATER_DECIDES: f64 = 0.9;
+
 // Climbs from the highest drops.
 
 /// Share of the worst above which a drop is climbed from.

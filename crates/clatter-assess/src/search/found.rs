@@ -43,6 +43,8 @@ pub(super) struct OfDrop {
     pub(super) asked: Vec<(usize, Candidate)>,
     /// The demand that the energy allows after the body has come down once, on tasks where that is more.
     pub(super) later: Vec<(usize, f64)>,
+    /// The energy over the mass that a box still has as it is left, where it lands again.
+    pub(super) energy_m2_s2: f64,
     /// The lean of a box that was followed on, from the posture in which it landed.
     pub(super) lean: f64,
 }
@@ -67,6 +69,8 @@ pub(super) struct Candidates {
     /// The demand that rebounds may have by their energy, for each task; 0 where that is less than the worst.
     pub(super) later: Vec<f64>,
     pub(super) drops: usize,
+    /// The most energy over the mass that a box still has as it lands again.
+    pub(super) energy_m2_s2: f64,
     /// The box that leaned most, and how far.
     pub(super) leaning: Option<(f64, Coordinates)>,
 }
@@ -79,7 +83,18 @@ impl Candidates {
             refused: None,
             later: nothing,
             drops: 0,
+            energy_m2_s2: 0.0,
             leaning: None,
+        }
+    }
+    /// Adds to what the parts of a box still ring with as it lands again what such landings may do; 0 where that is no more than the worst.
+    pub(super) fn land_again(&mut self, landings: &[f64]) {
+        let best = self.best();
+        for ((later, landing), best) in self.later.iter_mut().zip(landings).zip(best) {
+            *later += landing;
+            if *later <= best {
+                *later = 0.0;
+            }
         }
     }
     /// Returns the largest utilization of each task so far.
@@ -95,6 +110,7 @@ impl Candidates {
                     if of_drop.lean > self.leaning.map_or(0.0, |(lean, _)| lean) {
                         self.leaning = Some((of_drop.lean, place));
                     }
+                    self.energy_m2_s2 = self.energy_m2_s2.max(of_drop.energy_m2_s2);
                     of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
                     of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
                 }
@@ -150,10 +166,7 @@ mod tests {
                 at_m: [0.0; 2],
                 shares: [0.0; super::super::ranges::AXES],
             };
-            let of = |most: f64| OfDrop {
-                later: vec![(0, most)],
-                ..OfDrop::default()
-            };
+            let of = |most: f64| OfDrop { later: vec![(0, most)], ..OfDrop::default() };
             all.take(order.map(|most| (place, Ok(of(most)))).into());
             assert!((all.later[0] - 3.0).abs() < 1e-12 && all.drops == 3, "{:?} of {order:?}", all.later);
         }

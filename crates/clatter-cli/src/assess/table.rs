@@ -52,8 +52,9 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
         };
         sentence(out, "Other law: ", asks)?;
     }
-    for [_, taken, why] in assessment.assumed.iter().filter(|row| **row == Assumed::NoFriction).map(|row| row.told()) {
-        sentence(out, "Friction: ", &format!("{taken} is followed; {why}."))?;
+    let of_friction = |row: &&Assumed| matches!(row, Assumed::Friction | Assumed::NoFriction);
+    for [_, taken, why] in assessment.assumed.iter().filter(of_friction).map(|row| row.told()) {
+        sentence(out, "Friction: ", &format!("{taken}, assumed: {why}."))?;
     }
     if let Some(limit) = all.clone().next() {
         writeln!(out)?;

@@ -15,10 +15,13 @@ pub struct BlockDrop {
     /// The axis x of the world, along the ground, in axes of the box.
     pub(super) along: [f64; 3],
     pub(super) friction: f64,
+    /// Velocity of the center of mass along x and y of the world.
+    pub(super) slide: [f64; 2],
     pub(super) spin: [f64; 3],
     pub(super) speed: f64,
     pub(super) gravity: f64,
     pub(super) time_limit: f64,
+    pub(super) lands_after: f64,
     pub(super) impact_limit: usize,
     pub(super) enough: f64,
 }
@@ -78,10 +81,12 @@ impl BlockDrop {
             upward,
             along: level(upward, if upward[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }),
             friction: 0.0,
+            slide: [0.0; 2],
             spin: [0.0; 3],
             speed: speed_m_s,
             gravity: gravity_m_s2 + 0.0,
             time_limit: f64::INFINITY,
+            lands_after: f64::INFINITY,
             impact_limit: 100_000,
             enough: 0.0,
         })
@@ -133,6 +138,25 @@ impl BlockDrop {
         within("friction", friction, 0.0, 10.0, "in [0, 10]")?;
         self.friction = friction + 0.0;
         Ok(self)
+    }
+
+    /// Returns the drop with a velocity along x and y of the world, which friction alone takes notice of.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless both are within 10⁶ m/s.
+    pub fn with_slide(mut self, slide_m_s: [f64; 2]) -> Result<Self, Error> {
+        for slide in slide_m_s {
+            within("velocity along the ground in m/s", slide, -1e6, 1e6, "in [-1e6, 1e6]")?;
+        }
+        self.slide = slide_m_s;
+        Ok(self)
+    }
+
+    /// Returns the drop, left where it lands again: at the first touch of a corner after a time since the first touch.
+    #[must_use]
+    pub fn until_it_lands_after_s(mut self, time_s: f64) -> Self {
+        self.lands_after = time_s;
+        self
     }
 
     /// Returns the drop with a limit of time since the first touch: later strikes are not computed.

@@ -19,7 +19,7 @@ const SAMPLES: u32 = 8;
 /// Halvings of the time of an event: to the last bit of a share.
 const HALVINGS: u32 = 52;
 /// The most steps: a box that rings on for so long is left.
-const STEPS: usize = 1_000_000;
+const STEPS: usize = 100_000;
 /// Events in a row at one time that no motion needs.
 const IDLE: usize = 256;
 /// A box is followed until later presses change velocities by less than this share of the largest approach.
@@ -74,6 +74,8 @@ pub struct BlockFlight {
     pub left_m_s: f64,
     /// Largest depth of a corner.
     pub deepest_m: f64,
+    /// Energy over the mass at the end, of lying with the center of mass on the ground 0.
+    pub energy_m2_s2: f64,
 }
 
 impl BlockFlight {
@@ -247,7 +249,8 @@ impl BlockDrop {
 
     /// Returns a bound on the speed of every corner at the first touch.
     fn fastest(&self) -> f64 {
-        self.speed + dot(self.spin, self.spin).sqrt() * self.block.reach()
+        let [x, y] = self.slide;
+        (self.speed * self.speed + x * x + y * y).sqrt() + dot(self.spin, self.spin).sqrt() * self.block.reach()
     }
 }
 
@@ -308,6 +311,7 @@ impl<'a, const N: usize> Run<'a, N> {
         let mut scales = [STRETCH * depth; N];
         scales[..SMOOTH].copy_from_slice(&[depth, fast, turn, turn, turn, spin, spin, spin]);
         if N == ROUGH {
+            y[8..10].copy_from_slice(&drop.slide);
             y[10..13].copy_from_slice(&drop.along);
             scales[8..13].copy_from_slice(&[fast, fast, turn, turn, turn]);
         }
@@ -441,9 +445,14 @@ impl<'a, const N: usize> Run<'a, N> {
         let samples = (1..=samples).map(|k| f64::from(k) / f64::from(SAMPLES));
         let event = samples.into_iter().find(|share| happened(*share)).map(|until| {
             let (mut before, mut after) = (until - 1.0 / f64::from(SAMPLES), until);
+            // Of those that have happened by then, one is the first.
+            let y = step.at(until);
+            let all: [bool; 8] = std::array::from_fn(|i| is_watched[i] && self.system.has_happened(i, &y));
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (before + after);
-                *(if happened(middle) { &mut after } else { &mut before }) = middle;
+                let y = step.at(middle);
+                let is_over = (0..8).any(|i| all[i] && self.system.has_happened(i, &y));
+                *(if is_over { &mut after } else { &mut before }) = middle;
             }
             after
         });
@@ -455,6 +464,9 @@ impl<'a, const N: usize> Run<'a, N> {
         if event.is_some() {
             for i in 0..8 {
                 if self.system.has_turned(i, &self.y) {
+                    if self.now >= self.drop.lands_after && self.system.lands(i, &self.y) {
+                        return true;
+                    }
                     self.stride = self.stride.min(0.01 * self.times_s[0]);
                     self.turns(i);
                 } else if self.system.has_happened(i, &self.y) {
@@ -489,7 +501,7 @@ impl<'a, const N: usize> Run<'a, N> {
                     *delta_v += impulse * turns.coupling(i, j);
                 }
                 if N == ROUGH {
-                    let grip = self.system.friction(i, y);
+                    let grip = self.system.grip(i, y, self.system.force(i, y));
                     let along = grip.force.map(|force| weight * h * share * force);
                     work += along[0] * grip.slides[0] + along[1] * grip.slides[1];
                     let turned = times(&self.drop.block.inverse, cross(self.system.corners[i], in_box(y, along)));
@@ -580,8 +592,20 @@ impl<'a, const N: usize> Run<'a, N> {
         let along_m_s = if N == ROUGH { [self.y[8], self.y[9]] } else { [0.0; 2] };
         let (energy_error, left_m_s) = (self.misfit / self.opened, (2.0 * self.available_energy()).sqrt());
         let strikes = self.strikes;
-        let deepest_m = self.sunk;
-        Ok(BlockFlight { strikes, stop, energy_error, center_m, center_m_s, along_m_s, upward, spin_rad_s, left_m_s, deepest_m })
+        let (deepest_m, energy_m2_s2) = (self.sunk, self.system.energy(&self.y) + self.system.stored(&self.y));
+        Ok(BlockFlight {
+            strikes,
+            stop,
+            energy_error,
+            center_m,
+            center_m_s,
+            along_m_s,
+            upward,
+            spin_rad_s,
+            left_m_s,
+            deepest_m,
+            energy_m2_s2,
+        })
     }
 }
 

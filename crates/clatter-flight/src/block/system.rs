@@ -25,7 +25,7 @@ const STRETCHES: usize = 13;
 const MINDLIN: f64 = 0.8;
 /// The direction of a slipping stretch turns towards that of the velocity at most so fast, over the frequency of the contact. It does so within
 /// a way of μ F/(κ k), which is too short to be followed in steps that the force needs where F or μ is small: there the force is small too.
-const TURNS: f64 = 30.0;
+const TURNS: f64 = 10.0;
 
 /// State of the contact of a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,10 +116,10 @@ pub(super) struct Grip {
     pub(super) slides: [f64; 2],
     /// The rate of the stretch along them; of a corner that slips, of its direction.
     pub(super) stretches: [f64; 2],
-    /// The length of the stretch, that at which it slips, and how much faster the first grows.
+    /// The length of the stretch, that at which it slips, and the velocity of the corner along it.
     stretch: f64,
     limit: f64,
-    outward: f64,
+    along: f64,
 }
 
 pub(super) fn parts<const N: usize>(y: &[f64; N]) -> (f64, f64, [f64; 3], [f64; 3]) {
@@ -175,36 +175,41 @@ impl System {
         let [along, across] = ground(y);
         [y[8] + dot(along, moved), y[9] + dot(across, moved)]
     }
-    /// Returns the friction of a corner that is pressed with a force, which grows at a rate.
+    /// Returns the friction of a corner that is pressed with a force, of a state with friction.
     ///
     /// It is −κ k s of a stretch s from the touch on, ds/dt = u, the velocity along the ground, up to μ F; from there s stays on the circle
     /// of r = μ F/(κ k), of what would take it outside without the part outward: its direction turns towards that of u by u/r.
-    pub(super) fn grip<const N: usize>(&self, corner: usize, y: &[f64; N], force: f64, grows: f64) -> Grip {
+    pub(super) fn grip<const N: usize>(&self, corner: usize, y: &[f64; N], force: f64) -> Grip {
         let (slides, stretch) = (Self::slides(y, self.corners[corner]), stretch(y, corner));
         let Corner { stiffness, frequency, slips, .. } = self.holds[corner];
-        let (size, speed, most) = (length(stretch), length(slides), self.slip(corner));
+        let (size, limit) = (length(stretch), self.slip(corner) * force.max(0.0));
         let towards = if size > 0.0 { stretch.map(|s| s / size) } else { [0.0; 2] };
-        let limit = most * force.max(0.0);
         let along = slides[0] * towards[0] + slides[1] * towards[1];
-        let outward = along - most * grows;
         let stretches = if slips {
-            let radius = limit.max(speed / (TURNS * frequency)).max(f64::MIN_POSITIVE);
+            let radius = limit.max(length(slides) / (TURNS * frequency)).max(f64::MIN_POSITIVE);
             [0, 1].map(|k| self.depth / radius * (slides[k] - along * towards[k]))
         } else {
             slides
         };
         let stretch = if slips { limit } else { size };
-        Grip { force: towards.map(|part| -MINDLIN * stiffness * stretch * part), slides, stretches, stretch, limit, outward }
+        Grip {
+            force: towards.map(|part| -MINDLIN * stiffness * stretch * part),
+            slides,
+            stretches,
+            stretch,
+            limit,
+            along,
+        }
     }
     /// Returns how fast the force on a corner grows.
-    fn grows<const N: usize>(&self, corner: usize, y: &[f64; N], slope: &[f64; N]) -> f64 {
+    fn grows<const N: usize>(&self, corner: usize, y: &[f64; N]) -> f64 {
         let Corner { hold, stiffness, .. } = self.holds[corner];
         let (_, velocity) = Self::place(y, self.corners[corner]);
         match hold {
             Hold::Unloads(_) => -stiffness / self.loss[corner] * velocity,
             _ if self.delay == 0.0 => -stiffness * velocity,
             _ => {
-                let ((_, _, n, spin), (_, rises, _, spun)) = (parts(y), parts(slope));
+                let ((_, _, n, spin), (_, rises, _, spun)) = (parts(y), parts(&self.slope(y)));
                 let around = cross(spin, cross(spin, self.corners[corner]));
                 let turned = cross(spun, self.corners[corner]);
                 let acceleration = rises + dot(n, [0, 1, 2].map(|k| around[k] + turned[k]));
@@ -212,18 +217,17 @@ impl System {
             }
         }
     }
-    /// Returns the friction of a corner that bears, of a state with friction.
-    pub(super) fn friction<const N: usize>(&self, corner: usize, y: &[f64; N]) -> Grip {
-        let grows = if self.delay == 0.0 { self.grows(corner, y, y) } else { self.grows(corner, y, &self.slope(y)) };
-        self.grip(corner, y, self.force(corner, y), grows)
-    }
     /// Returns whether the ground presses on a corner.
     pub(super) fn presses(&self) -> bool {
         self.holds.iter().any(Corner::bears)
     }
     /// Returns the force over the mass, and moment over the mass.
-    #[inline]
     pub(super) fn load<const N: usize>(&self, y: &[f64; N]) -> Load {
+        self.loaded(y, |_, _| ())
+    }
+    /// Returns the same; `each` is called with the friction of every corner that bears.
+    #[inline]
+    fn loaded<const N: usize>(&self, y: &[f64; N], mut each: impl FnMut(usize, &Grip)) -> Load {
         let (_, _, n, _) = parts(y);
         let mut load = Load { up: 0.0, along: [0.0; 2], moment: [0.0; 3] };
         for (i, corner) in self.corners.iter().enumerate().filter(|(i, _)| self.holds[*i].bears()) {
@@ -234,9 +238,10 @@ impl System {
                 (0..3).for_each(|axis| load.moment[axis] += own * arm[axis]);
             }
             if N == ROUGH {
-                let along = self.grip(i, y, own, 0.0).force;
-                let moment = cross(*corner, in_box(y, along));
-                (0..2).for_each(|axis| load.along[axis] += along[axis]);
+                let grip = self.grip(i, y, own);
+                let moment = cross(*corner, in_box(y, grip.force));
+                each(i, &grip);
+                (0..2).for_each(|axis| load.along[axis] += grip.force[axis]);
                 (0..3).for_each(|axis| load.moment[axis] += moment[axis]);
             }
         }
@@ -249,18 +254,14 @@ impl System {
     }
     pub(super) fn slope<const N: usize>(&self, y: &[f64; N]) -> [f64; N] {
         let (_, v, n, spin) = parts(y);
-        let Load { up, along, moment } = self.load(y);
+        let mut slope = [0.0; N];
+        let Load { up, along, moment } = self.loaded(y, |i, grip| set_stretch(&mut slope, i, grip.stretches));
         let (turn, spun) = (cross(n, spin), self.turning(spin, moment));
         let smooth = [v, up - self.gravity, turn[0], turn[1], turn[2], spun[0], spun[1], spun[2]];
-        let mut slope = [0.0; N];
         slope[..SMOOTH].copy_from_slice(&smooth);
         if N == ROUGH {
             slope[8..10].copy_from_slice(&along);
             slope[10..13].copy_from_slice(&cross(ground(y)[0], spin));
-            for i in (0..8).filter(|i| self.holds[*i].bears()) {
-                let grip = self.grip(i, y, self.force(i, y), self.grows(i, y, &slope));
-                set_stretch(&mut slope, i, grip.stretches);
-            }
         }
         slope
     }
@@ -297,7 +298,7 @@ impl System {
             }
         };
         let stretched = |i: usize| {
-            let stretch = self.grip(i, y, self.force(i, y), 0.0).stretch;
+            let stretch = self.grip(i, y, self.force(i, y)).stretch;
             0.5 * MINDLIN * self.holds[i].stiffness * stretch * stretch
         };
         let bears = (0..8).filter(|i| N == ROUGH && self.holds[*i].bears());
@@ -314,6 +315,11 @@ impl System {
     /// Returns whether a corner has come to its next event.
     pub(super) fn has_happened<const N: usize>(&self, i: usize, y: &[f64; N]) -> bool {
         self.has_turned(i, y) || N == ROUGH && self.holds[i].bears() && self.changes_grip(i, y)
+    }
+    /// Returns whether a corner that has come to its next event touches.
+    pub(super) fn lands<const N: usize>(&self, i: usize, y: &[f64; N]) -> bool {
+        let Corner { hold, ground, .. } = self.holds[i];
+        hold == Hold::Up && Self::place(y, self.corners[i]).0 < ground
     }
     /// Returns whether a corner has touched, parted, or come to its lowest.
     pub(super) fn has_turned<const N: usize>(&self, i: usize, y: &[f64; N]) -> bool {
@@ -334,10 +340,15 @@ impl System {
     }
     /// Returns whether a corner that sticks begins to slip, or one that slips sticks.
     pub(super) fn changes_grip<const N: usize>(&self, i: usize, y: &[f64; N]) -> bool {
-        let grip = self.friction(i, y);
+        let grip = self.grip(i, y, self.force(i, y));
         // By more than roundings, as a corner at rest may lie just there.
         let is_beyond = grip.stretch > grip.limit * (1.0 + 1e-7);
-        if self.holds[i].slips { grip.outward < 0.0 } else { grip.outward > 0.0 && is_beyond }
+        let slips = self.holds[i].slips;
+        if !slips && !is_beyond {
+            return false;
+        }
+        let grows_outward = grip.along > self.slip(i) * self.grows(i, y);
+        slips != grows_outward
     }
     /// Lets a corner slip in the direction of its stretch, of its velocity where it has none yet, or keeps its length where it slips already.
     pub(super) fn slides_on<const N: usize>(&mut self, i: usize, y: &mut [f64; N]) {
