@@ -50,8 +50,8 @@ QUESTIONS = {
     f"simulate --model=compliant {PLATE} --tilt-deg=2 --direction-deg=30 --contact-time-s=1e-3": lambda: clatter.simulate(
         model="compliant", **PLATE_OF, tilt_deg=2, direction_deg=30, contact_time_s=1e-3
     ),
-    f"simulate --model=compliant {BOX} --tilt-deg=20 --direction-deg=30 --contact-time-s=5e-4": lambda: clatter.simulate(
-        model="compliant", **BOX_OF, tilt_deg=20, direction_deg=30, contact_time_s=5e-4
+    f"simulate --model=compliant {BOX} --tilt-deg=20 --direction-deg=30 --contact-time-s=5e-4 --friction=0.4": lambda: clatter.simulate(
+        model="compliant", **BOX_OF, tilt_deg=20, direction_deg=30, contact_time_s=5e-4, friction=0.4
     ),
     "respond --q=0.5 --e=0.3 --at=0.4 --omega=3 --damping=0.05": lambda: clatter.respond(
         q=0.5, e=0.3, at=0.4, omega=3, damping=0.05
@@ -59,8 +59,8 @@ QUESTIONS = {
     f"respond --model=compliant {PLATE} --gaps-m=0.002,0.001 --contact-time-s=4e-4 --at=0.4,0.2 --omega=900": lambda: (
         clatter.respond(model="compliant", **PLATE_OF, gaps_m=(0.002, 0.001), contact_time_s=4e-4, at=(0.4, 0.2), omega=900)
     ),
-    f"respond --model=compliant {BOX} --tilt-deg=20 --contact-time-s=5e-4 --at=0.4,0.2,0 --axis=any": lambda: clatter.respond(
-        model="compliant", **BOX_OF, tilt_deg=20, contact_time_s=5e-4, at=(0.4, 0.2, 0), axis="any"
+    f"respond --model=compliant {BOX} --tilt-deg=20 --contact-time-s=5e-4 --friction=0.4 --at=0.4,0.2,0 --axis=any": lambda: clatter.respond(
+        model="compliant", **BOX_OF, tilt_deg=20, contact_time_s=5e-4, friction=0.4, at=(0.4, 0.2, 0), axis="any"
     ),
     f"respond --model=compliant {DROP} --contact-time-s=4e-4 --at=0.4 --frequency=180Hz": lambda: clatter.respond(
         model="compliant", **DROP_OF, contact_time_s=4e-4, at=0.4, frequency_hz=180

@@ -27,20 +27,17 @@ fn most(limit: &Value) -> f64 {
     number(limit, "demand") * (1.0 + number(limit, "uncertainty"))
 }
 
-/// A flat landing on its end, which a soft case leaves without an answer, asks for 843 gn of 500.
+/// A flat landing on its end in a soft case asks for 843 gn of 500, by another program.
 #[test]
-fn a_bound_does_not_make_a_box_safe_whose_drops_are_not_answered() {
+fn a_phone_in_a_soft_case_is_answered() {
     let answer = assessed("bound-phone");
     let [limit] = limits(&answer)[..] else { panic!("{answer}") };
-    assert_eq!(
-        (&limit["verdict"], &limit["demand"], &limit["margin"]),
-        (&"undecided".into(), &Value::Null, &Value::Null)
-    );
+    assert_eq!(limit["verdict"], "unsafe");
+    assert!((number(limit, "demand") / (843.0 * GN) - 1.0).abs() < 0.01, "{limit}");
     assert!(number(limit, "bound") > 843.0 * GN, "{limit}");
-    assert!(answer["landings"].as_array().unwrap().iter().all(|landing| landing["verdict"] == "undecided"), "{answer}");
 }
 
-/// The demand of a limit is that of the drop that asks most, and what others may ask is told once.
+/// The demand of a limit is that of the drop that asks most, and what others and later landings may ask leaves it safe.
 #[test]
 fn the_demand_is_that_of_the_drop_that_asks_most() {
     let answer = assessed("headline");
@@ -52,23 +49,22 @@ fn the_demand_is_that_of_the_drop_that_asks_most() {
     let first = rows.iter().find(|row| is_largest(number(&row["limits"][0], "demand"))).unwrap();
     assert_eq!(limit["worst_case"]["landing"], first["landing"]);
     assert!(most(limit) <= number(limit, "bound") * (1.0 + 1e-9), "{limit}");
-    let others = format!("up to {:.1} %", 100.0 * most(limit) / number(limit, "allowed"));
-    assert!(limit["undecided"].as_str().unwrap().contains(&others), "{limit}: not {others}");
+    assert!(limit["verdict"] == "safe" && most(limit) < number(limit, "allowed"), "{limit}");
 }
 
-/// With friction of 0.3 these parts ask for 52 and 104 gn, with 0.5 by another program for 41 and 122.
+/// With friction of 0.3 these parts ask for 52 and 104 gn, by another program: without, for next to nothing.
 #[test]
 fn parts_along_the_ground_are_judged_with_friction() {
     let answer = assessed("sliding-cube");
-    for (limit, pushed) in limits(&answer).into_iter().zip([52.0, 122.0]) {
-        assert_eq!(limit["verdict"], "undecided", "{limit}");
-        assert!(most(limit) > pushed * GN, "{limit}: {pushed}");
-        let notes = limit["notes"].to_string();
-        assert!(notes.contains("without friction"), "{notes}");
+    for (limit, pushed) in limits(&answer).into_iter().zip([52.0, 104.0]) {
+        assert_eq!(limit["verdict"], "unsafe", "{limit}");
+        assert!(number(limit, "demand") > pushed * GN, "{limit}: {pushed}");
     }
     assert_eq!(answer["assumed"].as_array().unwrap().last().unwrap()["input"], "friction");
+    // Friction is drawn as well: of 4000 samples 67 % survived.
     let survival = &drawn("sliding-cube", 40)["components"][0]["survival"];
-    assert_eq!((number(survival, "at_least"), &survival["interval"][1]), (0.0, &1.0.into()), "{survival}");
+    let [least, most] = [0, 1].map(|end| survival["interval"][end].as_f64().unwrap());
+    assert!(least > 0.3 && least < 0.67 && most > 0.67 && most < 0.95, "{survival}");
 }
 
 /// It lands at 4.4 m/s on its bottom, along which nothing pushes, turns, and lands on its end later.
@@ -77,7 +73,8 @@ fn a_velocity_change_across_the_blow_is_that_of_its_shock() {
     let answer = assessed("sideways-velocity");
     let [limit] = limits(&answer)[..] else { panic!("{answer}") };
     assert_eq!(limit["verdict"], "undecided");
-    assert!(number(limit, "demand") < 2.5 && most(limit) > 2.2, "{limit}");
+    // A drop of 260 that were followed until they lay asked for 2.12.
+    assert!(number(limit, "demand") < 2.5 && most(limit) > 2.12, "{limit}");
     assert!(number(&limit["worst_case"], "time_s") > 0.1, "{limit}");
 }
 

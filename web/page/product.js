@@ -141,7 +141,7 @@ function verdicts(told, { first, changed }) {
   const body = answer.assumed.find((assumed) => assumed.input === 'body');
   const assumed = body ? `, as a ${body.taken}; ${body.why.replaceAll('`', '')}` : '';
   const friction = answer.assumed.find((assumed) => assumed.input === 'friction');
-  $('friction').textContent = friction ? `Friction: ${friction.taken} is followed; ${friction.why}.` : '';
+  $('friction').textContent = friction ? `Friction: ${friction.taken}, assumed: ${friction.why}.` : '';
   const verdict = $('verdict');
   verdict.dataset.verdict = answer.verdict;
   const line = `${answer.product} ${headline}${assumed}`;

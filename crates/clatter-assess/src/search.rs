@@ -27,8 +27,7 @@ use rayon::prelude::*;
 use crate::engine::{Part, PlaceHistory, once};
 use crate::model::follow;
 use budgets::{
-    CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, LATER_COUNTS, LATER_DECIDES, NEAR, REBOUNDS, SAMPLE,
-    SAMPLE_OF_BOX,
+    CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, LATER_DECIDES, NEAR, REBOUNDS, SAMPLE, SAMPLE_OF_BOX,
 };
 use clatter_flight::{Drop, Followed, Place, Until};
 use clatter_product::{Component, Error, Limit, Model, Mount, Source};
@@ -36,7 +35,7 @@ use climb::starts;
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
-pub(crate) use landings::LaterLandings;
+pub(crate) use landings::{Landings, LaterLandings};
 pub(crate) use ranges::{Coordinates, Ranges};
 pub(crate) use ranges::{DAMPING, FREQUENCY};
 
@@ -131,6 +130,10 @@ impl Ranges<'_> {
         if edged.contains(&true) {
             ask(&mut all, &self.edges(&grid, &orders, &work), Some(&edged), of_all)?;
         }
+        let spread: Vec<(u32, Coordinates)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
+        if self.base.is_some() {
+            ask(&mut all, &spread, None, false)?;
+        }
         // The demand of rebounds is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
         if self.base.is_some() && all.energy_m2_s2 > 0.0 {
@@ -140,15 +143,12 @@ impl Ranges<'_> {
                 Err(_) => all.later.fill(f64::INFINITY),
             }
         }
-        // A box is followed that far only where that may decide, or tells much more.
-        let counts = |(later, best): (&f64, f64)| {
-            let tells = self.base.is_none() || self.listed == 1 && *later > LATER_COUNTS * best;
-            *later > 0.0 && (tells || *later > LATER_DECIDES)
-        };
-        let only: Vec<bool> = all.later.iter().zip(all.best()).map(counts).collect();
+        // A box is followed that far only where that may decide.
+        let least = if self.base.is_some() { LATER_DECIDES } else { 0.0 };
+        let only: Vec<bool> = all.later.iter().map(|most| *most > least).collect();
         if only.contains(&true) {
-            let sample: Vec<(u32, Coordinates)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
-            ask(&mut all, &sample, Some(&only), true)?;
+            let longer = if self.base.is_some() { &spread[..spread.len() / 2] } else { &spread };
+            ask(&mut all, longer, Some(&only), true)?;
             // A product that stands and hardly ever falls over has the largest demand where it does.
             let stands = all.leaning.filter(|(lean, _)| self.faces() == 1 && *lean < 1.0);
             if let Some(fallen) = stands.and_then(|(lean, place)| self.fallen_over(&tasks[0], place, lean, &work)) {

@@ -84,7 +84,7 @@ fn a_box_with_masses_askew_lands_as_its_file_says() {
             let does = dot(along, up) + dot(cross(place, along), turned(inertia, lever));
             let want = 1.4 * approach * (does / mobility).abs();
             let text = format!(
-                "[product]\nname = \"askew\"\nlength = \"120 mm\"\nwidth = \"70 mm\"\nthickness = \"24 mm\"\n{MASSES}\nrestitution = 0.4\n\
+                "[product]\nname = \"askew\"\nlength = \"120 mm\"\nwidth = \"70 mm\"\nthickness = \"24 mm\"\nfriction = 0\n{MASSES}\nrestitution = 0.4\n\
                  contact_time = \"0.02 ms\"\ncontact_law = \"hysteretic\"\n[drop]\nspeed = \"3 m/s\"\ntilt = \"35 deg\"\n\
                  direction = \"20 deg\"\nattitude_tolerance = \"0 deg\"\nspin = \"{spin} rad/s\"\n[[component]]\nname = \"part\"\n\
                  position = [\"-55 mm\", \"-30 mm\"]\nheight = \"11 mm\"\naxis = \"{axis}\"\nmount = \"hard\"\nvelocity_change_limit = \"9 m/s\"\n"

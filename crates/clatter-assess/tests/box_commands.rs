@@ -237,15 +237,16 @@ fn boxes_are_the_same_on_any_number_of_threads() {
     assert_eq!(format!("{few:?}"), format!("{:?}", &more[..2]));
 }
 
-/// Where the energy that is left may decide, a sample is open: its interval holds both verdicts.
+/// A lively box on its bottom may land on its end later, which moves a part along it by more than its room: where no drop tells, the sample is
+/// open, and its interval holds both verdicts.
 #[test]
 fn what_rebounds_may_decide_is_open() {
-    let text = on("face", "bottom").replace("restitution = 0.4", "restitution = 0.95").replace("9 mm", "60 mm");
+    let text = on("face", "bottom").replace("restitution = 0.4", "restitution = 0.95");
     let scatter = run(&file(&text), 20);
-    let display = &scatter.components[0];
-    assert!(display.failures == 0 && display.open == 20 && scatter.open == 20, "{display:?}");
-    let survival = display.survival;
-    assert_eq!((survival.estimate, survival.lo, survival.hi), (Some(1.0), 0.0, 1.0));
+    let [display, battery] = [0, 1].map(|n| &scatter.components[n]);
+    assert!(battery.open > 0 && battery.failures == 0 && display.open == 0, "{battery:?}, {display:?}");
+    let decided = clatter_assess::scatter::clopper_pearson(20, 20, 0.95).lo;
+    assert!(battery.survival.lo < decided, "{battery:?}, not {decided}");
     // With less energy left it is followed to where that decides nothing.
     let calm = run(&file(&on("face", "bottom").replace("9 mm", "60 mm")), 20);
     assert!(calm.open == 0 && calm.components[0].survival.lo > 0.8, "{calm:?}");
@@ -403,15 +404,15 @@ fn changes_of_boxes_hold_when_assessed() {
     assert!(held.contains(&(1, Lever::Frequency)), "{held:?}");
 }
 
-/// A part along the ground feels next to nothing of a flat landing, and much more if the ground holds the box: such samples are open.
+/// A part along the ground feels next to nothing of a flat landing, and much more where the ground holds the box.
 #[test]
-fn samples_in_which_friction_may_decide_are_open() {
-    let open = |axis: &str, limit: &str| {
-        let text = on("face", "bottom").replacen("axis = \"z\"", &format!("axis = \"{axis}\""), 1);
-        let file = file(&text.replace("5000 gn", limit));
+fn samples_slide_and_stick() {
+    let used = |friction: &str| -> f64 {
+        let text = on("face", "bottom").replacen("axis = \"z\"", "axis = \"x\"", 1);
+        let file = file(&text.replacen("friction = 0\n", &format!("friction = {friction}\n"), 1));
         let rows = Sampler::new(&file, settings(20)).unwrap().rows(0..20, &[], &|_| ());
-        rows.iter().filter(|(_, asked)| asked[0].as_ref().unwrap().open).count()
+        rows.iter().map(|(_, asked)| asked[0].as_ref().unwrap().utilization).sum()
     };
-    // Some 2000 gn upward, of which friction is 0.6 at most.
-    assert_eq!([open("x", "900 gn"), open("x", "20000 gn"), open("z", "20000 gn")], [20, 0, 0]);
+    let [none, some, more] = ["0", "0.2", "0.5"].map(used);
+    assert!(some > 2.0 * none && more > some, "{none}, {some}, {more}");
 }

@@ -89,7 +89,9 @@ fn every_input_is_read_searched_bounded_drawn_and_repeated() {
         let file = product(row.input, &format!("[{}, {}]", quoted(values[0]), quoted(values[1])));
         let limit = limit(&file);
         let demand = limit.demand.expect("a demand");
-        assert!(demand > 0.995 * more, "{}: {demand} of the range, {more} of one value in it", row.name);
+        // Of a box fewer drops are followed, and what others may ask for is told.
+        let covered = if row.input == Input::Friction { limit.uncertainty } else { 0.005 };
+        assert!(demand * (1.0 + covered) > more, "{}: {demand} of the range, {more} of one value in it", row.name);
         assert!(limit.bound.is_none_or(|bound| bound >= demand), "{}: {demand} is beyond its bound", row.name);
         let ([least, most], value) = told(row, &file, &limit);
         let slack = 1e-12 * most.abs().max(least.abs());

@@ -468,3 +468,32 @@ pub struct Listed {
     /// The posture of a box as it lands.
     pub base: Option<Base>,
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::ProductFile;
+
+    /// Where a box may slide it is searched over all usual friction, unless the file gives it; a phone on its broad face is not.
+    #[test]
+    fn friction_is_assumed_where_it_counts() {
+        let of = |thickness: &str, lands: &str, axis: &str, friction: &str| {
+            let text = format!(
+                "product = {{ name = \"box\", length = \"150 mm\", width = \"77 mm\", thickness = \"{thickness}\", radius_of_gyration = [\"43 mm\", \
+                 \"22 mm\"], restitution = 0.3, contact_time = \"0.4 ms\"{friction} }}\ndrop = {{ height = \"1 m\", {lands} }}\n\
+                 component = [{{ name = \"part\", position = \"0 mm\", axis = \"{axis}\", mount = \"hard\", acceleration_limit = \"100 gn\" }}]\n"
+            );
+            let product =
+                ProductFile::read(&text, "box.toml").unwrap_or_else(|faults| panic!("{faults}\n{text}")).product;
+            (product.friction.map(|friction| (friction.lo(), friction.hi())), product.is_friction_assumed)
+        };
+        let bottom = "face = \"bottom\"";
+        assert_eq!(of("9 mm", bottom, "z", ""), (None, true));
+        assert_eq!(of("9 mm", bottom, "z", ", friction = 0.3"), (Some((0.3, 0.3)), false));
+        let some = (Some((0.0, 0.6)), true);
+        assert_eq!(of("9 mm", bottom, "x", ""), some);
+        assert_eq!(of("9 mm", bottom, "any", ""), some);
+        assert_eq!(of("10 mm", bottom, "z", ""), some);
+        assert_eq!(of("9 mm", "face = \"top\", attitude_tolerance = \"11 deg\"", "z", ""), some);
+        assert_eq!(of("9 mm", "face = \"end-a\"", "z", ""), some);
+    }
+}

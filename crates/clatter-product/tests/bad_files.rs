@@ -24,6 +24,7 @@ const WRONG: &[(&str, &str, usize, &[&str])] = &[
     ("length = \"140 mm\"", "length = true", 10, &["`length` cannot be this boolean", "a length such as \"70 mm\""]),
     ("length = \"140 mm\"", "length = \"0.1 mm\"", 10, &["\"0.1 mm\" is out of its range", "from 1 mm to 100 m"]),
     ("length = \"140 mm\"", "lenght = \"140 mm\"", 1, &["has no key `lenght`", "did you mean `length`?"]),
+    ("length = \"140 mm\"", "length = \"140 mm\"\nfriction = 0.3", 1, &["`friction` is followed of boxes alone", "leave it out"]),
     ("radius_of_gyration = \"38 mm\"", "radius_of_gyration = \"nan mm\"", 22, &["does not begin with a number"]),
     ("radius_of_gyration = \"38 mm\"", "radius_of_gyration = \"500 mm\"", 22, &["500 mm", "from 7 to 70 mm"]),
     ("radius_of_gyration = \"38 mm\"", "moment_of_inertia = \"2 kg cm2\"", 21, &["needs the `mass`"]),

@@ -50,7 +50,7 @@ pub(crate) struct Contact {
     pub(crate) phase: Phase,
     /// Height of the ground under this point: 0, or the bottom of its dent.
     pub(crate) ground: f64,
-    stiffness: f64,
+    pub(crate) stiffness: f64,
     pub(crate) dashpot: f64,
     /// Depth of the begin of the unloading line, and of its zero.
     deepest: f64,

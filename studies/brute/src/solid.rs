@@ -1,4 +1,5 @@
-//! One drop of a box in space, integrated in small steps in axes of the world: full rotation, gravity, forces at the eight corners.
+//! One drop of a box in space, integrated in small steps in axes of the world: full rotation, gravity, forces at the eight corners, with
+//! Coulomb friction that is cut back to its circle in each step.
 
 use crate::flight::{Flight, Step, Until};
 use crate::ground::{Contact, Ground, Law, Own, Phase, fine};
@@ -34,6 +35,8 @@ pub struct Solid {
     pub upward: Vector,
     /// Gravity.
     pub gravity: f64,
+    /// Coefficient of friction of the ground.
+    pub friction: f64,
 }
 
 /// Accelerations above free fall in a step, in axes of the box: at begin, middle and end, that of the center of mass
@@ -65,8 +68,11 @@ pub struct Course {
 }
 
 /// Height and velocity of the center of mass, then the attitude (its rows: axes of the world in those of the box), then the angular
-/// momentum in axes of the world.
-type State = [f64; 14];
+/// momentum in axes of the world, and the velocity of the center of mass along the ground.
+type State = [f64; 16];
+
+/// Stiffness of a contact along the ground over that across it.
+const ALONG: f64 = 0.8;
 
 /// Angle of rotation per step of free flight, in radians.
 const TURN: f64 = 0.05;
@@ -103,6 +109,8 @@ struct Body {
     corners: [Vector; 8],
     grounds: [Ground; 8],
     contacts: [Contact; 8],
+    /// How far each corner that presses has been stretched along the ground.
+    stretches: [[f64; 2]; 8],
 }
 
 impl Body {
@@ -122,6 +130,7 @@ impl Body {
                 &std::array::from_fn::<Own, 8, _>(|k| solid.own[[0, 1, 3, 2][k & 3]]),
             ),
             contacts: [Contact::default(); 8],
+            stretches: [[0.0; 2]; 8],
         }
     }
 
@@ -132,14 +141,14 @@ impl Body {
         let x = unit(cross(first, up));
         let y = cross(up, x);
         let lowest = self.corners.iter().map(|&c| dot(up, c)).fold(f64::INFINITY, f64::min);
-        let mut s = [0.0; 14];
+        let mut s = [0.0; 16];
         (s[0], s[1]) = (-lowest, -self.solid.speed);
         for (i, x) in x.into_iter().chain(y).chain(up).enumerate() {
             s[2 + i] = x;
         }
         let ([a, b, c], [u, v, w], off) = (self.solid.radii.map(|k| k * k), self.solid.spin, -self.solid.askew);
         let momentum = out(&[x, y, up], [a * u + off * v, off * u + b * v, c * w]);
-        s[11..].copy_from_slice(&momentum);
+        s[11..14].copy_from_slice(&momentum);
         s
     }
 
@@ -185,43 +194,78 @@ impl Body {
         c.force(&self.grounds[k], height, velocity)
     }
 
-    /// Returns the force of the ground on the mass, and its torque about the center of mass.
-    fn pushed(&self, s: &State) -> (f64, Vector) {
+    /// Returns the velocity of a corner along the ground.
+    fn slides(&self, k: usize, s: &State) -> [f64; 2] {
+        let (r, w) = self.turning(s);
+        let moved = cross(w, out(&r, self.corners[k]));
+        [s[14] + moved[0], s[15] + moved[1]]
+    }
+
+    /// Returns the stretch of a corner after a time from which on it moves as in this state, within its circle.
+    fn stretched(&self, k: usize, s: &State, force: f64, time: f64) -> [f64; 2] {
+        let (u, old) = (self.slides(k, s), self.stretches[k]);
+        let on = [old[0] + time * u[0], old[1] + time * u[1]];
+        let (size, most) =
+            (on[0].hypot(on[1]), self.solid.friction * force.max(0.0) / (ALONG * self.contacts[k].stiffness));
+        if size > most { on.map(|x| x * most / size) } else { on }
+    }
+
+    /// Returns the force of the ground on the mass, and its torque about the center of mass, a time after the begin of the step.
+    fn pushed(&self, s: &State, time: f64) -> (Vector, Vector) {
         let r = Self::attitude(s);
-        let (mut push, mut torque) = (0.0, [0.0; 3]);
+        let (mut push, mut torque) = ([0.0; 3], [0.0; 3]);
         for k in 0..8 {
-            let force = self.force(k, s);
-            if force != 0.0 {
-                let arm = out(&r, self.corners[k]);
-                push += force;
-                torque[0] += force * arm[1];
-                torque[1] -= force * arm[0];
+            let up = self.force(k, s);
+            if up != 0.0 {
+                let mut force = [0.0, 0.0, up];
+                if self.solid.friction > 0.0 {
+                    let [x, y] = self.stretched(k, s, up, time).map(|x| -ALONG * self.contacts[k].stiffness * x);
+                    (force[0], force[1]) = (x, y);
+                }
+                let turns = cross(out(&r, self.corners[k]), force);
+                (0..3).for_each(|i| {
+                    push[i] += force[i];
+                    torque[i] += turns[i];
+                });
             }
         }
         (push, torque)
     }
 
-    fn rate(&self, s: &State) -> State {
-        let ((r, w), (push, torque)) = (self.turning(s), self.pushed(s));
-        let mut rate = [0.0; 14];
-        (rate[0], rate[1]) = (s[1], push - self.solid.gravity);
+    /// Keeps the stretches of corners that press, after a step to this state.
+    fn stretch(&mut self, from: &State, to: &State, h: f64) {
+        let middle: State = std::array::from_fn(|i| f64::midpoint(from[i], to[i]));
+        self.stretches = std::array::from_fn(|k| {
+            if self.contacts[k].phase == Phase::Free {
+                [0.0; 2]
+            } else {
+                self.stretched(k, &middle, self.force(k, to), h)
+            }
+        });
+    }
+
+    fn rate(&self, s: &State, time: f64) -> State {
+        let ((r, w), (push, torque)) = (self.turning(s), self.pushed(s, time));
+        let mut rate = [0.0; 16];
+        (rate[0], rate[1]) = (s[1], push[2] - self.solid.gravity);
+        (rate[14], rate[15]) = (push[0], push[1]);
         for j in 0..3 {
             let turned = cross(w, [r[0][j], r[1][j], r[2][j]]);
             for i in 0..3 {
                 rate[2 + 3 * i + j] = turned[i];
             }
         }
-        rate[11..].copy_from_slice(&torque);
+        rate[11..14].copy_from_slice(&torque);
         rate
     }
 
     /// Makes a step of Runge and Kutta.
     fn step(&self, s: &State, h: f64) -> State {
         let along = |rate: &State, h: f64| -> State { std::array::from_fn(|i| s[i] + h * rate[i]) };
-        let k1 = self.rate(s);
-        let k2 = self.rate(&along(&k1, h / 2.0));
-        let k3 = self.rate(&along(&k2, h / 2.0));
-        let k4 = self.rate(&along(&k3, h));
+        let k1 = self.rate(s, 0.0);
+        let k2 = self.rate(&along(&k1, h / 2.0), h / 2.0);
+        let k3 = self.rate(&along(&k2, h / 2.0), h / 2.0);
+        let k4 = self.rate(&along(&k3, h), h);
         let mut next = std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
         Self::squared(&mut next);
         next
@@ -239,8 +283,8 @@ impl Body {
 
     /// Returns the acceleration above free fall: of the center of mass, and its increase per meter along each axis of
     /// the box (its columns).
-    fn accelerations(&self, s: &State) -> (Vector, Matrix) {
-        let ((r, w), (push, torque)) = (self.turning(s), self.pushed(s));
+    fn accelerations(&self, s: &State, time: f64) -> (Vector, Matrix) {
+        let ((r, w), (push, torque)) = (self.turning(s), self.pushed(s, time));
         let spun = cross(w, [s[11], s[12], s[13]]);
         let bend = self.turned(&r, std::array::from_fn(|i| torque[i] - spun[i]));
         let lift = std::array::from_fn(|j| {
@@ -248,7 +292,7 @@ impl Body {
             let (by_bend, by_turn) = (cross(bend, axis), cross(w, cross(w, axis)));
             back(&r, std::array::from_fn(|i| by_bend[i] + by_turn[i]))
         });
-        (back(&r, [0.0, 0.0, push]), lift)
+        (back(&r, push), lift)
     }
 
     fn energy(&self, s: &State) -> f64 {
@@ -257,7 +301,7 @@ impl Body {
             let (height, velocity, _) = self.corner(k, s);
             self.contacts[k].stored(&self.grounds[k], height, velocity)
         };
-        let kinetic = 0.5 * (s[1] * s[1] + dot(w, [s[11], s[12], s[13]]));
+        let kinetic = 0.5 * (s[1] * s[1] + s[14] * s[14] + s[15] * s[15] + dot(w, [s[11], s[12], s[13]]));
         kinetic + self.solid.gravity * s[0] + (0..8).map(stored).sum::<f64>()
     }
 
@@ -333,25 +377,31 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
             (h, next)
         };
         if h > 0.0 {
-            let (from, to) = (body.rate(&s), body.rate(&next));
+            let (from, to) = (body.rate(&s, 0.0), body.rate(&next, h));
             let middle: State = std::array::from_fn(|i| f64::midpoint(s[i], next[i]) + h / 8.0 * (from[i] - to[i]));
-            let all = [&s, &middle, &next];
-            let (accelerations, up) = (all.map(|s| body.accelerations(s)), all.map(|s| Body::attitude(s)[2]));
+            let all = [(&s, 0.0), (&middle, h / 2.0), (&next, h)];
+            let (accelerations, up) =
+                (all.map(|(s, time)| body.accelerations(s, time)), all.map(|(s, _)| Body::attitude(s)[2]));
             let flying = body.contacts.iter().all(|contact| contact.phase == Phase::Free);
             moments.push(Moment { time, length: h, flying, accelerations, up });
         }
+        body.stretch(&s, &next, h);
         (s, time) = (next, time + h);
         for k in (0..8).filter(|&k| over[k]) {
             let (height, _, mobility) = body.corner(k, &s);
-            if body.contacts[k].advance(&body.grounds[k], height, mobility) && !order.contains(&k) {
-                order.push(k);
+            if body.contacts[k].advance(&body.grounds[k], height, mobility) {
+                body.stretches[k] = [0.0; 2];
+                if !order.contains(&k) {
+                    order.push(k);
+                }
             }
         }
         least = least.min(body.energy(&s));
         gain = gain.max((body.energy(&s) - least) / whole);
         let slow = until.quiet * solid.speed;
         let (_, w) = body.turning(&s);
-        let still = s[1] * s[1] + dot(w, [s[11], s[12], s[13]]) < slow * slow;
+        let slides = s[14] * s[14] + s[15] * s[15];
+        let still = s[1] * s[1] + slides + dot(w, [s[11], s[12], s[13]]) < slow * slow;
         if still && body.contacts.iter().filter(|c| c.phase != Phase::Free).count() > 2 {
             at_rest = true;
             break;

@@ -19,7 +19,7 @@ use crate::solid::{Solid, Vector, follow};
 /// End of the drops.
 const UNTIL: Until = Until { time: 0.3, quiet: 2e-2 };
 /// Restitution, contact time, speed, tilt, direction, natural frequency, damping, spin, from 0 to 1.
-type Sample = [f64; 8];
+type Sample = [f64; 9];
 /// Kinds of products in space.
 pub const KINDS: [&str; 6] = ["plate", "box", "plate-own-contacts", "spin-plate", "spin-box", "box-own-contacts"];
 type Range = [f64; 2];
@@ -44,6 +44,8 @@ struct Product {
     direction: Range,
     /// Spin about the axis of the tilt, positive where that grows.
     spin: Range,
+    /// Coefficient of friction of a box.
+    friction: Range,
     /// Vertical of a box on its face, edge or corner.
     upward: Vector,
     parts: Vec<Part>,
@@ -114,6 +116,12 @@ impl Product {
              {mass}restitution = [{}, {}]\ncontact_time = \"{time} s\"\ncontact_law = \"{named}\"\n",
             e[0], e[1]
         );
+        let mut friction = [0.0; 2];
+        if is_box {
+            let least = if r.chance(0.3) { round(r.within(0.0, 0.5)) } else { 0.0 };
+            friction = [least, if r.chance(0.2) { least } else { round(r.within(least, 1.0)) }];
+            let _ = writeln!(text, "friction = [{}, {}]", friction[0], friction[1]);
+        }
         let mut own = [Own::default(); 4];
         if has_own {
             let list = own_contacts(r, &mut own, time);
@@ -163,6 +171,7 @@ impl Product {
             spin: [0.0; 3],
             upward,
             gravity: 9.806_65,
+            friction: 0.0,
         };
         let speed = [(2.0 * solid.gravity * height).sqrt(); 2];
         let mut spin = [0.0; 2];
@@ -181,7 +190,7 @@ impl Product {
             solid.sides[2] = length;
             solid.center[2] = 0.5 * (thickness - length);
         }
-        Self { solid, law, e, time: [time; 2], speed, tilt, direction, spin, upward, parts, text }
+        Self { solid, law, e, time: [time; 2], speed, tilt, direction, spin, friction, upward, parts, text }
     }
 
     fn drop(&self, sample: &Sample) -> Solid {
@@ -205,6 +214,7 @@ impl Product {
             contact: (self.law, at(self.time, sample[1])),
             speed: at(self.speed, sample[2]),
             spin: about.map(|x| spin * x),
+            friction: at(self.friction, sample[8]),
             upward: std::array::from_fn(|i| angle.cos() * up[i] + angle.sin() * off(i)),
             ..self.solid
         }
@@ -281,11 +291,11 @@ fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String
 /// Returns the largest value of each limit among random drops, half of them close to the worst so far.
 fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f64, Sample)> {
     let limits = product.parts.iter().enumerate().flat_map(|(n, part)| part.kinds.iter().map(move |&kind| (n, kind)));
-    let mut best: Vec<(usize, Kind, f64, Sample)> = limits.map(|(n, kind)| (n, kind, -1.0, [0.5; 8])).collect();
+    let mut best: Vec<(usize, Kind, f64, Sample)> = limits.map(|(n, kind)| (n, kind, -1.0, [0.5; 9])).collect();
     let mut reach = 0.1;
     for k in 0..drops {
         let spins = product.spin[1] > product.spin[0];
-        let mut sample: Sample = std::array::from_fn(|i| match if i < 7 || spins { r.unit() } else { 0.0 } {
+        let mut sample: Sample = std::array::from_fn(|i| match if i != 7 || spins { r.unit() } else { 0.0 } {
             u if u < 0.15 => 0.0,
             u if u > 0.85 => 1.0,
             _ => r.unit(),
@@ -344,6 +354,7 @@ fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
         format!("--e={}", drop.e),
         format!("--speed-m-s={}", drop.speed),
         format!("--spin-rad-s={}", list(drop.spin)),
+        format!("--friction={}", drop.friction),
         format!("--contact-time-s={}", drop.contact.1),
         format!("--contact-law={}", if drop.contact.0 == Law::Dashpot { "dashpot" } else { "hysteretic" }),
         format!("--at-m={}", list(place)),

@@ -22,6 +22,7 @@ fn solid(upward: [f64; 3], e: f64, law: Law) -> Solid {
         spin: [0.0; 3],
         upward,
         gravity: 9.806_65,
+        friction: 0.0,
     }
 }
 

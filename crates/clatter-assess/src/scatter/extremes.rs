@@ -76,7 +76,7 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
         let sample = few.sample(body, *e, pick(1, few.drops.len()));
         let (mut cheap, mut full) = (Vec::new(), Vec::new());
         cheap::answer(&sample, &mut cheap);
-        full::answer(&sample.drops[0], &sample.parts, &mut full);
+        full::answer(&sample.drops[0], &sample.parts, None, &mut full);
         error(&cheap, &full)
     };
     let tried = if points.is_empty() { 0 } else { TRIED };

@@ -6,6 +6,7 @@ use super::SampleDemand;
 use super::sample::PartSample;
 use crate::engine::PlaceHistory;
 use crate::model::follow;
+use crate::search::Landings;
 use clatter_flight::{Followed, Until};
 use clatter_product::{Drop, Error, Limit, LimitKind, Model, Source};
 
@@ -31,6 +32,8 @@ pub(super) struct FollowedDrops<'a> {
     boxed: Option<Drop>,
     /// The first swing of the slowest part takes so long at most.
     swing_s: f64,
+    /// What a box may ask for as it lands again.
+    later: Option<&'a Landings>,
     early: LazyDrop,
     whole: LazyDrop,
     finer: [LazyDrop; 2],
@@ -43,13 +46,13 @@ impl<'a> FollowedDrops<'a> {
     pub(super) fn of(drop: &'a Drop, parts: &[PartSample]) -> Self {
         let suspensions = parts.iter().filter_map(|part| part.suspension.as_ref());
         let swing_s = suspensions.map(|part| PI / part.omega()).fold(0.0, f64::max);
-        Self { drop, boxed: drop.boxed(), swing_s, early: None, whole: None, finer: [None, None] }
+        Self { drop, boxed: drop.boxed(), swing_s, later: None, early: None, whole: None, finer: [None, None] }
     }
 
-    /// Returns the demand of the drop on a part, or the reason why it is not answered.
-    pub(super) fn answer(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
+    /// Returns the demand of the drop on a part, by its number, or the reason why it is not answered.
+    fn answer(&mut self, number: usize, part: &PartSample) -> Result<SampleDemand, Error> {
         if self.drop.is_solid() || self.boxed.is_some() {
-            return self.of_box(part);
+            return self.of_box(number, part);
         }
         let mut asked = self.passing(part, TOLERANCE, LEAST)?;
         for (following, tolerance) in self.finer.iter_mut().zip(FINER) {
@@ -70,7 +73,8 @@ impl<'a> FollowedDrops<'a> {
     /// whether a limit holds. Where what is left of it in the end still may, the sample is open.
     ///
     /// A plate whose contacts are too soft for so thin a box lands on the corners of its bottom, however far they sink in.
-    fn of_box(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
+    fn of_box(&mut self, number: usize, part: &PartSample) -> Result<SampleDemand, Error> {
+        let later = self.later;
         let drop = self.boxed.as_ref().unwrap_or(self.drop);
         let until = |time_s| follow(drop, Model::fullest(drop), TOLERANCE, Until::Past(time_s));
         let lands_s = self.swing_s.max(drop.clatter_s());
@@ -80,7 +84,11 @@ impl<'a> FollowedDrops<'a> {
         };
         let of_part = |followed: &Result<Followed, Error>| {
             let followed = followed.as_ref().map_err(Clone::clone)?;
-            of_part_of_box(followed, part)
+            let landings = match (later, followed.energy_m2_s2().filter(|_| followed.is_early())) {
+                (Some(later), Some(energy_m2_s2)) => Some(later.worst(energy_m2_s2)?.swap_remove(number)),
+                _ => None,
+            };
+            of_part_of_box(followed, part, landings.as_deref())
         };
         let first = of_part(self.early.get_or_insert_with(|| until(self.swing_s).or_else(on_bottom)))?;
         let whole = first.is_open().then(|| {
@@ -117,10 +125,15 @@ impl<'a> FollowedDrops<'a> {
 }
 
 /// Writes the demand of a drop on every part; of those that it does not answer, the reason.
-pub(super) fn answer(drop: &Drop, parts: &[PartSample], asked: &mut Vec<Result<SampleDemand, Error>>) {
-    let mut followings = FollowedDrops::of(drop, parts);
+pub(super) fn answer(
+    drop: &Drop,
+    parts: &[PartSample],
+    later: Option<&Landings>,
+    asked: &mut Vec<Result<SampleDemand, Error>>,
+) {
+    let mut followings = FollowedDrops { later, ..FollowedDrops::of(drop, parts) };
     asked.clear();
-    asked.extend(parts.iter().map(|part| followings.answer(part)));
+    asked.extend(parts.iter().enumerate().map(|(n, part)| followings.answer(n, part)));
 }
 
 /// A value below every utilization: the demand of a drop passes it, 0 too, unless it is no number.
@@ -153,8 +166,9 @@ fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Sample
     Ok((asked, goes_on))
 }
 
-/// Returns the demand of a followed drop of a box on a part, and the demand that it may have by the energy that is left.
-fn of_part_of_box(followed: &Followed, part: &PartSample) -> Result<SampleDemand, Error> {
+/// Returns the demand of a followed drop of a box on a part, and the demand that it may have as it lands again: by the worst landings with the
+/// energy that is left, where they are known, else by all of that energy.
+fn of_part_of_box(followed: &Followed, part: &PartSample, landings: Option<&[f64]>) -> Result<SampleDemand, Error> {
     let mut asked = SampleDemand::default();
     for spot in part.spots() {
         let felt = PlaceHistory::new(followed, spot)?;
@@ -162,7 +176,9 @@ fn of_part_of_box(followed: &Followed, part: &PartSample) -> Result<SampleDemand
             let answer = felt.answer_or_nothing(limit, part.suspension.as_ref())?;
             let used = answer.utilization();
             // A boundary is passed by both of its quantities, and what is off nothing has no share.
-            let later = if used > 0.0 && limit.kind.source() != Source::Boundary {
+            let later = if let Some(landings) = landings {
+                landings[k] + felt.rings(limit, part.suspension.as_slice())
+            } else if used > 0.0 && limit.kind.source() != Source::Boundary {
                 used + answer.off_by / answer.allowed
             } else {
                 felt.later_most(limit, part.suspension.as_ref(), used)

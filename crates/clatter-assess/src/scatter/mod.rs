@@ -46,6 +46,7 @@ mod tally;
 
 use rayon::prelude::*;
 
+use crate::search::Landings;
 use clatter_product::{Component, DropName, Error, Input, LimitKind, Model, ProductFile};
 use landing::sequence;
 use sample::{Inputs, Sample};
@@ -255,6 +256,8 @@ pub struct Sampler {
     /// The names of several drops in sequence.
     drop_names: Vec<DropName>,
     fullest: Model,
+    /// What a box may ask for as it lands again.
+    later: Option<Landings>,
 }
 
 impl Sampler {
@@ -274,7 +277,8 @@ impl Sampler {
         }
         let inputs = Inputs::new(file, settings.merge_s)?;
         let fullest = Model::fullest(&inputs.blank().drops[0]);
-        Ok(Self { settings, inputs, components: file.components.clone(), drop_names: file.drop_names(), fullest })
+        let (components, drop_names, later) = (file.components.clone(), file.drop_names(), Landings::of(file));
+        Ok(Self { settings, inputs, components, drop_names, fullest, later })
     }
 
     /// Returns the columns of each sample of [`Progress::values`].
@@ -373,10 +377,10 @@ impl Sampler {
             Ok(()) if self.inputs.landings() > 0 => {
                 landings.resize_with(sample.drops.len(), Vec::new);
                 let each = sample.drops.iter().zip(landings.iter_mut());
-                each.for_each(|(drop, asked)| full::answer(drop, &sample.parts, asked));
+                each.for_each(|(drop, asked)| full::answer(drop, &sample.parts, self.later.as_ref(), asked));
                 parts.extend((0..sample.parts.len()).map(|i| sequence(landings.iter().map(|landing| &landing[i]))));
             }
-            Ok(()) => full::answer(&sample.drops[0], &sample.parts, parts),
+            Ok(()) => full::answer(&sample.drops[0], &sample.parts, self.later.as_ref(), parts),
             Err(error) => {
                 parts.resize(self.components.len(), Err(error));
                 landings.resize(self.inputs.landings(), parts.clone());

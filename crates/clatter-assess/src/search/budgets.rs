@@ -63,9 +63,9 @@ pub(super) const REBOUNDS: [f64; 2] = [3.0, 6.0];
 /// Drops that are followed besides those of the grid: with contacts that take time, and by instant impacts, which cost
 /// a tenth.
 pub(super) const SAMPLE: [usize; 2] = [128, 512];
-/// The same of a box, until its energy allows little more: shared among all drops that it is put through, and of each
-/// at least.
-pub(super) const SAMPLE_OF_BOX: [usize; 2] = [96, 8];
+/// The same of a box until it lands again, half of them until its energy allows little more: shared among all drops that it is put through,
+/// and of each at least.
+pub(super) const SAMPLE_OF_BOX: [usize; 2] = [192, 16];
 
 // Later landings of a box.
 
@@ -75,9 +75,7 @@ pub(super) const LANDINGS: u32 = 360;
 pub(super) const LANDING_REACH: f64 = 0.15;
 /// Tries of such a climb.
 pub(super) const LANDING_TRIES: u32 = 64;
-/// A box that falls once is followed to its later landings where they may ask for so much more than the worst drop found.
-pub(super) const LATER_COUNTS: f64 = 1.25;
-/// The same of any box where they may ask for so much of a limit.
+/// A box is followed to its later landings where they may ask for so much of a limit.
 pub(super) const LATER_DECIDES: f64 = 0.9;
 
 // Climbs from the highest drops.

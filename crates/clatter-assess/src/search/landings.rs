@@ -6,21 +6,26 @@
 
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
+use std::sync::atomic::AtomicUsize;
 
 use super::budgets::{CLOSER, LANDING_REACH, LANDING_TRIES, LANDINGS};
 use super::grid::halton;
-use super::ranges::{AXES, Coordinates, Ranges};
+use super::ranges::{AXES, CONTACT, Coordinates, Ranges};
 use super::{Task, Work, rough_to_rad_s};
+use crate::Accuracy;
+use crate::assess::ranges_of;
 use crate::engine::PlaceHistory;
 use crate::model::follow;
 use clatter::End;
 use clatter_flight::{Drop, Followed, Until};
-use clatter_product::Error;
+use clatter_product::{Error, Limit, ProductFile};
 
 /// Numbers from 0 to 1 that say how a box lands again: two of its posture, two of the axis of its spin, and how its energy is shared.
 const POSTURE: usize = 6;
 /// The axes of Halton's sequence that these take, which no input of the ranges has here.
 const OF_POSTURE: [usize; POSTURE] = [0, 1, 4, 7, 8, 10];
+/// Landings flat on a face.
+const FLAT: u32 = 24;
 /// A landing: its posture, and the shares along the axes of the ranges.
 type Landing = ([f64; POSTURE], [f64; AXES]);
 
@@ -31,8 +36,14 @@ fn direction([z, turn]: [f64; 2]) -> [f64; 3] {
     [across * cos, across * sin, z]
 }
 
-/// Returns landing k.
+/// Returns landing k: flat on each face first, without and with a slide, as lively as may be with the shortest and the longest contact; then
+/// anywhere.
 fn landing(k: u32) -> Landing {
+    if k < FLAT {
+        let mut shares = [1.0; AXES];
+        shares[CONTACT] = f64::from(k / 12 % 2);
+        return ([0.0, 0.0, 0.5, 0.0, 0.0, 0.5 * f64::from(k / 6 % 2)], shares);
+    }
     let at = |n: usize| halton(n, k + 1);
     let share = |axis: usize| (2.0 * halton(axis, k + 1) - 0.5).clamp(0.0, 1.0);
     let mut posture = OF_POSTURE.map(at);
@@ -64,14 +75,40 @@ pub(crate) struct LaterLandings {
     of: [OnceLock<Result<Vec<f64>, Error>>; 25],
 }
 
+/// What drops of a box may ask for as it lands again, by its own contact law.
+#[derive(Debug)]
+pub(crate) struct Landings {
+    file: ProductFile,
+    known: LaterLandings,
+}
+
+impl Landings {
+    /// Returns those of a product; none of one that is no box.
+    pub(crate) fn of(file: &ProductFile) -> Option<Self> {
+        file.is_box().then(|| Self { file: file.clone(), known: LaterLandings::default() })
+    }
+    /// Returns the largest value of each limit of each component, as a share of its least allowed value, in any landing with at most this
+    /// energy over the mass.
+    pub(crate) fn worst(&self, energy_m2_s2: f64) -> Result<Vec<Vec<f64>>, Error> {
+        let listed = self.file.listed();
+        let ranges = ranges_of(&self.file, &listed[0].drop, listed[0].base, &Accuracy::default());
+        let of = |component| Limit::of(component).into_iter().map(move |limit| Task { component, limit });
+        let tasks: Vec<Task<'_>> = self.file.components.iter().flat_map(of).collect();
+        let work = Work { watch: &|_, _| true, done: AtomicUsize::new(0), all: 1 };
+        let mut all = ranges.later_landings(&self.known, &tasks, energy_m2_s2, &work)?.into_iter();
+        Ok(self.file.components.iter().map(|component| all.by_ref().take(of(component).count()).collect()).collect())
+    }
+}
+
 impl Ranges<'_> {
     /// Returns the drop of a landing with so much energy; none that is out of its reach.
     fn lands_again(&self, k: u32, (posture, shares): &Landing, energy_m2_s2: f64) -> Option<Drop> {
         let place = Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares: *shares };
         let [z, turn, axis_z, axis_turn, spin, slide] = *posture;
-        let up = if k.is_multiple_of(2) {
+        let up = if k < FLAT || k.is_multiple_of(2) {
             // Off a face, most of them by little.
-            let (face, side) = ((k / 2 % 3) as usize, if (k / 18).is_multiple_of(2) { 1.0 } else { -1.0 });
+            let (number, side) = if k < FLAT { (k / 2, k) } else { (k / 2, k / 18) };
+            let (face, side) = ((number % 3) as usize, if side.is_multiple_of(2) { 1.0 } else { -1.0 });
             let off = OFF_FACE * z * z;
             let ((sin, cos), (s, c)) = (libm::sincos(off), libm::sincos(TAU * turn));
             let mut up = [0.0; 3];
@@ -163,12 +200,9 @@ const OFF_FACE: f64 = TAU / 8.0;
 #[cfg(test)]
 mod tests {
     use std::fmt::Write;
-    use std::sync::atomic::AtomicUsize;
 
     use super::*;
-    use crate::Accuracy;
-    use crate::assess::ranges_of;
-    use clatter_product::{ContactLaw, Limit, ProductFile};
+    use clatter_product::ContactLaw;
 
     /// Returns a number from 0 to 1.
     fn random(n: u32, of: u32) -> f64 {
