@@ -405,7 +405,9 @@ mod tests {
     /// stands for a key of the file.
     #[test]
     fn what_is_set_is_told() {
-        let mut drop = Drop { contact_time_s: None, ..Drop::new(Body::new(0.15, 0.04).unwrap(), 3.0, 0.1, 0.4) };
+        let (length, side) = (Body::new(0.15, 0.04).unwrap(), clatter_flight::Side::even(0.03));
+        let body = length.with_width(side).with_thickness(side);
+        let mut drop = Drop { is_level: false, contact_time_s: None, ..Drop::new(body, 3.0, 0.1, 0.4) };
         for row in INPUTS.iter().filter(|row| row.input != Input::Height) {
             let Some(set) = row.set else { continue };
             assert!(row.search.is_some(), "{} is drawn and not searched", row.name);

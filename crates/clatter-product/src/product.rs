@@ -480,7 +480,7 @@ mod tests {
             let text = format!(
                 "product = {{ name = \"box\", length = \"150 mm\", width = \"77 mm\", thickness = \"{thickness}\", radius_of_gyration = [\"43 mm\", \
                  \"22 mm\"], restitution = 0.3, contact_time = \"0.4 ms\"{friction} }}\ndrop = {{ height = \"1 m\", {lands} }}\n\
-                 component = [{{ name = \"part\", position = \"0 mm\", axis = \"{axis}\", mount = \"hard\", acceleration_limit = \"100 gn\" }}]\n"
+                 component = [{{ name = \"part\", position = [\"0 mm\", \"0 mm\"], axis = \"{axis}\", mount = \"hard\", acceleration_limit = \"100 gn\" }}]\n"
             );
             let product =
                 ProductFile::read(&text, "box.toml").unwrap_or_else(|faults| panic!("{faults}\n{text}")).product;
