@@ -1,7 +1,7 @@
 //! This module describes a worst drop in words, which are the same wherever the drop is shown.
 
 use clatter_assess::WorstCase;
-use clatter_product::{Axis, DropName};
+use clatter_product::{Axis, DropName, Input};
 
 use crate::{letter, significant};
 
@@ -19,6 +19,7 @@ use crate::{letter, significant};
 pub fn drop_in_words(worst: &WorstCase) -> String {
     let four = |x: f64| significant(x, 4);
     let contact = worst.drop.contact_time_s.map_or(String::new(), |s| format!(", contacts of {} ms", four(1e3 * s)));
+    let friction = Input::Friction.value(&worst.drop).map_or(String::new(), |of| format!(", friction {}", four(of)));
     let gyration = worst.gyration_m().map_or(String::new(), |m| format!(", radius of gyration {} mm", four(1e3 * m)));
     let part = worst.frequency_hz().zip(worst.damping_ratio());
     let part = part.map_or(String::new(), |(hz, ratio)| format!(", {} Hz, damping ratio {}", four(hz), four(ratio)));
@@ -51,7 +52,7 @@ pub fn drop_in_words(worst: &WorstCase) -> String {
     let own: String = own.map(one).collect();
     let number = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!("drop {n}, "));
     format!(
-        "{number}{lands}, {} m/s{optional}, e {}{contact}{own}{gyration}; at {place} mm{axis}{part}",
+        "{number}{lands}, {} m/s{optional}, e {}{contact}{own}{friction}{gyration}; at {place} mm{axis}{part}",
         four(worst.drop.speed_m_s),
         four(worst.drop.restitution),
     )

@@ -217,14 +217,14 @@ impl BlockDrop {
     pub fn own_contacts(
         &self,
         contacts: &[Contact; 8],
-        each: impl FnMut(&BlockStep<'_>),
+        mut each: impl FnMut(&BlockStep<'_>),
     ) -> Result<BlockFlight, Error> {
         alike(contacts)?;
         contacts.iter().try_for_each(|contact| self.check(contact))?;
         if self.friction == 0.0 {
-            Run::<SMOOTH>::new(self, contacts).run(each)
+            Run::<SMOOTH>::new(self, contacts).run(&mut each)
         } else {
-            Run::<ROUGH>::new(self, contacts).run(each)
+            Run::<ROUGH>::new(self, contacts).run(&mut each)
         }
     }
 
@@ -344,7 +344,7 @@ impl<'a, const N: usize> Run<'a, N> {
         }
     }
 
-    fn run(mut self, mut each: impl FnMut(&BlockStep<'_>)) -> Result<BlockFlight, Error> {
+    fn run(mut self, each: &mut dyn FnMut(&BlockStep<'_>)) -> Result<BlockFlight, Error> {
         self.first_touches();
         if self.strikes.is_empty() {
             let (name, allowed) = ("spin in rad/s", "such that the lowest corner approaches");
@@ -357,7 +357,7 @@ impl<'a, const N: usize> Run<'a, N> {
                 return self.finish(stop);
             }
             let before = self.now;
-            if self.step(&mut each) {
+            if self.step(each) {
                 break;
             }
             idle = if self.now > before { 0 } else { idle + 1 };
@@ -417,7 +417,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// Makes one step, to the next event at most, and returns whether the time is over.
-    fn step(&mut self, each: &mut impl FnMut(&BlockStep<'_>)) -> bool {
+    fn step(&mut self, each: &mut dyn FnMut(&BlockStep<'_>)) -> bool {
         let left = self.drop.time_limit - self.now;
         let (_, _, _, spin) = parts(&self.y);
         let turn = 0.25 / dot(spin, spin).sqrt();

@@ -39,6 +39,10 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
         }
         None => add("Contact", "no contact time is given: impacts are instants".to_owned()),
     }
+    if let Some(friction) = &product.friction {
+        let assumed = if product.is_friction_assumed { ", assumed" } else { "" };
+        add("Friction", format!("{}{assumed}", range(friction, 1.0, "")));
+    }
     if !product.own_contacts.is_none() {
         add("Own contacts", own_contacts(file));
     }

@@ -12,7 +12,7 @@ use crate::words::{name, percent, shown, span};
 pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
     [
         "Landing again",
-        "The worst drops are followed until the box lies, others for the clatter of their first landing. How a box comes down again is sensitive to every input: what it may do then is bounded by the energy that is left, and where that is too much a limit is undecided.",
+        "The worst drops are followed until the box lies, others for the clatter of their first landing. How a box comes down again is sensitive to every input: it is taken to land in any posture, with all of the energy that is left.",
     ],
     [
         "Drops between",
@@ -22,10 +22,7 @@ pub(super) const NOT_COVERED: [[&str; 2]; 7] = [
         "Corners and edges",
         "They are sharp: no case is. Mass without a height of its own is spread evenly over the thickness.",
     ],
-    [
-        "The ground",
-        "It is hard, level and without friction, and the same for all corners: every corner slides. What friction up to 0.6 may add to a part is allowed for; a corner that it holds turns the box otherwise.",
-    ],
+    ["The ground", "It is hard and level, and the same for all corners."],
     ["The case", "It is rigid: a case that bends rings on its own, and may take part of a blow or add to it."],
     ["Parts", "They are light and linear. A part that hits its stop is undecided."],
     ["Ranges", "Values are those of the product file. What is not measured is assumed."],

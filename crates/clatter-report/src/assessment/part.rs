@@ -2,7 +2,7 @@
 
 use clatter_assess::{ComponentAssessment, LimitAssessment, Portrait, Verdict, WorstCase, repeat};
 use clatter_figures::{is_drawn, three};
-use clatter_product::{Component, DropName, Model, ProductFile};
+use clatter_product::{Component, DropName, Input, Model, ProductFile};
 use serde_json::{Value, json};
 
 use super::changes::{Of, changes};
@@ -144,11 +144,12 @@ fn drop(worst: &WorstCase) -> String {
     format!("That drop{which} lands {lands} at {speed} m/s{tilted}{optional}, with e = {e}{frequency}; {peak}.")
 }
 
-/// Describes the inputs that a file may leave out, where they count.
+/// Describes the inputs that a file may leave out, where they count, and the friction of a box.
 fn optional(worst: &WorstCase) -> String {
     let each = worst.optional();
     let told = each.map(|(row, optional, x)| format!(", {} {}", optional.phrase, span([x; 2], 1.0, row.unit)));
-    told.collect::<Vec<_>>().concat()
+    let friction = Input::Friction.value(&worst.drop).map(|friction| format!(", friction {}", three(friction)));
+    told.chain(friction).collect::<Vec<_>>().concat()
 }
 
 /// Describes up to which tilt both ends land at the same instant.
