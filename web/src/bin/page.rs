@@ -14,7 +14,7 @@ use flate2::write::GzEncoder;
 const TARGET: &str = "wasm32-wasip1";
 
 /// The largest number of bytes of the compressed page.
-const MOST: usize = 1_000_000;
+const MOST: usize = 1 << 20;
 
 const PAGE: &str = include_str!("../../page/page.html");
 const STYLE: &str = include_str!("../../page/style.css");
