@@ -91,7 +91,7 @@ fn covers(seed: u64, count: usize, (share, is_given): (f64, bool)) {
 #[test]
 fn six_strikes_keep_all_strikes_and_intervals_hold_the_truth() {
     for (seed, kind) in (101..).zip(KINDS) {
-        covers(seed, 8, kind);
+        covers(seed, 20, kind);
     }
 }
 
