@@ -281,9 +281,10 @@ pub fn physics_in_words(
         Some(time_s) => format!("{} contacts of {}", drop.contact_law.name(), time(time_s)),
         None => "instant impacts".to_owned(),
     };
+    let friction = if drop.is_solid() { format!(", friction {}", drop.friction) } else { String::new() };
     let gravity =
         if model == Model::Map { "no gravity".to_owned() } else { format!("gravity {}", gravity(drop.gravity_m_s2)) };
-    format!("{tilt} tilt, {gravity}, {contacts}")
+    format!("{tilt} tilt, {gravity}, {contacts}{friction}")
 }
 
 #[derive(Serialize)]

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::bound::bound;
 use crate::engine::answer;
 use crate::reason::{Contradiction, Doubt, Note, Reason};
-use crate::search::{Candidate, Coordinates, LaterLandings, Ranges, Task, Watch, Worst};
+use crate::search::{Candidate, Coordinates, LaterLandings, Ranges, Task, Watch, Worst, with_gravity};
 use crate::{
     Accuracy, Assessment, Assumed, ComponentAssessment, LandingAssessment, LimitAssessment, ModelChoice, Sides,
     Verdict, WorstCase,
@@ -159,12 +159,13 @@ pub(crate) fn assess_these(
         numbered.flat_map(|(listed, laws)| (0..laws).map(move |n| (listed, n))).collect();
     let mut worst: Vec<Vec<Vec<Worst>>> = searched.iter().map(|_| Vec::new()).collect();
     let progress = SideBySide { done: AtomicUsize::new(0), told: AtomicUsize::new(0), count: searches.len(), watch };
-    // What a box does as it lands again depends on the law, and not on the drop.
-    let landings = [LaterLandings::default(), LaterLandings::default()];
+    // What a box does as it lands again depends on the law and on gravity, and on nothing else of the drop.
+    let landings: Vec<[LaterLandings; 2]> = listed.iter().map(|_| <[LaterLandings; 2]>::default()).collect();
+    let alike: Vec<usize> = listed.iter().map(|one| with_gravity(&listed, one.drop.gravity_m_s2)).collect();
     for some in searches.chunks(SIDE_BY_SIDE) {
         let search = |&(listed, n): &(usize, usize)| {
             let watch = |done, all| progress.goes_on(done, all);
-            let found = searched[listed][n].worst(&tasks, &all_tasks, &landings[n], most[n], &watch);
+            let found = searched[listed][n].worst(&tasks, &all_tasks, &landings[alike[listed]][n], most[n], &watch);
             progress.done.fetch_add(1, Ordering::Relaxed);
             found
         };

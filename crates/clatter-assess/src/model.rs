@@ -36,6 +36,11 @@ pub(crate) fn check_drop(drop: &Drop, place: &Place) -> Result<(), Error> {
             ("spin across the tilt in rad/s", "0: turning along length and width as its corners rise");
         return Err(Error::Setting { name, value: drop.spin_rad_s, allowed });
     }
+    let slides = drop.friction != 0.0 || drop.slide_m_s.iter().any(|along| *along != 0.0) || drop.along.is_some();
+    if slides && !drop.is_solid() {
+        let (name, allowed) = ("friction", "0, without a slide, of a bar and of a plate: boxes alone slide and stick");
+        return Err(Error::Setting { name, value: drop.friction, allowed });
+    }
     if !(0.0..=FRAC_PI_2).contains(&drop.tilt_rad) {
         return Err(Error::Setting { name: "tilt in rad", value: drop.tilt_rad, allowed: "in [0, pi/2]" });
     }

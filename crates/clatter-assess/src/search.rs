@@ -35,7 +35,7 @@ use climb::starts;
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
-pub(crate) use landings::{Landings, LaterLandings};
+pub(crate) use landings::{Landings, LaterLandings, with_gravity};
 pub(crate) use ranges::{Coordinates, Ranges};
 pub(crate) use ranges::{DAMPING, FREQUENCY};
 

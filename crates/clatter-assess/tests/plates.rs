@@ -217,16 +217,14 @@ fn energy_allows_what_flat_and_slender_plates_do() {
     assert!(turn.demand.expect("an answer") > 0.99 * first && turn.bound >= turn.demand, "{turn:?} beside {first}");
 }
 
-/// Where the box beside a plate is not followed, real tilt is a doubt.
+/// However soft its contacts, the box beside a plate tells what real tilt adds.
 #[test]
-fn a_plate_without_its_box_is_undecided() {
+fn a_plate_has_its_box_beside_it() {
     let tilt = |limit: &LimitAssessment| limit.notes.iter().any(|note| matches!(note, Note::Tilt { .. }));
     let soft = HANDHELD.replace("9 mm\"", "90 mm\"").replace("2000 gn", "9000 gn");
-    // A tenth of the length over the speed, 5 ms, is the most of a box.
-    for (time, follows) in [("0.4 ms", true), ("7 ms", false)] {
+    for time in ["0.4 ms", "7 ms"] {
         let battery = &limits(&soft.replace("0.4 ms", time))[1];
-        assert_eq!(tilt(battery), follows, "{battery:?}");
-        assert_eq!(battery.verdict, if follows { Verdict::Safe } else { Verdict::Undecided }, "{battery:?}");
+        assert!(tilt(battery) && battery.verdict == Verdict::Safe, "{battery:?}");
     }
 }
 

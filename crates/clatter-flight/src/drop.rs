@@ -300,6 +300,11 @@ impl Drop {
             && self.spin_rad_s == 0.0
             && self.body.length_m() * libm::sin(self.tilt_rad) < merge_s * self.speed_m_s
     }
+    /// The same drop on ground without friction, on which nothing along it counts.
+    #[must_use]
+    pub fn without_friction(&self) -> Self {
+        Self { friction: 0.0, slide_m_s: [0.0; 2], along: None, ..*self }
+    }
     /// The same drop landing flat, without spin.
     #[must_use]
     pub fn flattened(&self) -> Self {
@@ -406,7 +411,8 @@ impl Drop {
         Ok(drop.with_spin(self.spin())?.with_friction(self.friction)?.with_slide(self.slide_m_s)?)
     }
     /// A later landing of a box: with this vertical in its axes, turning about this axis, its energy over the mass shared between fall, spin and
-    /// slide. The energy counts from where the center of mass lies on the ground; none where it does not lift the box into that posture.
+    /// a slide along the ground, in a direction from x of the box made level. The energy counts from where the center of mass lies on the ground;
+    /// none where it does not lift the box into that posture.
     #[must_use]
     pub fn landing(
         &self,
@@ -414,12 +420,14 @@ impl Drop {
         about: [f64; 3],
         energy_m2_s2: f64,
         [fall, spin, slide]: [f64; 3],
+        direction_rad: f64,
     ) -> Option<Self> {
         let block = self.as_box()?;
         let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let height_m = block.corners_m().into_iter().map(|corner| -dot(up, corner)).fold(0.0, f64::max);
         let moves = energy_m2_s2 - self.gravity_m_s2 * height_m;
         let speed = |share: f64, inertia: f64| (2.0 * share * moves / inertia).sqrt();
+        let (sin, cos) = libm::sincos(direction_rad);
         let landing = Self {
             base: up,
             tilt_rad: 0.0,
@@ -427,7 +435,7 @@ impl Drop {
             speed_m_s: speed(fall, 1.0),
             spin_rad_s: speed(spin, block.inertia_about(about)),
             spin_axis: Some(about),
-            slide_m_s: [speed(slide, 1.0), 0.0],
+            slide_m_s: [cos, sin].map(|along| along * speed(slide, 1.0)),
             along: None,
             ..*self
         };
@@ -457,7 +465,7 @@ impl Drop {
         let spin_rad_s = self.spin_rad_s * libm::cos(self.direction_rad).abs();
         let direction_rad = Self::towards(self.first());
         let body = Body { width: None, thickness: None, products_m2: [0.0; 3], ..self.body };
-        Self { body, direction_rad, tilt_rad: libm::asin(rises), spin_rad_s, own_contacts, ..*self }
+        Self { body, direction_rad, tilt_rad: libm::asin(rises), spin_rad_s, own_contacts, ..self.without_friction() }
     }
 }
 

@@ -93,13 +93,15 @@ impl PlaceHistory<'_> {
         };
         if most > above { most } else { 0.0 }
     }
-    /// Returns the utilization to which parts still ring as the motion is left; 0 of a limit that is no response.
+    /// Returns the utilization to which parts still ring as the motion is left, with the weight that is to come in the end; 0 of a limit that
+    /// is no response.
     pub(crate) fn rings<'p>(&self, limit: &Limit, parts: impl IntoIterator<Item = &'p Suspension>) -> f64 {
         let Source::Response(peak) = limit.kind.source() else { return 0.0 };
         let of = |part: &Suspension| {
             let (omega, rest) = (part.omega(), self.end_of(part));
             let per_velocity = peak.of_velocity(peak.after_impulse(part.damping()), omega) / limit.allowed;
-            per_velocity * libm::hypot(omega * rest.displacement, rest.velocity)
+            let rings = libm::hypot(omega * rest.displacement, rest.velocity);
+            per_velocity * (rings + 2.0 * self.followed.weight_to_come_m_s2() / omega)
         };
         parts.into_iter().map(of).fold(0.0, f64::max)
     }

@@ -90,7 +90,16 @@ fn as_plate(drop: &Drop, part: &Part) -> Option<(Drop, Part)> {
     // The thickness across the face, with the mass spread evenly over it.
     let body = body.with_thickness(Side::even(sides[normal].m()));
     let (base, direction_rad) = ([0.0, 0.0, 1.0], libm::atan2(aside, up));
-    let plate = Drop { body, is_level: true, base, tilt_rad, direction_rad, spin_rad_s, spin_axis: None, ..*drop };
+    let plate = Drop {
+        body,
+        is_level: true,
+        base,
+        tilt_rad,
+        direction_rad,
+        spin_rad_s,
+        spin_axis: None,
+        ..drop.without_friction()
+    };
     let at_m = part.place.at_m;
     Some((plate, Part::at(Place::flat([at_m[x], at_m[y]]), part.suspension)))
 }

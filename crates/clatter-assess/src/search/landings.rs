@@ -18,14 +18,14 @@ use crate::engine::PlaceHistory;
 use crate::model::follow;
 use clatter::End;
 use clatter_flight::{Drop, Followed, Until};
-use clatter_product::{Error, Limit, ProductFile};
+use clatter_product::{Error, Limit, Listed, ProductFile};
 
 /// Numbers from 0 to 1 that say how a box lands again: two of its posture, two of the axis of its spin, and how its energy is shared.
 const POSTURE: usize = 6;
 /// The axes of Halton's sequence that these take, which no input of the ranges has here.
 const OF_POSTURE: [usize; POSTURE] = [0, 1, 4, 7, 8, 10];
 /// Landings flat on a face.
-const FLAT: u32 = 24;
+const FLAT: u32 = 60;
 /// A landing: its posture, and the shares along the axes of the ranges.
 type Landing = ([f64; POSTURE], [f64; AXES]);
 
@@ -36,13 +36,14 @@ fn direction([z, turn]: [f64; 2]) -> [f64; 3] {
     [across * cos, across * sin, z]
 }
 
-/// Returns landing k: flat on each face first, without and with a slide, as lively as may be with the shortest and the longest contact; then
-/// anywhere.
+/// Returns landing k: flat on each face first, without and with a slide in four directions, as lively as may be with the shortest and the
+/// longest contact; then anywhere.
 fn landing(k: u32) -> Landing {
     if k < FLAT {
         let mut shares = [1.0; AXES];
-        shares[CONTACT] = f64::from(k / 12 % 2);
-        return ([0.0, 0.0, 0.5, 0.0, 0.0, 0.5 * f64::from(k / 6 % 2)], shares);
+        shares[CONTACT] = f64::from(k / 30);
+        let slide = k / 6 % 5;
+        return ([0.0, 0.0, 0.5, 0.25 * f64::from(slide), 0.0, if slide > 0 { 0.5 } else { 0.0 }], shares);
     }
     let at = |n: usize| halton(n, k + 1);
     let share = |axis: usize| (2.0 * halton(axis, k + 1) - 0.5).clamp(0.0, 1.0);
@@ -68,34 +69,45 @@ fn next_to((posture, shares): &Landing, t: u32) -> Landing {
 
 /// Energies over the mass at which landings are searched: 4^−12 m²/s² to 4^12.
 const LEVELS: f64 = 12.0;
+/// More than all of them.
+const MOST_LEVELS: usize = 25;
 
 /// The worst landings of a product by one contact law, at each energy that was needed.
 #[derive(Debug, Default)]
 pub(crate) struct LaterLandings {
-    of: [OnceLock<Result<Vec<f64>, Error>>; 25],
+    of: [OnceLock<Result<Vec<f64>, Error>>; MOST_LEVELS],
+}
+
+/// Returns the first of these drops with a gravity, of which alone later landings depend.
+pub(crate) fn with_gravity(listed: &[Listed], gravity_m_s2: f64) -> usize {
+    let same = |one: &Listed| one.drop.gravity_m_s2.to_bits() == gravity_m_s2.to_bits();
+    listed.iter().position(same).unwrap_or_default()
 }
 
 /// What drops of a box may ask for as it lands again, by its own contact law.
 #[derive(Debug)]
 pub(crate) struct Landings {
     file: ProductFile,
-    known: LaterLandings,
+    /// One for each drop, of which the first with the same gravity counts.
+    known: Vec<LaterLandings>,
 }
 
 impl Landings {
     /// Returns those of a product; none of one that is no box.
     pub(crate) fn of(file: &ProductFile) -> Option<Self> {
-        file.is_box().then(|| Self { file: file.clone(), known: LaterLandings::default() })
+        let known = || file.landings.iter().map(|_| LaterLandings::default()).collect();
+        file.is_box().then(|| Self { file: file.clone(), known: known() })
     }
     /// Returns the largest value of each limit of each component, as a share of its least allowed value, in any landing with at most this
-    /// energy over the mass.
-    pub(crate) fn worst(&self, energy_m2_s2: f64) -> Result<Vec<Vec<f64>>, Error> {
+    /// energy over the mass and this gravity.
+    pub(crate) fn worst(&self, energy_m2_s2: f64, gravity_m_s2: f64) -> Result<Vec<Vec<f64>>, Error> {
         let listed = self.file.listed();
-        let ranges = ranges_of(&self.file, &listed[0].drop, listed[0].base, &Accuracy::default());
+        let number = with_gravity(&listed, gravity_m_s2);
+        let ranges = ranges_of(&self.file, &listed[number].drop, listed[number].base, &Accuracy::default());
         let of = |component| Limit::of(component).into_iter().map(move |limit| Task { component, limit });
         let tasks: Vec<Task<'_>> = self.file.components.iter().flat_map(of).collect();
         let work = Work { watch: &|_, _| true, done: AtomicUsize::new(0), all: 1 };
-        let mut all = ranges.later_landings(&self.known, &tasks, energy_m2_s2, &work)?.into_iter();
+        let mut all = ranges.later_landings(&self.known[number], &tasks, energy_m2_s2, &work)?.into_iter();
         Ok(self.file.components.iter().map(|component| all.by_ref().take(of(component).count()).collect()).collect())
     }
 }
@@ -120,25 +132,27 @@ impl Ranges<'_> {
         let drop = self.single(&place);
         let slide = if drop.friction > 0.0 { slide * slide } else { 0.0 };
         let spin = spin * spin * (1.0 - slide);
-        drop.landing(up, direction([axis_z, axis_turn]), energy_m2_s2, [1.0 - spin - slide, spin, slide])
+        // The slide goes where the axis of the spin points.
+        let shares = [1.0 - spin - slide, spin, slide];
+        drop.landing(up, direction([axis_z, axis_turn]), energy_m2_s2, shares, TAU * axis_turn)
     }
 
     /// Returns the largest utilization of each task in any landing with this energy over the mass. One after the other, as others wait for it.
     fn worst_landings(&self, tasks: &[Task<'_>], energy_m2_s2: f64, work: &Work<'_>) -> Result<Vec<f64>, Error> {
-        // A landing that is not followed is none that is known.
+        // Where one of them is not answered, the worst of all is not known.
         let follow = |k: u32, landing: &Landing| {
-            let drop = self.lands_again(k, landing, energy_m2_s2)?;
+            let Some(drop) = self.lands_again(k, landing, energy_m2_s2) else { return Ok(None) };
             let contact_s = drop.contact_times_s().map_or(0.0, |[_, longest]| longest);
             let lands_s = 2.0 * (drop.gap_m() / (2.0 * energy_m2_s2).sqrt() + contact_s);
-            follow(&drop, self.model, self.tolerance.max(0.02), Until::LandsAfter(lands_s)).ok()
+            follow(&drop, self.model, self.tolerance.max(0.02), Until::LandsAfter(lands_s)).map(Some)
         };
         let mut worst: Vec<(f64, u32, Landing)> = vec![(0.0, 0, landing(0)); tasks.len()];
         for k in 0..LANDINGS {
             work.go_on(0)?;
             let landing = landing(k);
-            let Some(followed) = follow(k, &landing) else { continue };
+            let Some(followed) = follow(k, &landing)? else { continue };
             for (task, worst) in tasks.iter().zip(&mut worst) {
-                let asked = self.in_landing(task, &landing, &followed, k);
+                let asked = self.in_landing(task, &landing, &followed, k)?;
                 if asked > worst.0 {
                     *worst = (asked, k, landing);
                 }
@@ -148,7 +162,8 @@ impl Ranges<'_> {
             for t in 1..=LANDING_TRIES {
                 work.go_on(0)?;
                 let next = next_to(best, t);
-                let asked = follow(*k, &next).map_or(0.0, |followed| self.in_landing(task, &next, &followed, *k));
+                let Some(followed) = follow(*k, &next)? else { continue };
+                let asked = self.in_landing(task, &next, &followed, *k)?;
                 if asked > *most {
                     (*most, *best) = (asked, next);
                 }
@@ -165,32 +180,29 @@ impl Ranges<'_> {
         energy_m2_s2: f64,
         work: &Work<'_>,
     ) -> Result<Vec<f64>, Error> {
-        let level = (0.5 * libm::log2(energy_m2_s2)).floor().clamp(-LEVELS, LEVELS - 1.0);
-        let at = |level: f64| {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-            let of = &known.of[(level + LEVELS) as usize];
-            of.get_or_init(|| self.worst_landings(tasks, libm::exp2(2.0 * level), work)).clone()
-        };
-        let (less, more) = (at(level)?, at(level + 1.0)?);
-        // Speeds, and so what they do, grow as the root of the energy.
-        let share = (energy_m2_s2.sqrt() / libm::exp2(level) - 1.0).max(0.0);
-        Ok(less.into_iter().zip(more).map(|(less, more)| less + share * (more - less).max(0.0)).collect())
+        let level = (0.5 * libm::log2(energy_m2_s2)).ceil().clamp(-LEVELS, LEVELS);
+        let whole = libm::exp2(2.0 * level);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let of = known.of[(level + LEVELS) as usize].get_or_init(|| self.worst_landings(tasks, whole, work));
+        match of {
+            // Speeds, and so what they do, grow as the root of the energy, and a little faster, as some of it lifts the box.
+            Ok(worst) => Ok(worst.iter().map(|worst| worst * (energy_m2_s2 / whole).sqrt()).collect()),
+            Err(Error::Stopped) => Err(Error::Stopped),
+            // Corners that sink in too deep with so much energy may not with this.
+            Err(_) => self.worst_landings(tasks, energy_m2_s2, work),
+        }
     }
 
     /// Returns the utilization of a task in a landing, wherever its part may be.
-    fn in_landing(&self, task: &Task<'_>, (_, shares): &Landing, followed: &Followed, k: u32) -> f64 {
+    fn in_landing(&self, task: &Task<'_>, (_, shares): &Landing, followed: &Followed, k: u32) -> Result<f64, Error> {
         let mut most = 0.0_f64;
         for at_m in task.component.places_m() {
             let place = Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m, shares: *shares };
-            let Ok(felt) = PlaceHistory::rough(followed, task.place(at_m), rough_to_rad_s(task.component)) else {
-                continue;
-            };
-            let asked = self.most(task, &place, &felt, k, Self::frequencies(task, &followed.drop), most);
-            if let Ok(Some(asked)) = asked {
-                most = asked.answer.utilization();
-            }
+            let felt = PlaceHistory::rough(followed, task.place(at_m), rough_to_rad_s(task.component))?;
+            let asked = self.most(task, &place, &felt, k, Self::frequencies(task, &followed.drop), most)?;
+            most = asked.map_or(most, |asked| asked.answer.utilization());
         }
-        most
+        Ok(most)
     }
 }
 

@@ -218,7 +218,10 @@ impl Drop<'_> {
             let lasts = time_s.map_or(String::new(), |time_s| format!(" and {}", time(time_s)));
             format!("; at {at} e = {}{lasts}", given(self.input(e)))
         });
-        writeln!(out, "Contacts of {}, {}{}", time(time_s), drop.contact_law.name(), own.collect::<String>())
+        let friction =
+            if drop.is_solid() { format!(", friction {}", given(self.input(drop.friction))) } else { String::new() };
+        let law = drop.contact_law.name();
+        writeln!(out, "Contacts of {}, {law}{}{friction}", time(time_s), own.collect::<String>())
     }
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {

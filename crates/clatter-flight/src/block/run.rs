@@ -30,8 +30,6 @@ const WEIGHT: f64 = 4.0;
 const ENERGY: f64 = 0.01;
 /// The least restitution of hysteretic contacts of a box: unloading is then a hundred times as fast as loading.
 pub const LEAST_OF_BLOCKS: f64 = 0.01;
-/// Largest depth that a corner may have, over the smallest size.
-const SUNK: f64 = 1.0;
 
 /// One press of a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -187,12 +185,12 @@ impl BlockDrop {
     ///
     /// # Accuracy
     /// Steps are wrong by 1e−8 of depths and velocities; peaks of parts differ from an independent integration by 1e−5
-    /// (`tests/block`).
+    /// (`tests/block`), velocities and spins with friction by 2e−4 (`tests/friction`).
     /// The restitution of a hysteretic contact is [`LEAST_OF_BLOCKS`] at least.
     ///
     /// # Errors
-    /// [`Error::Bound`] unless the contact time is at most a tenth of the largest size over the speed and at least 1e−7 of it, and where
-    /// a corner sinks in by more than a quarter of the smallest size.
+    /// [`Error::Bound`] unless the contact time is at least 1e−7 of the largest size over the speed, and where a corner sinks in by more than
+    /// the smallest size: it would be pressed through the ground.
     ///
     /// # Examples
     /// A flat drop with e = 1 and no gravity: four corners press along one half-sine and the box rises as fast as it came.
@@ -230,21 +228,12 @@ impl BlockDrop {
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {
         let largest = self.block.size_m().into_iter().fold(0.0, f64::max);
-        let (time, most) = (contact.time_s(), 0.1 * largest / self.fastest());
-        let of_time = |bound, most, reason| {
-            Err(Error::Bound { name: "contact time", value: time, bound, most, unit: "s", reason })
-        };
-        if time > most * (1.0 + 1e-12) {
-            return of_time(most, true, "a tenth of the largest size over the speed, so that corners sink in little");
+        let (value, bound) = (contact.time_s(), 1e-7 * largest / self.fastest());
+        if value >= bound {
+            return Ok(());
         }
-        if time < 1e-6 * most {
-            return of_time(
-                1e-6 * most,
-                false,
-                "1e-7 of the largest size over the speed, so that corners sink in at all",
-            );
-        }
-        Ok(())
+        let reason = "1e-7 of the largest size over the speed, so that corners sink in at all";
+        Err(Error::Bound { name: "contact time", value, bound, most: false, unit: "s", reason })
     }
 
     /// Returns a bound on the speed of every corner at the first touch.
@@ -374,14 +363,14 @@ impl<'a, const N: usize> Run<'a, N> {
         self.finish(Stop::TimeLimit { time_s })
     }
 
-    /// Refuses corners that sink in so far that the face above them would touch too.
+    /// Refuses corners that sink in by the smallest size.
     fn check_depth(&self) -> Result<(), Error> {
-        let most = SUNK * self.drop.block.size_m().into_iter().fold(f64::INFINITY, f64::min);
+        let most = self.drop.block.size_m().into_iter().fold(f64::INFINITY, f64::min);
         if self.sunk <= most {
             return Ok(());
         }
         let (name, value, unit) = ("contact time", self.times_s[1], "s");
-        let reason = "so that corners sink in by a quarter of the smallest size at most";
+        let reason = "so that corners sink in by the smallest size at most";
         Err(Error::Bound { name, value, bound: value * most / self.sunk, most: true, unit, reason })
     }
 
