@@ -196,7 +196,7 @@ fn what_is_not_answered_has_no_probability() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("box.toml");
     let text = PLATE
-        .replace("0.4 ms", "6 ms")
+        .replace("0.4 ms", "9 ms")
         .replace("[drop]", "[[drop]]")
         .replace("tilt = [\"5 deg\", \"25 deg\"]", "face = \"top\"\nattitude_tolerance = \"1 deg\"");
     std::fs::write(&path, text).unwrap();
@@ -212,7 +212,7 @@ fn what_is_not_answered_has_no_probability() {
         assert_eq!(survival["at_least"], 0.0);
     }
     assert_eq!(found["landings"][0]["components"][0]["largest_utilization"], serde_json::Value::Null);
-    assert!(found["unanswered"] == 10 && found["reason"].as_str().unwrap().contains("contact time 6 ms"), "{found}");
+    assert!(found["unanswered"] == 10 && found["reason"].as_str().unwrap().contains("contact time 9 ms"), "{found}");
     let table = clatter(arguments).stdout;
     assert!(
         table.contains("10 products are not answered") && table.contains("Whether all parts survive is not known"),

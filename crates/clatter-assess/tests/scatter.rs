@@ -380,7 +380,7 @@ fn any_product(n: usize, random: &mut Random) -> String {
     let (body, list) = (["bar", "plate", "box"][n % 3], ["[drop]", "[[drop]]"][n % 2]);
     let mut between = |lo: f64, hi: f64| random.even(lo, hi);
     let (width, thickness, e) = (between(50.0, 80.0), between(10.0, 30.0), between(0.1, 0.8));
-    let contact_ms = 0.1 * 80.0_f64.powf(between(0.0, 1.0));
+    let contact_ms = 0.1 * 200.0_f64.powf(between(0.0, 1.0));
     let mut text = vec![format!(
         "[product]\nname = \"p\"\nlength = \"140 mm\"\nrestitution = [{e}, {}]\ncontact_time = \"{contact_ms} ms\"",
         e + 0.05
