@@ -58,7 +58,9 @@ fn check_position(position: f64) -> Result<(), Error> {
 ///
 /// # Errors
 ///
-/// [`Error::Quantity`] for a position outside [−1, 1]; [`Error::Bar`] for a bar that is not symmetric; [`Error::Unsettled`] for an endless train at q = 1 off center.
+/// [`Error::Quantity`] for a position outside [−1, 1]; [`Error::Bar`] for a bar that is not symmetric; [`Error::Unsettled`] for an endless train at q = 1 off center;
+/// [`Error::Stop`] for a suspension with a stop: nothing bounds what the omitted shocks do there. The shocks of
+/// [`shocks_at`] have a response to it.
 ///
 /// # Examples
 ///
@@ -76,6 +78,7 @@ fn check_position(position: f64) -> Result<(), Error> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn respond(bar: &Bar, start: &Start, position: f64, suspension: &Suspension) -> Result<TrainResponse, Error> {
+    suspension.refuse_stop("the response to an endless train")?;
     let (shocks, omitted) = shocks_at(bar, start, position, suspension.omega())?;
     let mut run = Run::new(suspension);
     for shock in shocks.as_slice() {

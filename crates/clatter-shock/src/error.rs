@@ -131,6 +131,14 @@ pub enum Error {
         /// The largest mismatch that was allowed.
         tolerance: f64,
     },
+    /// A suspension with a stop where the answer is that of a linear component.
+    #[error("{0} takes no stop: give the suspension without it")]
+    Stop(&'static str),
+    /// A component that touches its stops, or swings on one of them, so often that it is no longer followed.
+    #[error(
+        "the component touches its stops more than {0} times, or swings on one that often; it is not followed further"
+    )]
+    Hits(usize),
     /// An invalid bar or drop.
     #[error(transparent)]
     Bar(#[from] clatter::Error),

@@ -10,10 +10,13 @@
 //! where μ − λ₂ is never small and e[λ₁, μ] is e^(μτ) τ (e^z − 1)/z: resonance (λ₁ = μ) and critical damping (λ₁ = λ₂)
 //! are ordinary points. For short spans the power series of the motion is summed instead.
 
+mod crossing;
+
 use crate::eight::{Many, WIDTH, decay};
 use crate::peaks::Range;
 use crate::side_by_side::Step;
 use crate::suspension::{Modes, Motion, Phase, Propagator};
+pub(crate) use crossing::Exit;
 use num_complex::Complex64;
 use std::cell::Cell;
 use std::f64::consts::PI;

@@ -117,8 +117,10 @@ impl DamageBoundary {
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
     /// # Errors
-    /// [`Error::Quantity`] unless the limit is finite and positive; [`Error::Entry`] for a trapezoid without ramps.
+    /// [`Error::Quantity`] unless the limit is finite and positive; [`Error::Entry`] for a trapezoid without ramps;
+    /// [`Error::Stop`] for a suspension with a stop.
     pub fn new(suspension: Suspension, limit: Limit, shape: Shape) -> Result<Self, Error> {
+        suspension.refuse_stop("a damage boundary")?;
         let allowed = limit.allowed()?;
         let factors = suspension.damping().impulse_factors();
         let omega = suspension.omega();
@@ -322,13 +324,14 @@ impl ShockTable {
     ///
     /// [`Error::NoEquivalent`] if there is none, with the nearest mismatch; [`Error::Quantity`] unless 0 < shortest ≤
     /// longest, the limits are above 0 and `tolerance` is finite and above 0, and for a response that is at rest or not
-    /// finite.
+    /// finite; [`Error::Stop`] for a suspension with a stop.
     pub fn equivalent_half_sine(
         &self,
         suspension: &Suspension,
         response: &Response,
         tolerance: f64,
     ) -> Result<EquivalentPulse, Error> {
+        suspension.refuse_stop("an equivalent pulse")?;
         crate::error::positive("shortest pulse of the table", self.shortest)?;
         crate::error::positive("longest pulse of the table", self.longest)?;
         if self.longest < self.shortest {

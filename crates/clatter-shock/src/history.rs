@@ -24,9 +24,11 @@ impl Suspension {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where times run back.
+    /// [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where times run back; [`Error::Stop`] for a
+    /// suspension with a stop.
     pub fn history(&self, points: &[(f64, f64)], quantity: Quantity) -> Result<Vec<f64>, Error> {
         const LIST: &str = "the history";
+        self.refuse_stop("the response at each point of a history")?;
         let (modes, omega) = (Modes::new(self.damping()), self.omega());
         let (row, factor) = quantity.row(omega);
         let mut motion = Motion { x: 0.0, w: 0.0 };

@@ -88,8 +88,9 @@ impl HistoryBoundary {
     /// ```
     /// # Errors
     /// The errors of [`Pulses::piecewise_linear`]; [`Error::Quantity`] unless the limit is finite and positive, and for
-    /// a history that is zero throughout.
+    /// a history that is zero throughout; [`Error::Stop`] for a suspension with a stop.
     pub fn new(suspension: Suspension, limit: Limit, points: &[(f64, f64)]) -> Result<Self, Error> {
+        suspension.refuse_stop("the damage boundary of a history")?;
         let allowed = limit.allowed()?;
         let (omega, factors) = (suspension.omega(), suspension.damping().impulse_factors());
         let (quantity, factor, allowed) = match limit {

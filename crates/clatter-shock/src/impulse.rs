@@ -4,7 +4,7 @@ use crate::eight::{LARGEST_ANGLE, WIDTH};
 use crate::peaks::{Extreme, Peaks, Range, Response};
 use crate::side_by_side::SideBySide;
 use crate::suspension::{Modes, Motion, Phase};
-use crate::{Error, Peaked, Suspension};
+use crate::{Error, Peaked, Pulses, Suspension};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -98,7 +98,7 @@ impl VelocityShocks {
     /// # Accuracy
     ///
     /// Each shock adds a few roundings: values are within 8 ε n of the sum of all |Δv| after n shocks (times ω for
-    /// accelerations, 1/ω for displacements).
+    /// accelerations, 1/ω for displacements). With a [`Stop`](crate::Stop) they are as in [`Pulses::respond`].
     ///
     /// # Examples
     ///
@@ -116,14 +116,21 @@ impl VelocityShocks {
     /// ```
     #[must_use]
     pub fn respond(&self, suspension: &Suspension) -> Response {
+        if let Some(stop) = suspension.stop() {
+            let linear = self.respond(&suspension.without_stop());
+            if linear.relative_displacement.magnitude() < stop.gap() {
+                return linear;
+            }
+            return Pulses::of_shocks(&self.shocks).respond(suspension).last_interval(self.shocks.len() - 1);
+        }
         let mut run = Run::new(suspension);
         for shock in &self.shocks {
             run.shock(shock.time, shock.delta_v);
         }
         run.finish(|i| self.shocks[i].time)
     }
-    /// Returns the peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way, as
-    /// [`Pulses::peak_above`](crate::Pulses::peak_above).
+    /// Returns the peak of one quantity, ωz or A/ω with its sign or the speed at a stop, if it passes `above` ≥ 0 either
+    /// way, as [`Pulses::peak_above`](crate::Pulses::peak_above).
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, Peaked, Suspension, VelocityShock, VelocityShocks};
@@ -136,8 +143,17 @@ impl VelocityShocks {
     /// ```
     #[must_use]
     pub fn peak_above(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
+        if let Some(stop) = suspension.stop() {
+            let linear = suspension.without_stop();
+            if self.peak_above(&linear, Peaked::PseudoVelocity, linear.omega() * stop.gap()).is_none() {
+                return self.peak_above(&linear, peaked, above);
+            }
+            let peak = Pulses::of_shocks(&self.shocks).peak_above(suspension, peaked, above)?;
+            return Some(Extreme { interval: peak.interval.min(self.shocks.len() - 1), ..peak });
+        }
+        let row = peaked.row()?;
         let modes = Modes::new(suspension.damping());
-        let (omega, row) = (suspension.omega(), peaked.row());
+        let omega = suspension.omega();
         let mut range = Range::beyond(above);
         let mut m = Motion::default();
         for (i, shock) in self.shocks.iter().enumerate() {

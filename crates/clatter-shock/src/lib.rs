@@ -7,7 +7,7 @@
 //! ```
 //!
 //! z is its displacement relative to the base, A its absolute acceleration, ω its natural angular frequency, ζ ≥ 0 its
-//! damping ratio, of any size. Its response is exact for the excitation given, but for rounding: peaks come from
+//! damping ratio, of any size. With a [`Stop`] it presses a surface on either side beyond a gap. Its response is exact for the excitation given, but for rounding: peaks come from
 //! turning points, never from samples, and the ring-down is always complete.
 //!
 //! | excitation | type | when |
@@ -72,6 +72,7 @@ mod shocks;
 mod side_by_side;
 mod spectrum;
 mod standard;
+mod stop;
 mod suspension;
 mod tolerance;
 mod uneven;
@@ -95,6 +96,7 @@ pub use standard::{
     STANDARD_CURVES, STANDARD_PULSES, ServiceCondition, StandardCurve, StandardPulse, covering_condition,
     standard_curve, standard_pulse,
 };
+pub use stop::{Hit, Stop};
 pub use suspension::{DampingRatio, State, Suspension};
 pub use tolerance::{Distortion, PULSE_TOLERANCES, PulseCheck, PulseTolerance, Within, check_pulse, pulse_tolerance};
 pub use uneven::UnevenFilter;

@@ -53,13 +53,17 @@ pub enum Peaked {
     PseudoVelocity,
     /// |A|/ω.
     AccelerationOverOmega,
+    /// |z′| at a touch of a [`Stop`](crate::Stop); there is none without one.
+    StopSpeed,
 }
 
 impl Peaked {
-    pub(crate) fn row(self) -> usize {
+    /// Returns the row of the motion that it is; a touch is none.
+    pub(crate) fn row(self) -> Option<usize> {
         match self {
-            Self::PseudoVelocity => Modes::DISPLACEMENT,
-            Self::AccelerationOverOmega => Modes::ACCELERATION,
+            Self::PseudoVelocity => Some(Modes::DISPLACEMENT),
+            Self::AccelerationOverOmega => Some(Modes::ACCELERATION),
+            Self::StopSpeed => None,
         }
     }
 }
@@ -228,6 +232,20 @@ impl Response {
     #[must_use]
     pub fn equivalent_static_acceleration(&self) -> Extremes {
         self.pseudo_velocity.map(|x| self.omega * x)
+    }
+    /// Returns the same response with its intervals up to `last`, which later ones belong to.
+    pub(crate) fn last_interval(mut self, last: usize) -> Self {
+        let of = |extremes: &mut Extremes| {
+            for extreme in [&mut extremes.positive, &mut extremes.negative] {
+                extreme.interval = extreme.interval.min(last);
+            }
+        };
+        of(&mut self.pseudo_velocity);
+        of(&mut self.acceleration_over_omega);
+        of(&mut self.relative_displacement);
+        of(&mut self.relative_velocity);
+        of(&mut self.absolute_acceleration);
+        self
     }
     pub(crate) fn from_ranges(omega: f64, ranges: &[Range; 3], start: impl Fn(usize) -> f64) -> Self {
         let [x, y, a] = ranges.map(|range| range.extremes(omega, &start));

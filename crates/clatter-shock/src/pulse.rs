@@ -1,15 +1,17 @@
 //! Pulses of finite length: shapes, trains, and the exact response to them.
 
 mod overlap;
+mod stopped;
 
-use crate::forced::Segment;
+use crate::forced::{Sample, Segment};
 use crate::peaks::{Extreme, Range, Response};
 use crate::suspension::{Modes, Motion};
-use crate::{Error, Peaked, State, Suspension};
+use crate::{Error, Hit, Peaked, State, Stop, Suspension, VelocityShock};
 use clatter::{Section, Sine};
 use num_complex::Complex64;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+use stopped::{MOST_HITS, Stopped, Systems, Wanted};
 
 /// The classical pulse shapes, of amplitude a and duration D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -306,8 +308,30 @@ impl Pulses {
         }));
         Self { pieces, sines: Vec::new(), end: Instant::at(points.last().map_or(0.0, |p| p.0)), carried: 0.0 }
     }
+    /// Creates a history of velocity shocks already checked: an interval for each.
+    pub(crate) fn of_shocks(shocks: &[VelocityShock]) -> Self {
+        let piece = |start: f64, end: f64, shock: f64| Piece {
+            start: Instant::at(start),
+            length: end - start,
+            shock,
+            from: 0.0,
+            to: 0.0,
+            sines: (0, 0),
+        };
+        let ends = shocks.iter().skip(1).chain(shocks.last());
+        let pieces: Vec<_> = shocks.iter().zip(ends).map(|(s, next)| piece(s.time, next.time, s.delta_v)).collect();
+        let end = Instant::at(shocks.last().map_or(0.0, |shock| shock.time));
+        Self { pieces, sines: Vec::new(), end, carried: 0.0 }
+    }
     /// Returns the peaks of the component's response, ring-down included. Interval i begins at the i-th begin or end of
     /// a part of a pulse.
+    ///
+    /// # Stops
+    ///
+    /// With a [`Stop`] the response is that between the stops, phase by phase in closed form; the acceleration is that
+    /// of spring, damper and stop. The ring-down is followed until no stop can be reached, or until seven touches in
+    /// a row are no faster than one before them: none later is. A component that touches its stops more than 100 000
+    /// times is not followed further: its peaks are then infinite, and [`hits`](Self::hits) returns [`Error::Hits`].
     ///
     /// # Accuracy
     ///
@@ -318,7 +342,8 @@ impl Pulses {
     /// # Cost
     ///
     /// A pulse of many periods costs little more than one of a few: the search halves it, and leaves out what the
-    /// envelope of the swing cannot lift above the largest value yet.
+    /// envelope of the swing cannot lift above the largest value yet. A stop that is not reached costs little, and each
+    /// touch as much as a few pulses.
     ///
     /// # Examples
     ///
@@ -343,8 +368,12 @@ impl Pulses {
     }
     fn response(&self, suspension: &Suspension, rings_down: bool) -> Response {
         let mut ranges = [Range::default(); 3];
-        let modes = Modes::new(suspension.damping());
         let omega = suspension.omega();
+        if let Some(stop) = suspension.stop() {
+            self.drive_stopped(suspension, stop, Wanted { quantities: &[0, 1, 2], ranges: &mut ranges }, rings_down);
+            return Response::from_ranges(omega, &ranges, |i| self.begin(i));
+        }
+        let modes = Modes::new(suspension.damping());
         let last = self.drive(&modes, omega, &[0, 1, 2], &mut ranges);
         if rings_down {
             for (k, range) in ranges.iter_mut().enumerate() {
@@ -353,7 +382,8 @@ impl Pulses {
         }
         Response::from_ranges(omega, &ranges, |i| self.begin(i))
     }
-    /// Returns the peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way. A search for the
+    /// Returns the peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way, or the hardest
+    /// touch of a stop if it is faster than that. A search for the
     /// largest of many peaks passes the largest so far as `above`, and pays little for the smaller ones.
     ///
     /// # Accuracy
@@ -392,8 +422,12 @@ impl Pulses {
         above: f64,
         rings_down: bool,
     ) -> (Option<Extreme>, State) {
+        if let Some(stop) = suspension.stop() {
+            return self.stopped_peak_and_end(suspension, stop, peaked, above, rings_down);
+        }
+        let Some(row) = peaked.row() else { return (None, self.state_at_end(suspension)) };
         let modes = Modes::new(suspension.damping());
-        let (omega, row) = (suspension.omega(), peaked.row());
+        let omega = suspension.omega();
         let mut range = [Range::beyond(above)];
         let last = self.drive(&modes, omega, &[row], &mut range);
         let [mut range] = range;
@@ -401,6 +435,72 @@ impl Pulses {
             range.note_carried(&modes, row, last, -self.carried / omega, self.pieces.len());
         }
         (range.peak_above(above, omega, |i| self.begin(i)), modes.state(omega, last))
+    }
+    /// Returns every touch of a stop, in order of time: the moments at which z reaches the surface of a stop from within.
+    /// Without a stop there is none. The ring-down is followed as in [`respond`](Self::respond).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Hits`] beyond 100 000 touches.
+    ///
+    /// # Examples
+    ///
+    /// A part that moves freely at 1 m/s between stops 2 mm apart loses half of its speed at each:
+    ///
+    /// ```
+    /// # use clatter::Section;
+    /// # use clatter_shock::{DampingRatio, Pulses, Stop, Suspension};
+    /// let part = Suspension::new(1e-3, DampingRatio::new(0.0)?)?.with_stop(Stop::new(1e-3, 1e-6, 0.5)?);
+    /// let hits = Pulses::of_sections([Section::shock(0.0, 8e-3, -1.0)])?.hits(&part)?;
+    /// for (hit, (time, speed, side)) in hits.iter().zip([(1e-3, 1.0, 1), (5e-3, 0.5, -1)]) {
+    ///     assert!((hit.time - time).abs() < 1e-5 && (hit.speed - speed).abs() < 1e-8 && hit.side == side);
+    /// }
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    pub fn hits(&self, suspension: &Suspension) -> Result<Vec<Hit>, Error> {
+        let Some(stop) = suspension.stop() else { return Ok(Vec::new()) };
+        let systems = Systems::new(suspension, stop);
+        let mut part = Stopped::new(self, &systems, Wanted { quantities: &[], ranges: &mut [] });
+        part.drive();
+        part.ring_down();
+        match part.gave_up() {
+            None => Ok(part.touches.iter().map(|touch| touch.hit).collect()),
+            Some(_) => Err(Error::Hits(MOST_HITS)),
+        }
+    }
+    /// Notes the extremes of a component with a stop; all are infinite if it gives up.
+    fn drive_stopped(&self, suspension: &Suspension, stop: Stop, wanted: Wanted, rings_down: bool) {
+        let systems = Systems::new(suspension, stop);
+        let mut part = Stopped::new(self, &systems, wanted);
+        part.drive();
+        if rings_down {
+            part.ring_down();
+        }
+        part.finish();
+    }
+    fn stopped_peak_and_end(
+        &self,
+        suspension: &Suspension,
+        stop: Stop,
+        peaked: Peaked,
+        above: f64,
+        rings_down: bool,
+    ) -> (Option<Extreme>, State) {
+        let systems = Systems::new(suspension, stop);
+        let (row, mut range) = (peaked.row(), [Range::beyond(above)]);
+        let wanted = Wanted { quantities: row.as_slice(), ranges: &mut range };
+        let mut part = Stopped::new(self, &systems, wanted);
+        part.drive();
+        let end = part.state();
+        if rings_down {
+            part.ring_down();
+        }
+        if let Some((interval, time)) = part.gave_up() {
+            return (Some(Extreme { value: f64::INFINITY, time, interval }), end);
+        }
+        let hardest = part.hardest_touch(above);
+        let peak = row.map_or(hardest, |_| range[0].peak_above(above, suspension.omega(), |i| self.begin(i)));
+        (peak, end)
     }
     /// Returns the number of the interval after the last pulse.
     pub(crate) fn end_interval(&self) -> usize {
@@ -410,9 +510,16 @@ impl Pulses {
     pub(crate) fn begin(&self, i: usize) -> f64 {
         self.pieces.get(i).map_or(self.end.hi, |p| p.start.hi)
     }
-    /// Returns the motion relative to the base at the end of the last pulse.
+    /// Returns the motion relative to the base at the end of the last pulse. It tells z and z′ alone, not what a component
+    /// then presses; both are infinite for one that touches its stops more than 100 000 times.
     #[must_use]
     pub fn state_at_end(&self, suspension: &Suspension) -> State {
+        if let Some(stop) = suspension.stop() {
+            let systems = Systems::new(suspension, stop);
+            let mut part = Stopped::new(self, &systems, Wanted { quantities: &[], ranges: &mut [] });
+            part.drive();
+            return part.state();
+        }
         let modes = Modes::new(suspension.damping());
         let omega = suspension.omega();
         modes.state(omega, self.drive(&modes, omega, &[], &mut []))
@@ -442,17 +549,21 @@ impl Pulses {
             if piece.length == 0.0 {
                 continue;
             }
-            let span = segment.begin_line(m, omega, piece.length, piece.from, piece.to);
-            let sines = &self.sines[piece.sines.0..piece.sines.1];
-            for sine in sines {
-                segment.add_sine(-sine.amplitude / omega, sine.phase, sine.rate / omega);
-            }
-            let end = segment.sample_end(span, |i| sines[i].turned);
+            let end = self.begin_piece(&mut segment, m, omega, piece);
             for (&k, range) in quantities.iter().zip(ranges.iter_mut()) {
                 segment.extremes(k, &end, i, range);
             }
             m = end.m;
         }
         m
+    }
+    /// Begins the segment of a piece and returns its end.
+    fn begin_piece(&self, segment: &mut Segment, m: Motion, omega: f64, piece: &Piece) -> Sample {
+        let span = segment.begin_line(m, omega, piece.length, piece.from, piece.to);
+        let sines = &self.sines[piece.sines.0..piece.sines.1];
+        for sine in sines {
+            segment.add_sine(-sine.amplitude / omega, sine.phase, sine.rate / omega);
+        }
+        segment.sample_end(span, |i| sines[i].turned)
     }
 }

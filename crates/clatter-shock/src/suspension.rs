@@ -19,7 +19,7 @@
 //! and the free motion needs the entire functions sin(βτ)/β and (1 − exp(−κτ))/κ, both τ at ζ = 1: nothing is
 //! singular there, and nothing cancels at large damping, where the system is a cascade of two decays.
 
-use crate::Error;
+use crate::{Error, Stop};
 use std::f64::consts::{PI, TAU};
 
 /// Damping ratio ζ = c/(2√(km)), zero or more: 0 never decays, 1 is critical.
@@ -66,6 +66,7 @@ impl DampingRatio {
 pub struct Suspension {
     omega: f64,
     damping: DampingRatio,
+    stop: Option<Stop>,
 }
 
 /// Motion of the component relative to its base.
@@ -83,7 +84,7 @@ impl Suspension {
     /// # Errors
     /// [`Error::Quantity`] unless ω is finite and positive.
     pub fn new(omega: f64, damping: DampingRatio) -> Result<Self, Error> {
-        Ok(Self { omega: crate::error::positive("natural angular frequency", omega)?, damping })
+        Ok(Self { omega: crate::error::positive("natural angular frequency", omega)?, damping, stop: None })
     }
     /// Creates a suspension from the natural frequency in hertz: ω = 2πf.
     /// # Errors
@@ -94,7 +95,46 @@ impl Suspension {
     }
     /// Creates a suspension with ω = 1.
     pub(crate) fn unit(damping: DampingRatio) -> Self {
-        Self { omega: 1.0, damping }
+        Self { omega: 1.0, damping, stop: None }
+    }
+    /// Returns the same suspension with a stop on either side.
+    ///
+    /// [`Pulses`](crate::Pulses) and [`VelocityShocks`](crate::VelocityShocks) then answer with the stops: the absolute
+    /// acceleration A is that of spring, damper and stop, and every phase between two touches, crests and partings is
+    /// solved in closed form. Functions that scale a linear response refuse it ([`Error::Stop`]).
+    ///
+    /// # Examples
+    ///
+    /// A part on so soft a spring that it moves freely meets its stop at 2 m/s. Alone on it for 0.5 ms it presses with
+    /// (π/2)(1 + e) v/τ, and leaves with e times its speed for the other one:
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Peaked, Stop, Suspension, VelocityShock, VelocityShocks};
+    /// # use std::f64::consts::FRAC_PI_2;
+    /// let free = Suspension::new(1e-3, DampingRatio::new(0.0)?)?.with_stop(Stop::new(1e-3, 0.5e-3, 0.4)?);
+    /// let shock = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v: 2.0 }])?;
+    /// let peak = shock.respond(&free).absolute_acceleration.peak().value;
+    /// assert!((peak / (FRAC_PI_2 * 1.4 * 2.0 / 0.5e-3) - 1.0).abs() < 1e-9);
+    /// let hit = shock.peak_above(&free, Peaked::StopSpeed, 0.0).unwrap();
+    /// assert!((hit.value - 2.0).abs() < 1e-9 && (hit.time - 0.5e-3).abs() < 1e-12);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_stop(self, stop: Stop) -> Self {
+        Self { stop: Some(stop), ..self }
+    }
+    /// Returns the stop, if there is one.
+    #[must_use]
+    pub fn stop(&self) -> Option<Stop> {
+        self.stop
+    }
+    /// Returns the same suspension without a stop.
+    pub(crate) fn without_stop(self) -> Self {
+        Self { stop: None, ..self }
+    }
+    /// Returns an error that names `what` if there is a stop.
+    pub(crate) fn refuse_stop(&self, what: &'static str) -> Result<(), Error> {
+        if self.stop.is_some() { Err(Error::Stop(what)) } else { Ok(()) }
     }
     /// Returns the natural angular frequency ω.
     #[must_use]
@@ -106,13 +146,15 @@ impl Suspension {
     pub fn damping(&self) -> DampingRatio {
         self.damping
     }
-    /// Returns the absolute acceleration of the component, A = −(2ζω z′ + ω² z), also while the base accelerates.
+    /// Returns the absolute acceleration of the component, A = −(2ζω z′ + ω² z), also while the base accelerates: that by
+    /// spring and damper, without the force of a stop.
     #[must_use]
     pub fn absolute_acceleration(&self, state: State) -> f64 {
         let modes = Modes::new(self.damping);
         self.omega * modes.quantity(Modes::ACCELERATION, modes.motion(self.omega, state))
     }
-    /// Returns the state a time `t` ≥ 0 after `state` in free motion, with the base at rest or in uniform motion.
+    /// Returns the state a time `t` ≥ 0 after `state` in free motion, with the base at rest or in uniform motion. It is the
+    /// motion between the stops, without them.
     ///
     /// ```text
     /// ζ < 1:  ωz = e^(−ζωt) [ωz₀ cos βωt + (z′₀ + ζωz₀) sin(βωt)/β],   β = √(1 − ζ²)

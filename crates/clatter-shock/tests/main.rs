@@ -15,4 +15,6 @@ mod peak_above;
 mod response;
 mod sections;
 mod spectrum;
+mod stop;
+mod stop_steps;
 mod uneven;

@@ -11,6 +11,7 @@ fn same(response: &Response, ask: impl Fn(Peaked, f64) -> Option<Extreme>) -> Re
         let whole = match peaked {
             Peaked::PseudoVelocity => response.pseudo_velocity(),
             Peaked::AccelerationOverOmega => response.acceleration_over_omega(),
+            Peaked::StopSpeed => unreachable!("a part without a stop"),
         };
         let (peak, size) = (whole.peak(), whole.magnitude());
         for above in [0.0, 0.5 * size, 0.999 * size] {
