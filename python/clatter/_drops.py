@@ -130,6 +130,7 @@ def respond(
     frequency_hz: float | None = None,
     damping: float | None = None,
     q_factor: float | None = None,
+    stop: Triple | None = None,
     model: Model | None = None,
     length_m: float | None = None,
     width_m: float | None = None,
@@ -169,6 +170,9 @@ def respond(
         Natural angular frequency in v0/h0 or rad/s, or natural frequency in Hz.
     damping, q_factor : float
         Damping ratio, or 1/(2 damping); Q = 10 unless given.
+    stop : (float, float, float), optional
+        Stops on either side of the part: the gap [m], how long it presses one alone [s], and the restitution there; of pulses,
+        shocks and drops.
     model, length_m, width_m, thickness_m, gyration_m, center_of_mass_m, speed_m_s, height_m, tilt_deg, direction_deg, gaps_m
     orientation, spin_rad_s, gravity_m_s2, contact_time_s, contact_law, friction
         Else a drop as in :func:`simulate`, with e and center_of_mass.

@@ -116,10 +116,12 @@ class Product:
         natural_frequency: Quantity | None = None,
         damping_ratio: Quantity | None = None,
         quality_factor: Quantity | None = None,
+        stop: Mapping[str, Quantity] | None = None,
         acceleration_limit: Quantity | None = None,
         rattle_space: Quantity | None = None,
         velocity_change_limit: Quantity | None = None,
         angular_velocity_change_limit: Quantity | None = None,
+        stop_speed_limit: Quantity | None = None,
         damage_boundary: Mapping[str, Quantity] | None = None,
         limit_source: str | None = None,
         **more: Any,
@@ -136,7 +138,9 @@ class Product:
             How far it extends along the product.
         mount : {'hard', 'suspended'}, optional
             Suspended unless given, with a natural frequency and a damping ratio or quality factor.
-        acceleration_limit, rattle_space, velocity_change_limit, angular_velocity_change_limit, damage_boundary
+        stop : mapping, optional
+            The stops of a suspended part, with ``gap``, ``contact_time`` and ``restitution``.
+        acceleration_limit, rattle_space, velocity_change_limit, angular_velocity_change_limit, stop_speed_limit, damage_boundary
             What it stands; the damage boundary has ``velocity_change`` and ``acceleration``.
 
         Returns

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use clatter_answer::respond::{self as respond_of, Excitation, drop as drop_of};
 use clatter_answer::{DropInputs, shape_name};
-use clatter_product::{Axis, Model};
-use clatter_shock::{Pulses, Shape, Suspension, VelocityShock, VelocityShocks};
+use clatter_product::{Axis, Model, Stops};
+use clatter_shock::{Pulses, Shape, Stop, Suspension, VelocityShock, VelocityShocks};
 use pyo3::prelude::*;
 
 use crate::answered::{Answered, json, without_picture};
@@ -153,12 +153,16 @@ fn of_drop(given: &Given<'_>, inputs: &DropInputs) -> PyResult<drop_of::Question
     let place = drop_of::place(&drop, &at, axis).map_err(refused)?;
     let mut question = drop_of::Question::new(drop, model, place);
     let (ratio, q_factor) = (given.read::<Option<f64>>("damping")?, given.read::<Option<f64>>("q_factor")?);
-    let swings = |hz| Suspension::from_hz(hz, damping(ratio, q_factor)?).map_err(refused);
+    let stop = stop(given)?;
+    let swings = |hz| {
+        let free = Suspension::from_hz(hz, damping(ratio, q_factor)?).map_err(refused)?;
+        Ok::<_, PyErr>(stop.map_or(free, |stop| free.with_stop(stop)))
+    };
     let hz = match (given.read::<Option<f64>>("omega")?, given.read::<Option<f64>>("frequency_hz")?) {
         (Some(_), Some(_)) => return Err(refused("omega and frequency_hz say both how the part swings: give one")),
-        (None, None) if ratio.is_some() || q_factor.is_some() => {
+        (None, None) if ratio.is_some() || q_factor.is_some() || stop.is_some() => {
             return Err(refused(
-                "damping and q_factor go with omega or frequency_hz: a part without is mounted rigidly",
+                "damping, q_factor and stop go with omega or frequency_hz: a part without is mounted rigidly",
             ));
         }
         (omega, hz) => omega.map(|omega| omega / TAU).or(hz),
@@ -166,6 +170,11 @@ fn of_drop(given: &Given<'_>, inputs: &DropInputs) -> PyResult<drop_of::Question
     question.suspension = hz.map(swings).transpose()?;
     question.tolerance = given.read("tolerance")?;
     Ok(question)
+}
+
+/// Returns the stops of the part.
+fn stop(given: &Given<'_>) -> PyResult<Option<Stop>> {
+    given.read::<Option<[f64; 3]>>("stop")?.map(Stops::of).transpose().map_err(refused)
 }
 
 /// Refuses arguments that another question takes.
@@ -185,7 +194,8 @@ fn of_shocks(given: &Given<'_>, e: Option<f64>) -> PyResult<respond_of::Question
         (None, Some(hz)) => TAU * hz,
         _ => return Err(refused("one of omega and frequency_hz says how the part swings")),
     };
-    let suspension = Suspension::new(omega, damping(given.read("damping")?, given.read("q_factor")?)?);
+    let free = Suspension::new(omega, damping(given.read("damping")?, given.read("q_factor")?)?).map_err(refused)?;
+    let stop = stop(given)?;
     let excitation = match (given.read("shocks")?, given.read::<Option<Vec<_>>>("pulses")?, e, given.read("at")?) {
         (Some(shocks), ..) => Excitation::Shocks(shocks),
         (None, Some(pulses), ..) => Excitation::Pulses(pulses),
@@ -193,9 +203,12 @@ fn of_shocks(given: &Given<'_>, e: Option<f64>) -> PyResult<respond_of::Question
             let Body::Bar(bar) = Body::read(given)? else {
                 return Err(refused("respond is that of a bar; gyration_ratio has two values here"));
             };
+            if stop.is_some() {
+                return Err(refused("stop goes with pulses, shocks or length_m, which are in SI units"));
+            }
             Excitation::Bar { bar, start: Fall::read(given)?.of_bar()?, at }
         }
         _ => return Err(refused("pulses, shocks, or e and at of a bar say what shakes the part")),
     };
-    Ok(respond_of::Question::new(excitation, suspension.map_err(refused)?))
+    Ok(respond_of::Question::new(excitation, stop.map_or(free, |stop| free.with_stop(stop))))
 }

@@ -380,7 +380,7 @@ fn drops_drive_components_as_in_an_assessment() {
     for model in Model::FOLLOWED {
         let contact = (model == Model::Compliant).then(|| format!("--contact-time-s={contact_s:?}"));
         for at in [-1.0, -0.4, 0.0, 1.0] {
-            let want = clatter_assess::respond(&drop, &Part::new(0.07 * at, None), &part, model, 0.01).unwrap();
+            let (want, _) = clatter_assess::respond(&drop, &Part::new(0.07 * at, None), &part, model, 0.01).unwrap();
             let arguments = ["respond".to_owned(), format!("--model={}", model.name()), format!("--at={at:?}")];
             let more = DROP.map(str::to_owned).into_iter().chain(["--center-of-mass=0.2".to_owned()]);
             let got = answer(arguments.into_iter().chain(more).chain(contact.clone()));

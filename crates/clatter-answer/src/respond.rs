@@ -23,15 +23,15 @@ use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
 use clatter::{Bar, Start};
-use clatter_shock::{Pulse, Pulses, Response, ShockTable, Suspension, VelocityShock, VelocityShocks};
+use clatter_shock::{Hit, Pulse, Pulses, Response, ShockTable, Suspension, VelocityShock, VelocityShocks};
 use serde::Serialize;
 
 use crate::error::within_periods;
 use crate::{Error, Json, on_body};
 pub use limits::{AtPlace, Limit};
 pub use peaks::{
-    AllPeaks, Equivalent, Extreme, Extremes, Factors, HalfSine, Largest, LargestValues, NOTHING_FELT, Peaks,
-    ServiceCondition,
+    AllPeaks, AtStop, Equivalent, Extreme, Extremes, Factors, HalfSine, HitStop, Largest, LargestValues, NOTHING_FELT,
+    Peaks, ServiceCondition,
 };
 
 /// The source of the shocks on a part.
@@ -82,6 +82,9 @@ pub struct Answer {
     /// The part and its peaks.
     #[serde(flatten)]
     pub part: Peaks,
+    /// The hits of its stops, where it has any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_stop: Option<AtStop>,
     /// The shocks at its place.
     pub shocks: Shocks,
     /// The response to the sum of the shocks at one instant.
@@ -147,7 +150,7 @@ const SWINGS: RangeInclusive<f64> = 1e-100..=1e100;
 /// for pulses.
 pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Question { excitation, suspension, shock_table } = question;
-    let (response, shocks, omitted) = felt(excitation, suspension)?;
+    let (response, hits, shocks, omitted) = felt(excitation, suspension)?;
     let is_pulses = matches!(excitation, Excitation::Pulses(_));
     let damping = suspension.damping();
     let part = Peaks::new(suspension, &response, |extreme| {
@@ -182,20 +185,22 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         clatter_free: at_once.map(|[flat, _]| flat),
         standard: at_once.map(|[_, standard]| standard),
         gain: at_once.map(|[_, standard]| part.gain(&standard)),
+        at_stop: suspension.stop().map(|_| AtStop::of(&hits)),
         part,
         equivalent,
     })
 }
 
-/// Returns the response, the velocity changes at the place in order of time, and the bound on those that are omitted.
-fn felt(excitation: &Excitation, suspension: &Suspension) -> Result<(Response, VelocityShocks, f64), Error> {
+/// Returns the response with the hits of stops, the velocity changes at the place in order of time, and the bound on those that are
+/// omitted.
+fn felt(excitation: &Excitation, suspension: &Suspension) -> Result<(Response, Vec<Hit>, VelocityShocks, f64), Error> {
     match excitation {
         Excitation::Bar { bar, start, at } => {
             on_body([*at])?;
             let train = clatter_shock::respond(bar, start, *at, suspension)?;
-            Ok((train.response, train.shocks, train.omitted))
+            Ok((train.response, train.shocks.hits(suspension)?, train.shocks, train.omitted))
         }
-        Excitation::Shocks(shocks) => Ok((shocks.respond(suspension), shocks.clone(), 0.0)),
+        Excitation::Shocks(shocks) => Ok((shocks.respond(suspension), shocks.hits(suspension)?, shocks.clone(), 0.0)),
         Excitation::Pulses(pulses) => {
             let omega = suspension.omega();
             if !SWINGS.contains(&omega) {
@@ -203,13 +208,14 @@ fn felt(excitation: &Excitation, suspension: &Suspension) -> Result<(Response, V
                 return Err(Error::Quantity { name, value: omega, allowed });
             }
             within_periods(pulses, &[omega / TAU])?;
-            let response = Pulses::new(pulses)?.respond(suspension);
+            let train = Pulses::new(pulses)?;
+            let (response, hits) = (train.respond(suspension), train.hits(suspension)?);
             let mut shocks: Vec<_> = pulses
                 .iter()
                 .map(|pulse| VelocityShock { time: pulse.start, delta_v: pulse.velocity_change() })
                 .collect();
             shocks.sort_by(|a, b| a.time.total_cmp(&b.time));
-            Ok((response, VelocityShocks::new(shocks)?, 0.0))
+            Ok((response, hits, VelocityShocks::new(shocks)?, 0.0))
         }
     }
 }

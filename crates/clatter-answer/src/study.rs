@@ -35,7 +35,7 @@ use clatter_assess::{
     Accuracy, Assessment, Verdict,
     scatter::{Column, PartRow, Sampler, Settings},
 };
-use clatter_product::{Component, DropName, Family, Faults, Input, LimitKind, Plan, ProductFile};
+use clatter_product::{Component, DropName, Family, Faults, Input, LimitKind, Plan, ProductFile, Stops};
 use clatter_record::{Field, FieldKind};
 
 pub use answer::{Answer, Member, Outcome, SearchedLimit};
@@ -237,6 +237,7 @@ impl Study {
             Column::Drop(input, Some(n)) => (self.on(input.row().column, n), input.row().unit),
             Column::FrequencyHz(i) => (of("frequency_hz", i), "Hz"),
             Column::DampingRatio(i) => (of("damping_ratio", i), "1"),
+            Column::Stop(i, n) => (of(Stops::INPUTS[n].column, i), Stops::INPUTS[n].unit),
             Column::PositionM(i) => (of("position_m", i), "m"),
             Column::AcrossM(i) => (of("position_across_m", i), "m"),
             Column::Limit(i, kind) => (of(&in_unit(kind, "limit"), i), kind.unit().name()),

@@ -1,7 +1,7 @@
 //! This module describes a worst drop in words, which are the same wherever the drop is shown.
 
 use clatter_assess::WorstCase;
-use clatter_product::{Axis, DropName, Input};
+use clatter_product::{Axis, DropName, Input, Stops};
 
 use crate::{letter, significant};
 
@@ -23,6 +23,10 @@ pub fn drop_in_words(worst: &WorstCase) -> String {
     let gyration = worst.gyration_m().map_or(String::new(), |m| format!(", radius of gyration {} mm", four(1e3 * m)));
     let part = worst.frequency_hz().zip(worst.damping_ratio());
     let part = part.map_or(String::new(), |(hz, ratio)| format!(", {} Hz, damping ratio {}", four(hz), four(ratio)));
+    let stop = worst.part.suspension.and_then(|part| part.stop()).map_or(String::new(), |stop| {
+        let [gap_m, time_s, e] = Stops::numbers(&stop);
+        format!(", stops at {} mm with contacts of {} ms, e {}", four(1e3 * gap_m), four(1e3 * time_s), four(e))
+    });
     let lands = if worst.drop.is_flat {
         "flat".to_owned()
     } else {
@@ -52,7 +56,7 @@ pub fn drop_in_words(worst: &WorstCase) -> String {
     let own: String = own.map(one).collect();
     let number = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!("drop {n}, "));
     format!(
-        "{number}{lands}, {} m/s{optional}, e {}{contact}{own}{friction}{gyration}; at {place} mm{axis}{part}",
+        "{number}{lands}, {} m/s{optional}, e {}{contact}{own}{friction}{gyration}; at {place} mm{axis}{part}{stop}",
         four(worst.drop.speed_m_s),
         four(worst.drop.restitution),
     )

@@ -169,11 +169,11 @@ pub(crate) fn assess_these(
             progress.done.fetch_add(1, Ordering::Relaxed);
             found
         };
-        let found: Vec<Result<Vec<Worst>, Coordinates>> = some.par_iter().map(search).collect();
+        let found: Vec<Result<Vec<Worst>, Box<Coordinates>>> = some.par_iter().map(search).collect();
         for (&(listed, n), found) in some.iter().zip(found) {
             match found {
                 Ok(of_law) => worst[listed].push(of_law),
-                Err(place) => return Ok(Err(Breaker { other_law: n > 0, listed, place })),
+                Err(place) => return Ok(Err(Breaker { other_law: n > 0, listed, place: *place })),
             }
         }
     }
@@ -202,14 +202,22 @@ pub(crate) fn assess_these(
         for drop in 0..listed.len() {
             let mut of_drop: Vec<&mut LimitAssessment> =
                 of_limits.iter_mut().map(|of_drops| &mut of_drops[drop]).collect();
-            stopped(&mut of_drop);
+            if component.stops.is_none() {
+                stopped(&mut of_drop);
+            }
             if let Some(landing) = landings.get_mut(drop) {
                 for limit in of_drop {
                     landing.take(component, limit);
                 }
             }
         }
-        let limits = of_limits.into_iter().map(|of_drops| governing(&of_drops, &names)).collect();
+        let mut limits: Vec<_> = of_limits.into_iter().map(|of_drops| governing(&of_drops, &names)).collect();
+        // Nobody reads of a trial how it reaches its stop.
+        if component.stops.is_none() && most == NOTHING_BREAKS {
+            for limit in &mut limits {
+                tell_stop(limit, component, &searched);
+            }
+        }
         components.push(verdict(component, file.product.body.is_wide(), limits));
     }
     Ok(Ok(Found { components, landings }))
@@ -385,6 +393,7 @@ fn limit_of(ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitA
         clatter_free: flat,
         other_law,
         worst_case: asked.map(|asked| worst_case(&asked, ranges, task.component)),
+        at_stop: None,
         model: model(ranges, task, accuracy_reason(ranges, &ranges.single(&shown))),
         undecided: if verdict == Verdict::Undecided { doubts } else { Vec::new() },
         notes,
@@ -600,6 +609,17 @@ fn worst_case(asked: &Candidate, ranges: &Ranges<'_>, component: &Component) -> 
         model: ranges.model,
         tolerance: ranges.tolerance,
     }
+}
+
+/// Tells of a part that exceeds its rattle space how fast it reaches its stop, and what stops would make of that.
+fn tell_stop(limit: &mut LimitAssessment, component: &Component, searched: &[Vec<Ranges<'_>>]) {
+    let exceeded = limit.limit == LimitKind::RattleSpace && limit.demand.is_some_and(|demand| demand > limit.allowed);
+    let of_worst = |worst: &WorstCase| {
+        let ranges = &searched[worst.listed][0];
+        ranges.at_stop(component, limit.allowed, ranges.place_of(component, worst))
+    };
+    limit.at_stop = limit.worst_case.as_ref().filter(|_| exceeded).and_then(of_worst);
+    limit.notes.extend(limit.at_stop.map(Note::AtStop));
 }
 
 /// A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration. Where none of the drops that

@@ -1,11 +1,11 @@
 //! A drop with the part that it shakes, as data.
 
 use clatter_flight::{Drop, Place};
-use clatter_shock::{DampingRatio, Suspension};
+use clatter_shock::{DampingRatio, Stop, Suspension};
 use serde::{Deserialize, Serialize};
 
 use crate::{Part, WorstCase};
-use clatter_product::{Error, Model};
+use clatter_product::{Error, Model, Stops};
 
 /// A drop with the part that it shakes, and how it is answered. An assessment writes it as JSON, and `clatter respond --drop` reads it.
 ///
@@ -45,6 +45,38 @@ pub struct Swings {
     pub omega_rad_s: f64,
     /// Damping ratio.
     pub damping_ratio: f64,
+    /// The stops on either side of the part, where it has any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stop: Option<CaseStop>,
+}
+
+/// The stops of a part.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseStop {
+    /// The room from the part at rest to either of them.
+    pub gap_m: f64,
+    /// The time of a contact of the part alone with one of them.
+    pub contact_time_s: f64,
+    /// The restitution of such a contact.
+    pub restitution: f64,
+}
+
+impl Swings {
+    /// Returns those of a suspension.
+    #[must_use]
+    pub fn of(part: Suspension) -> Self {
+        let stop = |stop: Stop| {
+            let [gap_m, contact_time_s, restitution] = Stops::numbers(&stop);
+            CaseStop { gap_m, contact_time_s, restitution }
+        };
+        Self { omega_rad_s: part.omega(), damping_ratio: part.damping().get(), stop: part.stop().map(stop) }
+    }
+    fn suspension(self) -> Result<Suspension, Error> {
+        let free = Suspension::new(self.omega_rad_s, DampingRatio::new(self.damping_ratio)?)?;
+        let stop = |of: CaseStop| Stops::of([of.gap_m, of.contact_time_s, of.restitution]);
+        Ok(self.stop.map(stop).transpose()?.map_or(free, |stop| free.with_stop(stop)))
+    }
 }
 
 impl Case {
@@ -52,15 +84,13 @@ impl Case {
     #[must_use]
     pub fn of(worst: &WorstCase) -> Self {
         let WorstCase { drop, part, model, tolerance, .. } = *worst;
-        let swings = |part: Suspension| Swings { omega_rad_s: part.omega(), damping_ratio: part.damping().get() };
-        Self { drop, model, tolerance, place: part.place, swings: part.suspension.map(swings) }
+        Self { drop, model, tolerance, place: part.place, swings: part.suspension.map(Swings::of) }
     }
     /// Returns the part.
     ///
     /// # Errors
     /// [`Error::Shock`] for one that does not swing.
     pub fn part(&self) -> Result<Part, Error> {
-        let suspension = |of: Swings| Suspension::new(of.omega_rad_s, DampingRatio::new(of.damping_ratio)?);
-        Ok(Part::at(self.place, self.swings.map(suspension).transpose()?))
+        Ok(Part::at(self.place, self.swings.map(Swings::suspension).transpose()?))
     }
 }

@@ -10,8 +10,9 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use clatter::{Bar, End, EndPeaks, Excitation, Start};
 use clatter_flight::{Drop, Followed, PRECISION, Place, Until};
-use clatter_shock::{Pulses, Response, State, Suspension};
+use clatter_shock::{Hit, Moment, Peaked, Pulses, Response, State, Stop, Suspension};
 
+use crate::AtStop;
 use crate::history::{SHORT, pulses};
 use crate::model::{check_drop, follow};
 use crate::shock::{Shock, largest, largest_turn, samples, shocks_at};
@@ -149,7 +150,9 @@ impl Answer {
         model: Model,
         tolerance: f64,
     ) -> Self {
-        if model != Model::Compliant || self.impact <= 2 {
+        // So does each hit of a stop.
+        let hits = limit.is_response() && part.suspension.is_some_and(|part| part.stop().is_some());
+        if model != Model::Compliant || self.impact <= 2 && !hits {
             return self;
         }
         // Where a drop next to this one is not answered, nothing tells how far off this one is.
@@ -227,7 +230,7 @@ fn closed_form(drop: &Drop, part: &Part, limit: &Limit, model: Model) -> Result<
     })
 }
 
-/// Computes the response of a suspension at the place of a part in one drop, with all its peaks.
+/// Computes the response of a suspension at the place of a part in one drop, with all its peaks, and the hits of its stops.
 ///
 /// # Errors
 /// As [`answer`].
@@ -237,12 +240,19 @@ pub fn respond(
     suspension: &Suspension,
     model: Model,
     tolerance: f64,
-) -> Result<Response, Error> {
+) -> Result<(Response, Vec<Hit>), Error> {
     check_drop(drop, &place.place)?;
     let followed = follow(drop, model, tolerance, Until::Over)?;
     let pulses = PlaceHistory::new(&followed, place.place)?.pulses;
     // The motion after one that was left early is no ring-down.
-    Ok(if followed.is_early() { pulses.respond_within(suspension) } else { pulses.respond(suspension) })
+    let (response, until_s) = if followed.is_early() {
+        (pulses.respond_within(suspension), followed.stop().time_s())
+    } else {
+        (pulses.respond(suspension), f64::INFINITY)
+    };
+    let mut hits = pulses.hits(suspension)?;
+    hits.retain(|hit| hit.time <= until_s);
+    Ok((response, hits))
 }
 
 /// The history of the acceleration at one place of a followed drop.
@@ -296,6 +306,10 @@ impl<'a> PlaceHistory<'a> {
         let (value, time_s, off_by) = match (limit.kind.source(), suspension) {
             (Source::Response(peak), Some(part)) => {
                 let Some(found) = self.peak(peak, part, above * limit.allowed) else { return Ok(None) };
+                if found.0.is_infinite() {
+                    // It hits its stops for ever.
+                    self.pulses.hits(part)?;
+                }
                 found
             }
             (Source::Response(_), None) => {
@@ -327,6 +341,19 @@ impl<'a> PlaceHistory<'a> {
         Ok(Some(answer).filter(|answer| answer.utilization() > above))
     }
 
+    /// Returns how a part reaches stops like these, which are as far away; none where it reaches none.
+    pub(crate) fn at_stops(&self, part: &Suspension, stops: [Stop; 2]) -> Option<AtStop> {
+        let [soft, hard] = stops.map(|stop| part.with_stop(stop));
+        let omega_gap = part.omega() * stops[0].gap();
+        self.pulses.peak_within(part, Peaked::PseudoVelocity, omega_gap)?;
+        let largest_hit_m_s = self.pulses.hits(&soft).ok()?.first()?.speed;
+        let asks = |part: &Suspension| {
+            let most = self.pulses.peak_within(part, Peaked::AccelerationOverOmega, 0.0)?;
+            Some(part.omega() * most.value.abs()).filter(|most| most.is_finite())
+        };
+        Some(AtStop { largest_hit_m_s, asks_m_s2: [asks(&soft)?, asks(&hard)?] })
+    }
+
     /// Returns the answer for one limit; 0 where it has no demand.
     pub(crate) fn answer_or_nothing(&self, limit: &Limit, suspension: Option<&Suspension>) -> Result<Answer, Error> {
         let (allowed, unit) = (limit.allowed, limit.kind.unit());
@@ -356,6 +383,18 @@ impl<'a> PlaceHistory<'a> {
         }
         slices
     }
+    /// Returns times and values of a part with stops up to a time, to be joined by straight lines.
+    pub(crate) fn with_stop(
+        &self,
+        part: &Suspension,
+        peak: ResponsePeak,
+        step_s: f64,
+        end_s: f64,
+    ) -> Result<Vec<(f64, f64)>, Error> {
+        let curve = self.pulses.motion(part, step_s.max(MOST_FINE * end_s))?;
+        let value = |moment: &Moment| peak.of_moment(part, moment);
+        Ok(curve.iter().take_while(|moment| moment.time <= end_s).map(|moment| (moment.time, value(moment))).collect())
+    }
     /// Times and accelerations of the place, to be joined by straight lines.
     pub(crate) fn acceleration(&self) -> Vec<(f64, f64)> {
         let mut all = Vec::new();
@@ -383,8 +422,8 @@ impl<'a> PlaceHistory<'a> {
         let velocity = peak.value.abs();
         // The vibration that rings on as the motion is left, and the later shocks, are taken as if all came at its crest.
         let doubt = if self.followed.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
-            let most = libm::hypot(omega * end.displacement, end.velocity) + self.later().shock_of(part);
-            most * libm::hypot(of.of_damper(part.damping()), 1.0) - velocity
+            let most = later::swing(part, end) + self.later().shock_of(part);
+            most * of.in_swing(part) - velocity
         } else {
             0.0
         };
@@ -452,6 +491,8 @@ impl<'a> PlaceHistory<'a> {
     }
 }
 
+/// The least step of a curve, over its length.
+const MOST_FINE: f64 = 1e-4;
 /// The error of a shock from lever arms kept through a phase, at most, in precisions of the flight (clatter-flight).
 const KEPT_ARMS: f64 = 4.0;
 

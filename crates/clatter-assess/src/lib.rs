@@ -40,7 +40,7 @@ mod shock;
 mod verdict;
 
 pub use assess::{assess, assess_one, assess_to, assess_watched};
-pub use case::{Case, Swings};
+pub use case::{Case, CaseStop, Swings};
 pub use design::{least_margin, remedies, remedies_watched};
 pub use engine::{Answer, Part, answer, respond};
 pub use ladder::ladders;
@@ -49,6 +49,6 @@ pub use reason::{Contradiction, Doubt, Note, Reason};
 pub use repeat::repeat;
 pub use search::Watch;
 pub use verdict::{
-    Accuracy, Assessment, Assumed, ComponentAssessment, LandingAssessment, LandingLimit, LimitAssessment, ModelChoice,
-    Sides, Verdict, WorstCase,
+    Accuracy, Assessment, Assumed, AtStop, ComponentAssessment, LandingAssessment, LandingLimit, LimitAssessment,
+    ModelChoice, Sides, Verdict, WorstCase,
 };

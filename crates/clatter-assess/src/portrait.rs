@@ -143,6 +143,9 @@ fn history(limit: &LimitAssessment, ranges: &Ranges<'_>) -> Result<(Curve, Vec<f
     let strikes = impacts.iter().copied().filter(|t| *t <= 4.0 * late).fold(late, f64::max);
     let end = (1.25 * strikes).max(worst.time_s + 2.5 * period).max(1e-9);
     let history = match (limit.limit.source(), part.suspension) {
+        (Source::Response(peak), Some(suspension)) if suspension.stop().is_some() => {
+            felt.with_stop(&suspension, peak, (end / POINTS).min(period / 64.0), end)?
+        }
         (Source::Response(peak), Some(suspension)) => {
             let slices = felt.slices((end / POINTS).min(period / 64.0), end);
             respond(&suspension, &slices, end, |state| peak.of_state(&suspension, state))

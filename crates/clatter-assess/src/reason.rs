@@ -4,7 +4,8 @@ use std::fmt::{Display, Formatter};
 
 use serde::Serializer;
 
-use clatter_product::{ContactLaw, DropName, Error, Model};
+use crate::AtStop;
+use clatter_product::{ContactLaw, DropName, Error, Model, STANDARD_GRAVITY_M_S2};
 
 /// The reason why a limit is undecided, or would be if nothing exceeded it. Shares are of the allowed value.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,7 +106,7 @@ impl Display for Doubt {
                 write!(
                     f,
                     "the part {hits} its stop: its displacement {more} the rattle space{margin}, and what the stop does is not known; \
-                     more room or a stiffer mount decides it"
+                     a `stop`, more room or a stiffer mount decides it"
                 )
             }
         }
@@ -161,6 +162,8 @@ pub enum Note {
     Edges,
     /// A bar does not roll about its length, where most products turn fastest.
     Rolls,
+    /// The part reaches its stop, of which the file says nothing.
+    AtStop(AtStop),
     /// The demand that real tilt adds, by a box with full rotation in drops next to the worst one.
     Tilt {
         /// The largest demand of the box less that of the plate of small tilt, as a share of the latter; negative where the box has less.
@@ -182,6 +185,15 @@ pub enum Note {
 impl Display for Note {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
+            Self::AtStop(AtStop { largest_hit_m_s, asks_m_s2 }) => {
+                let [soft, hard] = asks_m_s2.map(|a| three(a / STANDARD_GRAVITY_M_S2));
+                write!(
+                    f,
+                    "it reaches its stop at up to {} m/s: one with contacts of 1 ms would ask the part for {soft} gn, one of 0.2 ms for {hard} gn; \
+                     a `stop` in the file tells",
+                    three(*largest_hit_m_s)
+                )
+            }
             Self::Rolls => f.write_str(
                 "a bar does not roll about its length, which narrow products do several times as fast: a `width` tells how fast",
             ),
@@ -254,6 +266,11 @@ impl Display for Reason {
 pub(crate) fn joined(doubts: &[Doubt]) -> Option<String> {
     let all: Vec<_> = doubts.iter().map(Doubt::to_string).collect();
     (!all.is_empty()).then(|| all.join("; "))
+}
+
+/// Rounds to three digits.
+fn three(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
 }
 
 /// Returns a share of a hundred to one decimal.

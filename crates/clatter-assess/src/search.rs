@@ -9,6 +9,7 @@
 //! Drops are first followed until the body comes down after its clatter. Where the energy left then may bring a part above the
 //! worst found, they are followed for longer, and so are drops of a sequence that spreads evenly over all ranges.
 
+mod at_stop;
 mod budgets;
 mod climb;
 mod edges;
@@ -18,7 +19,7 @@ mod landings;
 mod ranges;
 mod settle;
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clatter_shock::{DampingRatio, Suspension};
@@ -30,14 +31,15 @@ use budgets::{
     CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, LATER_DECIDES, NEAR, REBOUNDS, SAMPLE, SAMPLE_OF_BOX,
 };
 use clatter_flight::{Drop, Followed, Place, Until};
-use clatter_product::{Component, Error, Limit, Model, Mount, Source};
+use clatter_product::{Component, Error, Limit, Model, Mount, Source, Stops};
 use climb::starts;
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
+use grid::halton;
 pub(crate) use landings::{Landings, LaterLandings, with_gravity};
 pub(crate) use ranges::{Coordinates, Ranges};
-pub(crate) use ranges::{DAMPING, FREQUENCY};
+pub(crate) use ranges::{DAMPING, FREQUENCY, STOPS};
 
 /// A callback that receives how much of how much is done, from any thread, and returns whether to go on.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);
@@ -93,7 +95,7 @@ impl Ranges<'_> {
         landings: &LaterLandings,
         most: f64,
         watch: Watch<'_>,
-    ) -> Result<Vec<Worst>, Coordinates> {
+    ) -> Result<Vec<Worst>, Box<Coordinates>> {
         // A box is followed to its rest in some drops only: it is slow.
         let of_all = self.base.is_none();
         let [steps, turn_steps] = self.steps(all_tasks);
@@ -122,7 +124,7 @@ impl Ranges<'_> {
                 all.take(asked);
                 self.passes(tasks, all, &best, most).map_or(Ok(()), Err)?;
             }
-            Ok(orders)
+            Ok::<_, Box<Coordinates>>(orders)
         };
         let orders = ask(&mut all, &grid, None, of_all)?;
         ask(&mut all, &overlaps, Some(&shocks), of_all)?;
@@ -215,13 +217,13 @@ impl Ranges<'_> {
     }
 
     /// Finds a drop of the last wave that demands more than `most` of a limit, answered to the tolerance; `best` are those before it.
-    fn passes(&self, tasks: &[Task<'_>], all: &Candidates, best: &[f64], most: f64) -> Option<Coordinates> {
+    fn passes(&self, tasks: &[Task<'_>], all: &Candidates, best: &[f64], most: f64) -> Option<Box<Coordinates>> {
         let of_one = |(n, task): (usize, &Task<'_>)| {
             let highest =
                 all.found[n].iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()))?;
             let rough = highest.answer.utilization();
             let exact = || self.exactly(task, highest).is_ok_and(|exact| exact.answer.utilization() > most);
-            (rough > most && rough > best[n] && exact()).then_some(highest.place)
+            (rough > most && rough > best[n] && exact()).then(|| Box::new(highest.place))
         };
         tasks.iter().enumerate().find_map(of_one)
     }
@@ -359,11 +361,14 @@ impl Ranges<'_> {
         }
         let [least, most] = damping.ratios();
         let ratio = DampingRatio::new(least + place.shares[DAMPING] * (most - least))?;
-        Ok(Some(Suspension::from_hz(frequency_hz.at(place.shares[FREQUENCY]), ratio)?))
+        let free = Suspension::from_hz(frequency_hz.at(place.shares[FREQUENCY]), ratio)?;
+        let Some(stops) = &task.component.stops else { return Ok(Some(free)) };
+        Ok(Some(free.with_stop(stops.at(STOPS.map(|axis| place.shares[axis]))?)))
     }
 
-    /// Returns the part with least damping at both ends of the range of its frequencies.
+    /// Returns the part with least damping and the hardest stops at both ends of the range of its frequencies.
     fn softest_and_stiffest(task: &Task<'_>, place: &Coordinates) -> Result<Vec<Suspension>, Error> {
+        let place = place.at_hardest_stops();
         let at = |frequency: f64| Self::part(task, &place.with(FREQUENCY, frequency).with(DAMPING, 0.0)).transpose();
         [0.0, 1.0].into_iter().filter_map(at).collect()
     }
@@ -393,15 +398,24 @@ impl Ranges<'_> {
         let free = self.free(task);
         let grows = matches!(task.limit.kind.source(), Source::Response(peak) if peak.grows_with_frequency());
         let end = if grows { 1.0 } else { 0.0 };
+        let place = &place.at_hardest_stops();
+        let stops_vary = STOPS.into_iter().any(|axis| free[axis]);
         let mut worst = Self::in_drop(task, &place.with(FREQUENCY, end), felt, above)?;
         let mut ask = |place: &Coordinates| -> Result<(), Error> {
             let above = worst.map_or(above, |worst| worst.answer.utilization());
             worst = Self::in_drop(task, place, felt, above)?.or(worst);
             Ok(())
         };
-        for n in 0..if free[FREQUENCY] { others } else { 0 } {
-            let share = (GOLDEN * f64::from(k * others + n)).fract();
-            ask(&place.with(FREQUENCY, share))?;
+        for n in 0..if free[FREQUENCY] || stops_vary { others } else { 0 } {
+            let number = k * others + n;
+            let mut place =
+                place.with(FREQUENCY, if free[FREQUENCY] { (GOLDEN * f64::from(number)).fract() } else { end });
+            if stops_vary {
+                for axis in STOPS {
+                    place.shares[axis] = (2.0 * halton(axis, number) - 0.5).clamp(0.0, 1.0);
+                }
+            }
+            ask(&place)?;
         }
         if free[DAMPING] {
             ask(&place.with(FREQUENCY, end).with(DAMPING, 1.0))?;
@@ -447,5 +461,7 @@ pub(crate) fn rough_to_rad_s(component: &Component) -> f64 {
 pub(crate) fn fastest_rad_s(component: &Component) -> f64 {
     let Mount::Suspended { frequency_hz, damping } = component.mount else { return 0.0 };
     let [_, most] = damping.ratios();
-    TAU * frequency_hz.hi() * if most > 1.0 { most + (most * most - 1.0).sqrt() } else { 1.0 }
+    let free = TAU * frequency_hz.hi() * if most > 1.0 { most + (most * most - 1.0).sqrt() } else { 1.0 };
+    let at_stop = |stops: &Stops| FRAC_PI_2 * (1.0 + stops.restitution.hi()) / stops.contact_time_s.lo();
+    libm::hypot(free, component.stops.as_ref().map_or(0.0, at_stop))
 }

@@ -337,6 +337,9 @@ pub struct LimitAssessment {
     pub other_law: Option<f64>,
     /// The drop that does it; null where no drop was answered.
     pub worst_case: Option<WorstCase>,
+    /// Of a rattle space that is exceeded, where the file says nothing of the stop: how the part reaches it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_stop: Option<AtStop>,
     /// The drop that decides the verdict, where several are listed and it is another than the one with the largest demand.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub governs: Option<DropName>,
@@ -348,6 +351,15 @@ pub struct LimitAssessment {
     /// Further facts to be known, each with its size; may be empty.
     #[serde(serialize_with = "as_texts")]
     pub notes: Vec<Note>,
+}
+
+/// How a part reaches its stop, of which nothing is known: at most in 256 drops that spread evenly over the ranges.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AtStop {
+    /// The speed at which it arrives for the first time in a drop, relative to the product.
+    pub largest_hit_m_s: f64,
+    /// The acceleration that stops with contacts of 1 ms and of 0.2 ms then give it, with a restitution of 0.5.
+    pub asks_m_s2: [f64; 2],
 }
 
 /// A drop, and where in the component and when it does the worst.

@@ -231,9 +231,14 @@ fn can_be_specified(text: &Text, change: &Change) {
             return;
         }
         Lever::Position | Lever::Across => (Some(10.0), 1e3),
-        Lever::ContactTime | Lever::Limit(LimitKind::RattleSpace) => (None, 1e3),
+        Lever::ContactTime | Lever::StopGap | Lever::StopTime | Lever::Limit(LimitKind::RattleSpace) => (None, 1e3),
         Lever::Limit(LimitKind::Acceleration) => (None, 1.0 / 9.806_65),
-        Lever::Limit(LimitKind::VelocityChange | LimitKind::AngularVelocityChange | LimitKind::DamageBoundary)
+        Lever::Limit(
+            LimitKind::VelocityChange
+            | LimitKind::AngularVelocityChange
+            | LimitKind::DamageBoundary
+            | LimitKind::StopSpeed,
+        )
         | Lever::Restitution
         | Lever::Frequency
         | Lever::Damping => (None, 1.0),
@@ -485,6 +490,8 @@ fn changed(file: &ProductFile, part: usize, change: &Change) -> ProductFile {
         (Lever::Across, _) => component.across_m = to,
         (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => *frequency_hz = to,
         (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = Damping::Ratio(to),
+        (Lever::StopGap, _) => component.stops.as_mut().unwrap().gap_m = to,
+        (Lever::StopTime, _) => component.stops.as_mut().unwrap().contact_time_s = to,
         (Lever::Limit(kind), _) => component.limits = component.limits.with(kind, to),
         (lever, mount) => panic!("{lever:?} of {mount:?}"),
     }

@@ -24,11 +24,13 @@ fn product(kind: LimitKind, factor: f64) -> String {
     } else {
         format!("\"{}\"", of(kind.unit()))
     };
+    let stop = "stop = { gap = \"0.5 mm\", contact_time = \"0.5 ms\", restitution = 0.4 }, ";
+    let stop = if kind == LimitKind::StopSpeed { stop } else { "" };
     format!(
         r#"
 product = {{ name = "Phone", length = "150 mm", radius_of_gyration = "43 mm", restitution = 0.4, contact_time = "0.4 ms", contact_law = "hysteretic" }}
 drop = {{ height = "1 m", tilt = ["1 deg", "4 deg"] }}
-component = [{{ name = "part", position = "40 mm", natural_frequency = "200 Hz", damping_ratio = 0.05, {} = {limit} }}]
+component = [{{ name = "part", position = "40 mm", natural_frequency = "200 Hz", damping_ratio = 0.05, {stop}{} = {limit} }}]
 "#,
         kind.key()
     )
@@ -39,8 +41,9 @@ component = [{{ name = "part", position = "40 mm", natural_frequency = "200 Hz",
 fn a_part_may_have_every_kind() {
     let mut file = read(&product(LimitKind::DamageBoundary, 10.0));
     for kind in LimitKind::ALL {
-        let limits = read(&product(kind, 10.0)).components[0].limits;
-        let all = file.components[0].limits;
+        let of_kind = read(&product(kind, 10.0)).components.remove(0);
+        let (limits, all) = (of_kind.limits, file.components[0].limits);
+        file.components[0].stops = of_kind.stops;
         file.components[0].limits = all.with(kind, *limits.get(kind).expect("its limit"));
     }
     let settings = Settings { samples: 200, seed: 1, confidence: 0.95, merge_s: 1e-12 };

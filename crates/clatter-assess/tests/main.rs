@@ -27,4 +27,5 @@ mod scatter;
 mod several;
 mod shocks;
 mod spin;
+mod stops;
 mod worst_case;

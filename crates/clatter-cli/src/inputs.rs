@@ -9,12 +9,13 @@ pub(crate) use clatter_answer::letter;
 use clatter_assess::Accuracy;
 use clatter_flight::{Contact, ContactLaw, Profile, Scene};
 use clatter_product::{
-    Model, OwnContact, Slip,
+    Model, OwnContact, Slip, Stops,
     units::{Quantity, SHARE},
 };
-use clatter_shock::DampingRatio;
+use clatter_shock::{DampingRatio, Stop};
 
 use crate::Failure;
+use crate::drop_args::IN_SI;
 use crate::numbers::given;
 use crate::quantities::{self, Piece, plain_or_typed};
 use crate::text::visible;
@@ -209,6 +210,32 @@ impl DampingArgs {
     /// Returns the damping ratio; Q = 10 where none is given, as is usual in the field.
     pub(crate) fn ratio(&self) -> Result<DampingRatio, clatter_shock::Error> {
         self.damping.or(self.q_factor).map_or_else(|| DampingRatio::from_quality_factor(10.0), Ok)
+    }
+}
+
+/// The stops on either side of a component.
+#[derive(Debug, clap::Args)]
+pub(crate) struct StopArgs {
+    /// Stops on either side of the component: the gap to each, how long it presses one alone, and the restitution there, such as
+    /// 1mm,0.5ms,0.4; without units in m and s
+    #[arg(long, value_name = "GAP,TIME,E", allow_hyphen_values = true, value_parser = quantities::stop, conflicts_with_all = ["stop_gap_m", "stop_contact_time_s", "stop_restitution"])]
+    stop: Option<[f64; 3]>,
+    /// Gap of --stop in m
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = number, requires_all = ["stop_contact_time_s", "stop_restitution"], help_heading = IN_SI, hide_short_help = true)]
+    stop_gap_m: Option<f64>,
+    /// Contact time of --stop in s
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number, requires = "stop_gap_m", help_heading = IN_SI, hide_short_help = true)]
+    stop_contact_time_s: Option<f64>,
+    /// Restitution of --stop
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = restitution, requires = "stop_gap_m", help_heading = IN_SI, hide_short_help = true)]
+    stop_restitution: Option<f64>,
+}
+
+impl StopArgs {
+    /// Returns the stop that was given; none where none was.
+    pub(crate) fn given(&self) -> Result<Option<Stop>, Failure> {
+        let in_si = || Some([self.stop_gap_m?, self.stop_contact_time_s?, self.stop_restitution?]);
+        Ok(self.stop.or_else(in_si).map(Stops::of).transpose()?)
     }
 }
 

@@ -5,10 +5,10 @@ use std::path::Path;
 use clatter::End;
 use clatter_assess::{Accuracy, Part, WorstCase};
 use clatter_product::{
-    Component, Damping, Drop, Fall, First, Input, Limit, LimitKind, Limits, Mount, Place, ProductFile, Spread,
+    Component, Damping, Drop, Fall, First, Input, Limit, LimitKind, Limits, Mount, Place, ProductFile, Spread, Stops,
     units::{Quantity, Unit},
 };
-use clatter_shock::DampingRatio;
+use clatter_shock::{DampingRatio, Stop};
 
 use crate::numbers::given;
 use crate::output::Files;
@@ -32,6 +32,8 @@ pub(crate) struct PartSetup {
     pub(crate) allowed: Vec<Limit>,
     /// Natural frequency and damping; none of a part that is mounted rigidly.
     pub(crate) suspension: Option<(Quantity, DampingRatio)>,
+    /// Its stops.
+    pub(crate) stop: Option<Stop>,
 }
 
 /// The limit of a part that the worst drop is taken of: the one of this kind, or the one with the least margin.
@@ -221,11 +223,24 @@ impl OneDrop {
                 })
             }
         };
+        let stop = match (&component.stops, worst.and_then(|worst| worst.part.suspension)) {
+            (_, Some(part)) => part.stop(),
+            (Some(stops), None) => {
+                let mut numbers = [0.0; 3];
+                for (n, (input, range)) in Stops::INPUTS.iter().zip(stops.ranges()).enumerate() {
+                    let unit = if input.unit == "1" { "" } else { input.unit };
+                    numbers[n] = take(Some(notes), input.words, range, Stops::HARDEST[n], unit);
+                }
+                Some(Stops::of(numbers)?)
+            }
+            (None, None) => None,
+        };
         Ok(Some(PartSetup {
             middle,
             places,
             units: [component.position_m.unit(), component.across_m.unit()],
             suspension,
+            stop,
             allowed: Limit::of(&component),
             limits: component.limits,
             name: component.name,

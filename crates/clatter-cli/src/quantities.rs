@@ -85,6 +85,14 @@ pub(crate) fn height_gap(text: &str) -> Result<Quantity, String> {
     Start::new([-1.0, -1.0], gap.si).map(|_| gap).map_err(|error| error.to_string())
 }
 
+/// Reads stops: the gap, the contact time and the restitution, in SI where without units.
+pub(crate) fn stop(text: &str) -> Result<[f64; 3], String> {
+    let [gap, time, e] = inputs::parts(text, ',')[..] else {
+        return Err("three values are needed: GAP,TIME,E, such as 1mm,0.5ms,0.4".to_owned());
+    };
+    Ok([plain_or_typed(&LENGTH, gap)?.si, plain_or_typed(&TIME, time)?.si, inputs::restitution(e)?])
+}
+
 /// Reads a natural frequency.
 pub(crate) fn frequency(text: &str) -> Result<Quantity, String> {
     checked(&FREQUENCY, text, |si| {

@@ -13,10 +13,10 @@ use clap::ValueHint;
 use clatter::Bar;
 use clatter_assess::Accuracy;
 use clatter_product::{Axis, Model, OwnContact, Slip, slip, units::Quantity};
-use clatter_shock::{DampingRatio, ShockTable, Suspension};
+use clatter_shock::{DampingRatio, ShockTable, Stop, Suspension};
 
 use crate::drop_args::{DropArgs, IN_SI};
-use crate::inputs::{self, DampingArgs, EndName, Format};
+use crate::inputs::{self, DampingArgs, EndName, Format, StopArgs};
 use crate::one_drop::Worst;
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, PerAxis, Piece, Place};
@@ -125,6 +125,8 @@ pub(crate) struct Args {
     contact: Vec<(usize, OwnContact)>,
     #[command(flatten)]
     damping: DampingArgs,
+    #[command(flatten)]
+    stop: StopArgs,
     /// Velocities of ends a and b at first contact, upward positive; VA is negative: end a strikes; in v0, or with their
     /// units, as the height gap is then
     #[arg(long, value_name = "VA,VB", default_value = "-1,-1", allow_hyphen_values = true, value_parser = quantities::velocity, conflicts_with = "followed")]
@@ -151,7 +153,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance, requires = "followed")]
     tolerance: f64,
     /// One drop with its part as JSON, as `clatter assess` writes it (`worst_case.drop`): a file, or - for standard input
-    #[arg(long = "drop", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER, conflicts_with_all = ["shocks_file", "pulses_file", "output", "omega", "frequency", "damping", "q_factor", "equivalent_pulse", "product", "worst"])]
+    #[arg(long = "drop", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER, conflicts_with_all = ["shocks_file", "pulses_file", "output", "omega", "frequency", "damping", "q_factor", "stop", "stop_gap_m", "equivalent_pulse", "product", "worst"])]
     case: Option<PathBuf>,
     /// Velocity shocks instead of a clatter: a table with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER)]
@@ -181,7 +183,11 @@ const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
 /// The arguments that describe a drop, except those of a product file.
-const OF_ONE_DROP: [&str; 37] = [
+const OF_ONE_DROP: [&str; 41] = [
+    "stop",
+    "stop_gap_m",
+    "stop_contact_time_s",
+    "stop_restitution",
     "at_m",
     "axis",
     "feet_m",
@@ -357,11 +363,22 @@ impl Args {
     }
 
     /// Returns the suspension of the component in a drop, which replaces that of a product file; none where it is mounted rigidly.
-    fn suspension(&self, of_file: Option<(Quantity, DampingRatio)>) -> Result<Option<Suspension>, Failure> {
+    fn suspension(
+        &self,
+        of_file: Option<(Quantity, DampingRatio)>,
+        stop_of_file: Option<Stop>,
+    ) -> Result<Option<Suspension>, Failure> {
+        let stop = self.stop.given()?;
         let damping =
             || self.damping.given().map_or_else(|| of_file.map_or_else(|| self.damping.ratio(), |(_, z)| Ok(z)), Ok);
         match self.omega().or(of_file.map(|(frequency, _)| TAU * frequency.si)) {
-            Some(omega) => Ok(Some(Suspension::new(omega, damping()?)?)),
+            Some(omega) => {
+                let free = Suspension::new(omega, damping()?)?;
+                Ok(Some(stop.or(stop_of_file).map_or(free, |stop| free.with_stop(stop))))
+            }
+            None if stop.is_some() => Err(Failure::Usage(
+                "--stop goes with --omega or --frequency: a part that is mounted rigidly reaches none",
+            )),
             None if self.damping.is_given() => Err(Failure::Usage(
                 "--damping and --q-factor go with --omega or --frequency: a part that is mounted rigidly has neither",
             )),

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::ValueHint;
 use clatter_answer::scatter::Answer;
 use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings};
-use clatter_product::{Input, ProductFile, units::Quantity};
+use clatter_product::{Input, ProductFile, Stops, units::Quantity};
 
 use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
@@ -164,6 +164,7 @@ fn title(file: &ProductFile, column: Column) -> String {
         Column::Drop(input, Some(n)) => there(&input.title(), n),
         Column::FrequencyHz(i) => format!("frequency_hz of {}", name_of(file, i)),
         Column::DampingRatio(i) => format!("damping_ratio of {}", name_of(file, i)),
+        Column::Stop(i, n) => format!("{} of {}", Stops::INPUTS[n].column, name_of(file, i)),
         Column::PositionM(i) => format!("position_m of {}", name_of(file, i)),
         Column::AcrossM(i) => format!("position_across_m of {}", name_of(file, i)),
         Column::Limit(i, kind) => format!("{} limit of {}", kind.name(), name_of(file, i)),

@@ -423,6 +423,7 @@ impl Component {
             one(keys::COMPONENT, "extent", self.extent_across_m)?;
             self.fits(product)?;
             self.check_mount()?;
+            self.check_stops()?;
             if self.limits.kinds().is_empty() {
                 return Err(DataFault::NoLimit);
             }
@@ -444,6 +445,23 @@ impl Component {
         }
         spread(keys::BOUNDARY, "velocity_change", limit)?;
         spread(keys::BOUNDARY, "acceleration", critical)
+    }
+
+    /// Checks its stops beside its mount and its rattle space.
+    pub(crate) fn check_stops(&self) -> Result<(), DataFault> {
+        let Some(stops) = &self.stops else {
+            let needs = self.limits.get(LimitKind::StopSpeed).is_some();
+            return if needs { Err(DataFault::NoStop) } else { Ok(()) };
+        };
+        let Mount::Suspended { frequency_hz, .. } = &self.mount else { return Err(DataFault::Hard { field: "stop" }) };
+        let keys = ["gap", "contact_time", "restitution"];
+        keys.into_iter().zip(stops.ranges()).try_for_each(|(key, range)| spread(keys::STOP, key, Some(range)))?;
+        let (gap_m, time_s, period_s) = (stops.gap_m.hi(), stops.contact_time_s.hi(), frequency_hz.lo().recip());
+        match self.limits.get(LimitKind::RattleSpace) {
+            Some(space) if gap_m > space.hi() => Err(DataFault::StopGap { gap_m, space_m: space.hi() }),
+            _ if time_s > period_s => Err(DataFault::StopTime { time_s, period_s }),
+            _ => Ok(()),
+        }
     }
 
     fn check_mount(&self) -> Result<(), DataFault> {

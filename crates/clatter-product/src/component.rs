@@ -1,6 +1,6 @@
 //! A fragile part: where it is, how it is held and what it stands.
 
-use clatter_shock::{DampingRatio, Suspension};
+use clatter_shock::{DampingRatio, Stop, Suspension};
 
 use clatter_flight::{Axis, Place};
 
@@ -23,6 +23,8 @@ pub struct Component {
     pub inside: Inside,
     /// The mounting of the part.
     pub mount: Mount,
+    /// The stops of a suspended part; none where nothing is known of them.
+    pub stops: Option<Stops>,
     /// The limits that it stands.
     pub limits: Limits,
     /// The source of its limits, as the file states it.
@@ -41,6 +43,78 @@ pub enum Mount {
         /// Its damping.
         damping: Damping,
     },
+}
+
+/// The stops of a suspended part, one on either side of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stops {
+    /// The distance from the part at rest to each of them.
+    pub gap_m: Spread,
+    /// The time of a contact of the part alone with one of them.
+    pub contact_time_s: Spread,
+    /// The restitution of such a contact.
+    pub restitution: Spread,
+}
+
+/// The names of one number of a stop.
+#[derive(Debug, Clone, Copy)]
+pub struct StopInput {
+    /// Its name for programs: `stop-gap`.
+    pub name: &'static str,
+    /// Its name for people: `gap of the stop`.
+    pub words: &'static str,
+    /// Its column, in SI: `stop_gap_m`.
+    pub column: &'static str,
+    /// Its SI unit; 1 where it has none.
+    pub unit: &'static str,
+}
+
+impl Stops {
+    /// The gap, the contact time and the restitution.
+    pub const INPUTS: [StopInput; 3] = [
+        StopInput { name: "stop-gap", words: "gap of the stop", column: "stop_gap_m", unit: "m" },
+        StopInput {
+            name: "stop-contact-time",
+            words: "contact time of the stop",
+            column: "stop_contact_time_s",
+            unit: "s",
+        },
+        StopInput { name: "stop-restitution", words: "restitution of the stop", column: "stop_restitution", unit: "1" },
+    ];
+    /// Returns the ranges: of the gap, the contact time and the restitution.
+    #[must_use]
+    pub fn ranges(&self) -> [&Spread; 3] {
+        [&self.gap_m, &self.contact_time_s, &self.restitution]
+    }
+    /// Returns a stop with these values of the three.
+    ///
+    /// # Errors
+    /// [`Error::Shock`] for one out of range.
+    pub fn of([gap_m, contact_time_s, restitution]: [f64; 3]) -> Result<Stop, Error> {
+        Ok(Stop::new(gap_m, contact_time_s, restitution)?)
+    }
+    /// Returns the three numbers of a stop.
+    #[must_use]
+    pub fn numbers(stop: &Stop) -> [f64; 3] {
+        [stop.gap(), stop.contact_time(), stop.restitution()]
+    }
+    /// Returns the stops at these shares of their ranges, from 0 to 1.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub fn at(&self, shares: [f64; 3]) -> Result<Stop, Error> {
+        let [gap, time, restitution] = self.ranges();
+        Self::of([gap.at(shares[0]), time.at(shares[1]), restitution.at(shares[2])])
+    }
+    /// Returns the nearest ones that press shortest and throw back most, where parts are asked for most as a rule.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub fn hardest(&self) -> Result<Stop, Error> {
+        self.at(Self::HARDEST)
+    }
+    /// The shares of their ranges at which stops are hardest.
+    pub const HARDEST: [f64; 3] = [0.0, 0.0, 1.0];
 }
 
 /// Damping of a suspension, as it was given.
@@ -171,7 +245,7 @@ impl Component {
     pub fn new(name: impl Into<String>, position_m: Spread, mount: Mount, limits: Limits) -> Self {
         let (extent_m, across_m, extent_across_m) = (0.0, Spread::finite(0.0), 0.0);
         let (name, inside, limit_source) = (name.into(), Inside::default(), None);
-        Self { name, position_m, extent_m, across_m, extent_across_m, inside, mount, limits, limit_source }
+        Self { name, position_m, extent_m, across_m, extent_across_m, inside, mount, stops: None, limits, limit_source }
     }
     /// Returns the ends of where the part may be, \[x, y\]: one where it is a point, both ends along a bar, the corners of a rectangle on a
     /// plate.

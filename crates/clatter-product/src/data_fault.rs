@@ -167,6 +167,22 @@ pub enum DataFault {
         /// Within this time.
         merge_s: f64,
     },
+    /// A limit on the speed at a stop, of a part without one.
+    NoStop,
+    /// A stop beyond the rattle space.
+    StopGap {
+        /// The gap.
+        gap_m: f64,
+        /// The rattle space.
+        space_m: f64,
+    },
+    /// A contact with a stop that lasts longer than the period of the part.
+    StopTime {
+        /// The contact time.
+        time_s: f64,
+        /// The longest period.
+        period_s: f64,
+    },
     /// A component without a limit.
     NoLimit,
     /// A damage boundary without an acceleration.
@@ -275,6 +291,18 @@ impl DataFault {
                     (1e6 * merge_s).round() / 1e3
                 ),
                 "add the `contact_time` to [product], or begin the tilt higher".to_owned(),
+            ],
+            Self::NoStop => [
+                "a part without a `stop` has no `stop_speed_limit`".to_owned(),
+                "add stop = { gap = \"1 mm\", contact_time = \"0.5 ms\", restitution = 0.4 } or whatever was measured".to_owned(),
+            ],
+            Self::StopGap { gap_m, space_m } => [
+                format!("the `gap` of the stop is {} mm", mm(*gap_m)),
+                format!("allowed: up to {} mm, the `rattle_space`, which ends at the stop", mm(*space_m)),
+            ],
+            Self::StopTime { time_s, period_s } => [
+                format!("a contact with the stop lasts {} ms", mm(*time_s)),
+                format!("allowed: up to {} ms, the period of the part", mm(*period_s)),
             ],
             Self::NoLimit => {
                 let keys = LimitKind::ALL.map(LimitKind::key).join(", ");
@@ -388,7 +416,7 @@ fn degrees(angle_rad: f64) -> f64 {
     (100.0 * angle_rad.to_degrees()).round() / 100.0
 }
 
-/// Millimeters to the micrometer, as messages have them.
+/// Millimeters to the micrometer, as messages have them, and milliseconds to the microsecond.
 fn mm(length_m: f64) -> f64 {
     (1e6 * length_m).round() / 1e3
 }

@@ -362,9 +362,10 @@ const _: () = {
     }
 };
 
-/// The number of axes of a search: those of [`INPUTS`], of the natural frequency and the damping ratio of a part, and of the direction.
+/// The number of axes of a search: those of [`INPUTS`], of the natural frequency, the damping ratio and the stops of a part, and of the
+/// direction.
 pub const AXES: usize = {
-    let (mut row, mut axes) = (0, 3);
+    let (mut row, mut axes) = (0, 6);
     while row < INPUTS.len() {
         axes += INPUTS[row].search.is_some() as usize;
         row += 1;

@@ -334,6 +334,12 @@ pub(crate) static COMPONENT: &[Key] = &[
         "Quality factor 1/(2 damping ratio). Either this or damping_ratio.",
     ),
     key(
+        "stop",
+        false,
+        Table(STOP),
+        "The stops of a suspended part, which it presses beyond this gap on either side, beside its spring and damper.",
+    ),
+    key(
         "acceleration_limit",
         false,
         Spread(&units::ACCELERATION, ["1e-3 gn", "1e7 gn"]),
@@ -357,8 +363,36 @@ pub(crate) static COMPONENT: &[Key] = &[
         Spread(&units::ANGULAR_VELOCITY, ["1e-3 rad/s", "1e6 rad/s"]),
         "Largest single change of the angular velocity of the product.",
     ),
+    key(
+        "stop_speed_limit",
+        false,
+        Spread(&units::SPEED, ["1e-3 mm/s", "1000 m/s"]),
+        "Largest speed at which the part may reach its stop, relative to the product.",
+    ),
     key("damage_boundary", false, Table(BOUNDARY), "Shocks at the part do damage beyond both of these alone."),
     key("limit_source", false, Text, "Where its limits are from, such as a data sheet; the printed report tells it."),
+];
+
+pub(crate) static STOP: &[Key] = &[
+    key(
+        "gap",
+        true,
+        Spread(&units::LENGTH, ["1e-3 um", "100 m"]),
+        "The room from the part at rest to the stop; at most the rattle_space.",
+    ),
+    key(
+        "contact_time",
+        true,
+        Spread(&units::TIME, ["1 us", "100 ms"]),
+        "How long a contact of the part alone with the stop takes, at most the period of the part: of bare plastics and metal 0.2 ms, of foam \
+         and rubber 1 ms and more.",
+    ),
+    key(
+        "restitution",
+        true,
+        Spread(&units::SHARE, ["0", "1"]),
+        "Coefficient of restitution of the stop: rebound over approach speed.",
+    ),
 ];
 
 pub(crate) static BOUNDARY: &[Key] = &[

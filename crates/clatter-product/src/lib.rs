@@ -58,7 +58,7 @@ pub use attitude::{Attitude, Base};
 pub use check::{LEAST_GYRATION, MERGE_S, most_gyration_m};
 pub use clatter_flight::{Axis, Body, ContactLaw, Drop, Feet, OwnContact, OwnContacts, Place, Side};
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
-pub use component::{Component, Damping, Inside, Limits, Mount, places};
+pub use component::{Component, Damping, Inside, Limits, Mount, StopInput, Stops, places};
 pub use data_fault::DataFault;
 pub use error::Error;
 pub use fault::{Fault, Faults};

@@ -1,8 +1,9 @@
 //! This module defines the limited quantities, their units, and the limits of a component as numbers.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
-use clatter_shock::{DampingRatio, Extremes, Peaked, Pulse, Pulses, Response, Shape, State, Suspension};
+use clatter::Section;
+use clatter_shock::{DampingRatio, Moment, Peaked, Pulse, Pulses, Shape, State, Stop, Suspension};
 use serde::Serialize;
 
 use crate::{Component, DataFault, Error, Mount, Product, units};
@@ -22,6 +23,8 @@ pub enum LimitKind {
     AngularVelocityChange,
     /// Critical velocity change and acceleration: a shock does damage beyond both, and whichever leaves more room counts.
     DamageBoundary,
+    /// Largest speed at which the part reaches its stop, relative to the product.
+    StopSpeed,
 }
 
 /// SI unit of a limit.
@@ -82,13 +85,6 @@ impl ResponsePeak {
     pub fn of_velocity(self, velocity: f64, omega: f64) -> f64 {
         if self.power < 0 { velocity / omega.powi(-self.power) } else { velocity * omega.powi(self.power) }
     }
-    /// Returns the extremes of a response, as velocities.
-    pub(crate) fn of(self, response: &Response) -> Extremes {
-        match self.peaked {
-            Peaked::AccelerationOverOmega => response.acceleration_over_omega(),
-            Peaked::PseudoVelocity => response.pseudo_velocity(),
-        }
-    }
     /// Returns the value for a state of the part.
     #[must_use]
     pub fn of_state(self, part: &Suspension, state: State) -> f64 {
@@ -96,8 +92,17 @@ impl ResponsePeak {
         let velocity = match self.peaked {
             Peaked::AccelerationOverOmega => part.absolute_acceleration(state) / omega,
             Peaked::PseudoVelocity => omega * state.displacement,
+            Peaked::StopSpeed => state.velocity,
         };
         self.of_velocity(velocity, omega)
+    }
+    /// Returns the value at one moment of a part with stops.
+    #[must_use]
+    pub fn of_moment(self, part: &Suspension, moment: &Moment) -> f64 {
+        match self.peaked {
+            Peaked::AccelerationOverOmega => self.of_velocity(moment.acceleration / part.omega(), part.omega()),
+            Peaked::PseudoVelocity | Peaked::StopSpeed => self.of_state(part, moment.state),
+        }
     }
     /// Returns whether it is the absolute acceleration of the part, which one that is mounted rigidly has too.
     #[must_use]
@@ -109,21 +114,36 @@ impl ResponsePeak {
     pub fn grows_with_frequency(self) -> bool {
         self.power > 0
     }
-    /// Returns the peak after a velocity shock of 1, from rest.
+    /// Returns the largest peak of a part after a velocity shock of 1, from rest; where it has stops, at most.
+    #[must_use]
+    pub fn after_shock(self, part: &Suspension) -> f64 {
+        let free = self.after_impulse(part.damping());
+        libm::hypot(free, self.of_stop(part))
+    }
+    /// Returns what a stop adds: its stiffness holds the energy of a swing with the force ω₁ v of a speed v.
+    fn of_stop(self, part: &Suspension) -> f64 {
+        let rate = |stop: Stop| FRAC_PI_2 * (1.0 + stop.restitution()) / stop.contact_time() / part.omega();
+        if self.peaked == Peaked::AccelerationOverOmega { part.stop().map_or(0.0, rate) } else { 0.0 }
+    }
+    /// Returns the peak after a velocity shock of 1, from rest, of a part without stops.
     #[must_use]
     pub fn after_impulse(self, damping: DampingRatio) -> f64 {
         let factors = damping.impulse_factors();
         match self.peaked {
             Peaked::AccelerationOverOmega => factors.acceleration,
             Peaked::PseudoVelocity => factors.displacement,
+            // It has all of it at once.
+            Peaked::StopSpeed => 1.0,
         }
     }
-    /// Returns the share of a velocity that counts next to a displacement of the same size: the force of the damper.
+    /// Returns the most of the quantity in a swing of amplitude 1, as a velocity: of an acceleration with the forces of damper and stop.
     #[must_use]
-    pub fn of_damper(self, damping: DampingRatio) -> f64 {
+    pub fn in_swing(self, part: &Suspension) -> f64 {
         match self.peaked {
-            Peaked::AccelerationOverOmega => 2.0 * damping.get(),
-            Peaked::PseudoVelocity => 0.0,
+            Peaked::AccelerationOverOmega => {
+                libm::hypot(libm::hypot(2.0 * part.damping().get(), 1.0), self.of_stop(part))
+            }
+            Peaked::PseudoVelocity | Peaked::StopSpeed => 1.0,
         }
     }
 }
@@ -146,7 +166,7 @@ struct Row {
     source: Source,
 }
 
-const ROWS: [Row; 5] = [
+const ROWS: [Row; 6] = [
     Row {
         kind: LimitKind::Acceleration,
         name: "acceleration",
@@ -201,6 +221,17 @@ const ROWS: [Row; 5] = [
         allowed: "critical velocity change",
         unit: Unit::MeterPerSecond,
         source: Source::Boundary,
+    },
+    Row {
+        kind: LimitKind::StopSpeed,
+        name: "stop-speed",
+        key: "stop_speed_limit",
+        lever: "stop-speed-limit",
+        words: "stop speed",
+        measured: "speed at the stop",
+        allowed: "stop speed limit",
+        unit: Unit::MeterPerSecond,
+        source: Source::Response(ResponsePeak { peaked: Peaked::StopSpeed, power: 0 }),
     },
 ];
 
@@ -363,13 +394,18 @@ impl Limit {
             (Source::Turn, ..) => 0.0,
             (Source::Shock | Source::Boundary, ..) => delta_v_m_s,
             (Source::Response(_), None, time) => time.map_or(f64::INFINITY, amplitude),
-            (Source::Response(peak), Some(part), None) => {
+            (Source::Response(peak), Some(part), None) if part.stop().is_none() => {
                 peak.of_velocity(delta_v_m_s, part.omega()) * peak.after_impulse(part.damping())
             }
-            (Source::Response(peak), Some(part), Some(duration)) => {
-                let pulse = Pulse { shape: Shape::HalfSine, amplitude: amplitude(duration), duration, start: 0.0 };
-                let response = Pulses::new(&[pulse])?.respond(part);
-                peak.of_velocity(peak.of(&response).magnitude(), part.omega())
+            (Source::Response(peak), Some(part), time) => {
+                let half_sine =
+                    |duration| Pulse { shape: Shape::HalfSine, amplitude: amplitude(duration), duration, start: 0.0 };
+                let pulses = match time {
+                    Some(duration) => Pulses::new(&[half_sine(duration)])?,
+                    None => Pulses::of_sections([Section::shock(0.0, 0.0, delta_v_m_s)])?,
+                };
+                let most = pulses.peak_above(part, peak.peaked, 0.0).map_or(0.0, |most| most.value.abs());
+                peak.of_velocity(most, part.omega())
             }
         })
     }

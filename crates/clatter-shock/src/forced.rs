@@ -212,7 +212,7 @@ pub(crate) struct Segment<'a> {
 /// The motion and the forcing at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sample {
-    tau: f64,
+    pub(crate) tau: f64,
     pub(crate) m: Motion,
     /// Steady motion under the forcing alone; infinite or not a number at resonance without damping.
     steady: Motion,

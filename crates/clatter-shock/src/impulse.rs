@@ -4,7 +4,7 @@ use crate::eight::{LARGEST_ANGLE, WIDTH};
 use crate::peaks::{Extreme, Peaks, Range, Response};
 use crate::side_by_side::SideBySide;
 use crate::suspension::{Modes, Motion, Phase};
-use crate::{Error, Peaked, Pulses, Suspension};
+use crate::{Error, Hit, Peaked, Pulses, Suspension};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -128,6 +128,13 @@ impl VelocityShocks {
             run.shock(shock.time, shock.delta_v);
         }
         run.finish(|i| self.shocks[i].time)
+    }
+    /// Returns every touch of a stop, as [`Pulses::hits`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn hits(&self, suspension: &Suspension) -> Result<Vec<Hit>, Error> {
+        Pulses::of_shocks(&self.shocks).hits(suspension)
     }
     /// Returns the peak of one quantity, ωz or A/ω with its sign or the speed at a stop, if it passes `above` ≥ 0 either
     /// way, as [`Pulses::peak_above`](crate::Pulses::peak_above).

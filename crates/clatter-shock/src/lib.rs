@@ -87,7 +87,7 @@ pub use history_boundary::HistoryBoundary;
 pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Peaked, Response};
-pub use pulse::{Pulse, Pulses, Shape};
+pub use pulse::{Moment, Pulse, Pulses, Shape};
 pub use pulse_fit::{PulseFit, fit_pulses, pulse_at};
 pub use required::{Deviation, RequiredSpectrum};
 pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshold};

@@ -11,6 +11,7 @@ use clatter::{Section, Sine};
 use num_complex::Complex64;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+pub use stopped::Moment;
 use stopped::{MOST_HITS, Stopped, Systems, Wanted};
 
 /// The classical pulse shapes, of amplitude a and duration D.
@@ -467,6 +468,37 @@ impl Pulses {
             None => Ok(part.touches.iter().map(|touch| touch.hit).collect()),
             Some(_) => Err(Error::Hits(MOST_HITS)),
         }
+    }
+    /// Returns the motion of a component with a stop until the end of the history, at times no further apart than `step`, for a picture:
+    /// both ends of every phase are among them. None without a stop.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Quantity`] unless the step is positive and finite, [`Error::Hits`] beyond 100 000 touches.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use clatter::Section;
+    /// # use clatter_shock::{DampingRatio, Pulses, Stop, Suspension};
+    /// let part = Suspension::new(1e-3, DampingRatio::new(0.0)?)?.with_stop(Stop::new(1e-3, 1e-4, 1.0)?);
+    /// let curve = Pulses::of_sections([Section::shock(0.0, 3e-3, -1.0)])?.motion(&part, 1e-5)?;
+    /// // It presses with (π/2)(1 + e) v/τ at most.
+    /// let most = curve.iter().map(|moment| moment.acceleration.abs()).fold(0.0, f64::max);
+    /// assert!((most / (std::f64::consts::PI / 1e-4) - 1.0).abs() < 0.02);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    pub fn motion(&self, suspension: &Suspension, step: f64) -> Result<Vec<Moment>, Error> {
+        let step = crate::error::positive("step of the curve", step)?;
+        let Some(stop) = suspension.stop() else { return Ok(Vec::new()) };
+        let systems = Systems::new(suspension, stop);
+        let mut part = Stopped::new(self, &systems, Wanted { quantities: &[], ranges: &mut [] });
+        part.curve = Some((step, Vec::new()));
+        part.drive();
+        if part.gave_up().is_some() {
+            return Err(Error::Hits(MOST_HITS));
+        }
+        Ok(part.curve.map_or_else(Vec::new, |(_, curve)| curve))
     }
     /// Notes the extremes of a component with a stop; all are infinite if it gives up.
     fn drive_stopped(&self, suspension: &Suspension, stop: Stop, wanted: Wanted, rings_down: bool) {

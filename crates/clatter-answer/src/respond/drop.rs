@@ -106,8 +106,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     }
     let asked = OneDrop { drop, model, tolerance, suspension, limits: limits.as_deref(), shock_table };
     let place = asked.at(places)?;
-    let swings = |part: Suspension| Swings { omega_rad_s: part.omega(), damping_ratio: part.damping().get() };
-    let drop = Case { drop, model, tolerance, place: places[place.index], swings: suspension.map(swings) };
+    let drop = Case { drop, model, tolerance, place: places[place.index], swings: suspension.map(Swings::of) };
     Ok(Answer { drop, place })
 }
 

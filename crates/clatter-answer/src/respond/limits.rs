@@ -5,7 +5,7 @@ use clatter_product::{Drop, LimitKind, Model, Place, Unit};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
-use super::{Equivalent, Factors, Largest, LargestValues, Peaks, swings};
+use super::{AtStop, Equivalent, Factors, Largest, LargestValues, Peaks, swings};
 use crate::{Error, Json};
 
 /// One limit of a part in one drop; null where nothing acts on the part, or where the demand is not known.
@@ -73,6 +73,9 @@ pub struct AtPlace {
     /// The part and its peaks.
     #[serde(flatten)]
     pub part: Option<Peaks>,
+    /// The hits of its stops, where it has any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_stop: Option<AtStop>,
     /// Largest change of velocity of one shock at the place.
     pub velocity_change_m_s: Json,
     /// Largest acceleration that acts there; null without a contact time.
@@ -156,12 +159,14 @@ impl OneDrop<'_> {
             clatter_assess::respond(&self.drop, place, &part, self.model, self.tolerance).map(|found| (part, found))
         };
         let response = self.suspension.map(response).transpose()?;
-        let part = response.as_ref().map(|(part, response)| Peaks::new(part, response, |_| None));
+        let part = response.as_ref().map(|(part, (response, _))| Peaks::new(part, response, |_| None));
+        let at_stop =
+            response.as_ref().filter(|(part, _)| part.stop().is_some()).map(|(_, (_, hits))| AtStop::of(hits));
         let at_once =
             self.suspension.map(|of| Factors::at_once(of.damping(), self.drop.restitution, self.drop.speed_m_s));
         let equivalent = response.as_ref().zip(self.shock_table);
         let equivalent =
-            equivalent.map(|((part, response), table)| Equivalent::new(&table, part, response)).transpose()?;
+            equivalent.map(|((part, (response, _)), table)| Equivalent::new(&table, part, response)).transpose()?;
         Ok(AtPlace {
             index,
             limits,
@@ -173,6 +178,7 @@ impl OneDrop<'_> {
             standard: at_once.map(|[_, standard]| standard),
             gain: part.zip(at_once).map(|(part, [_, standard])| part.gain(&standard)),
             part,
+            at_stop,
             equivalent,
         })
     }

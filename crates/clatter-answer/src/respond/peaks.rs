@@ -3,7 +3,7 @@
 use clatter_assess::Answer;
 use clatter_product::Unit;
 use clatter_shock::{
-    DampingRatio, EquivalentPulse, ImpulseFactors, Response, STANDARD_GRAVITY_M_S2, ShockTable, Suspension,
+    DampingRatio, EquivalentPulse, Hit, ImpulseFactors, Response, STANDARD_GRAVITY_M_S2, ShockTable, Suspension,
     covering_condition,
 };
 use serde::Serialize;
@@ -98,6 +98,34 @@ impl Peaks {
     /// Returns the peak acceleration over that of a single shock.
     pub(super) fn gain(&self, shock: &Factors) -> Json {
         Json(self.peak_absolute_acceleration_over_omega.0 / shock.peak_absolute_acceleration_over_omega.0)
+    }
+}
+
+/// The hits of the stops of a part.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct AtStop {
+    /// The largest speed at which the part reaches a stop, relative to its base; 0 where it reaches none.
+    pub largest_hit_m_s: Json,
+    /// All hits, in order of time.
+    pub hits: Vec<HitStop>,
+}
+
+/// A hit of a stop.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct HitStop {
+    /// The time at which the stop is reached.
+    pub time_s: Json,
+    /// The speed of the part relative to its base.
+    pub speed_m_s: Json,
+}
+
+impl AtStop {
+    pub(super) fn of(hits: &[Hit]) -> Self {
+        let largest = hits.iter().map(|hit| hit.speed).fold(0.0, f64::max);
+        let hits = hits.iter().map(|hit| HitStop { time_s: Json(hit.time), speed_m_s: Json(hit.speed) }).collect();
+        Self { largest_hit_m_s: Json(largest), hits }
     }
 }
 

@@ -1,7 +1,7 @@
 //! This module defines the levers that a designer can change, the bounds of a change, and its effect.
 
 use crate::ComponentAssessment;
-use clatter_product::{Component, Error, LimitKind, Mount, Product, units};
+use clatter_product::{Component, Error, LimitKind, Mount, Product, Stops, units};
 
 /// One thing that a designer can change while all else stays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,14 +20,18 @@ pub enum Lever {
     Damping,
     /// The time of a lone contact of an end, by a bumper; a range is multiplied as a whole.
     ContactTime,
+    /// The gap of the part's stops; a range is multiplied as a whole.
+    StopGap,
+    /// The time of a contact of the part with its stops, by softer ones; a range is multiplied as a whole.
+    StopTime,
     /// The allowed value of a limit, by a stronger part or more room; a range is multiplied as a whole, of a damage boundary its critical
     /// velocity change.
     Limit(LimitKind),
 }
 
 impl Lever {
-    /// Returns the levers of a part: the inertia ratio of a bar, the place across a plate, the contact time where the file gives one, and
-    /// each of its limits.
+    /// Returns the levers of a part: the inertia ratio of a bar, the place across a plate, the contact time where the file gives one, its
+    /// stops where it has some, and each of its limits.
     #[must_use]
     pub fn of(product: &Product, component: &Component) -> Vec<Self> {
         let mut levers = if product.body.is_wide() {
@@ -37,12 +41,13 @@ impl Lever {
         };
         levers.extend([Self::Frequency, Self::Damping]);
         levers.extend(product.contact_time_s.map(|_| Self::ContactTime));
+        levers.extend(component.stops.iter().flat_map(|_| [Self::StopGap, Self::StopTime]));
         levers.extend(component.limits.kinds().into_iter().map(Self::Limit));
         levers
     }
 
     /// Returns its name: `inertia-ratio`, `restitution`, `position`, `position-across`, `natural-frequency`, `damping-ratio`,
-    /// `contact-time`; of a limit `acceleration-limit`, `rattle-space`, …
+    /// `contact-time`, `stop-gap`, `stop-contact-time`; of a limit `acceleration-limit`, `rattle-space`, …
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -53,6 +58,8 @@ impl Lever {
             Self::Frequency => "natural-frequency",
             Self::Damping => "damping-ratio",
             Self::ContactTime => "contact-time",
+            Self::StopGap => Stops::INPUTS[0].name,
+            Self::StopTime => Stops::INPUTS[1].name,
             Self::Limit(kind) => kind.lever(),
         }
     }
@@ -67,6 +74,8 @@ impl Lever {
             Self::Frequency => "natural frequency",
             Self::Damping => "damping ratio",
             Self::ContactTime => "contact time",
+            Self::StopGap => Stops::INPUTS[0].words,
+            Self::StopTime => Stops::INPUTS[1].words,
             Self::Limit(kind) => kind.allowed(),
         }
     }
@@ -75,9 +84,9 @@ impl Lever {
     pub fn unit(self) -> &'static str {
         match self {
             Self::InertiaRatio | Self::Restitution | Self::Damping => "",
-            Self::Position | Self::Across => "m",
+            Self::Position | Self::Across | Self::StopGap => "m",
             Self::Frequency => "Hz",
-            Self::ContactTime => "s",
+            Self::ContactTime | Self::StopTime => "s",
             Self::Limit(kind) => kind.unit().name(),
         }
     }
@@ -89,6 +98,8 @@ impl Lever {
             (Self::Across, _) => component.across_m.unit(),
             (Self::Frequency, Mount::Suspended { frequency_hz, .. }) => frequency_hz.unit(),
             (Self::ContactTime, _) => product.contact_time_s.and_then(|time| time.unit()),
+            (Self::StopGap, _) => component.stops.and_then(|stops| stops.gap_m.unit()),
+            (Self::StopTime, _) => component.stops.and_then(|stops| stops.contact_time_s.unit()),
             (Self::Limit(kind), _) => component.limits.unit(kind, kind.unit()),
             _ => None,
         }
@@ -106,9 +117,9 @@ pub struct Bounds {
     pub frequency_factor: f64,
     /// Damping ratios that can be had.
     pub damping: [f64; 2],
-    /// Contact times that can be had, in s.
+    /// Contact times that can be had, in s; of a stop from the least of them to the period of the part.
     pub contact_time_s: [f64; 2],
-    /// Largest factor on a limit, up.
+    /// Largest factor on a limit, up, and on the gap of a stop, up or down.
     pub limit_factor: f64,
 }
 

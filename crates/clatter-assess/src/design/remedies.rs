@@ -247,7 +247,7 @@ impl Case<'_> {
         let suspended = matches!(self.component.mount, Mount::Suspended { .. });
         let responds = kinds.iter().any(|kind| kind.is_response());
         match lever {
-            Lever::Frequency | Lever::Damping => suspended && responds,
+            Lever::Frequency | Lever::Damping | Lever::StopGap | Lever::StopTime => suspended && responds,
             Lever::Position | Lever::Across => kinds.iter().any(|kind| kind.source() != Source::Turn),
             Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime | Lever::Limit(_) => true,
         }

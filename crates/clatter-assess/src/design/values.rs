@@ -2,7 +2,7 @@
 
 use super::lever::{Change, Lever};
 use super::remedies::Case;
-use clatter_product::{Damping, Law, Mount, Product, ProductFile, Spread};
+use clatter_product::{Damping, Law, LimitKind, Mount, Product, ProductFile, Spread};
 
 impl Case<'_> {
     /// Returns the present value, low and high end.
@@ -18,6 +18,8 @@ impl Case<'_> {
             (Lever::Damping, Mount::Suspended { damping, .. }) => damping.ratios(),
             (Lever::Frequency | Lever::Damping, Mount::Hard) => [0.0; 2],
             (Lever::ContactTime, _) => product.contact_time_s.as_ref().map_or([0.0; 2], of),
+            (Lever::StopGap, _) => component.stops.map_or([0.0; 2], |stops| of(&stops.gap_m)),
+            (Lever::StopTime, _) => component.stops.map_or([0.0; 2], |stops| of(&stops.contact_time_s)),
             (Lever::Limit(kind), _) => component.limits.get(kind).map_or([0.0; 2], of),
         }
     }
@@ -43,6 +45,18 @@ impl Case<'_> {
                 let [least, most] = self.bounds.contact_time_s;
                 let (down, up) = (libm::log(least / lo), libm::log(most / hi));
                 [down.min(up), up.max(down)]
+            }
+            Lever::StopGap => {
+                let most = libm::log(self.bounds.limit_factor);
+                let space = self.component.limits.get(LimitKind::RattleSpace);
+                [-most, space.map_or(most, |space| libm::log(space.hi() / hi).clamp(0.0, most))]
+            }
+            Lever::StopTime => {
+                let period_s = match self.component.mount {
+                    Mount::Suspended { frequency_hz, .. } => frequency_hz.lo().recip(),
+                    Mount::Hard => hi,
+                };
+                [libm::log(self.bounds.contact_time_s[0] / lo).min(0.0), libm::log(period_s / hi).max(0.0)]
             }
             Lever::Limit(_) => [0.0, libm::log(self.bounds.limit_factor)],
         }
@@ -126,6 +140,8 @@ impl Case<'_> {
                 (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = Damping::Ratio(range),
                 (Lever::Frequency | Lever::Damping, Mount::Hard) => return None,
                 (Lever::ContactTime, _) => product.contact_time_s = Some(range),
+                (Lever::StopGap, _) => component.stops.as_mut()?.gap_m = range,
+                (Lever::StopTime, _) => component.stops.as_mut()?.contact_time_s = range,
                 (Lever::Limit(kind), _) => *component.limits.get_mut(kind)? = range,
             }
         }
@@ -149,7 +165,8 @@ fn within(room_m: f64, range_m: f64) -> [f64; 2] {
 
 /// Returns whether a lever multiplies the present value.
 fn multiplied(lever: Lever) -> bool {
-    matches!(lever, Lever::Frequency | Lever::ContactTime | Lever::Limit(_))
+    use Lever::{ContactTime, Frequency, Limit, StopGap, StopTime};
+    matches!(lever, Frequency | ContactTime | StopGap | StopTime | Limit(_))
 }
 
 /// Rounds a value to the second digit of a size.

@@ -1,7 +1,9 @@
 //! This module bounds the effect of strikes that may come after a motion was left, by the energy that is left.
 
+use std::f64::consts::FRAC_PI_2;
+
 use clatter_flight::Followed;
-use clatter_shock::Suspension;
+use clatter_shock::{State, Stop, Suspension};
 
 use super::{PlaceHistory, kept_arms};
 use crate::bound::box_acceleration;
@@ -51,6 +53,16 @@ impl GivenUp {
     }
 }
 
+/// Returns the amplitude of a part in this state as a velocity, with what its stop holds: at most ½ k₁ d² at a depth d.
+pub(super) fn swing(part: &Suspension, state: State) -> f64 {
+    let free = libm::hypot(part.omega() * state.displacement, state.velocity);
+    let pressed = |stop: Stop| {
+        let rate = FRAC_PI_2 * (1.0 + stop.restitution()) / stop.contact_time();
+        rate * (state.displacement.abs() - stop.gap()).max(0.0)
+    };
+    libm::hypot(free, part.stop().map_or(0.0, pressed))
+}
+
 /// Returns the rate at which the free motion of a part decays, over ω.
 pub(super) fn slowest(part: &Suspension) -> f64 {
     let zeta = part.damping().get();
@@ -77,7 +89,7 @@ impl PlaceHistory<'_> {
         let most = match limit.kind.source() {
             Source::Response(peak) => {
                 let of = |part: &Suspension| {
-                    let unit = peak.of_velocity(peak.after_impulse(part.damping()), part.omega());
+                    let unit = peak.of_velocity(peak.after_shock(part), part.omega());
                     self.rings_most(unit / limit.allowed, part, later.shock_of(part), above)
                 };
                 let most = parts.into_iter().map(of).reduce(f64::max);
@@ -99,8 +111,8 @@ impl PlaceHistory<'_> {
         let Source::Response(peak) = limit.kind.source() else { return 0.0 };
         let of = |part: &Suspension| {
             let (omega, rest) = (part.omega(), self.end_of(part));
-            let per_velocity = peak.of_velocity(peak.after_impulse(part.damping()), omega) / limit.allowed;
-            let rings = libm::hypot(omega * rest.displacement, rest.velocity);
+            let per_velocity = peak.of_velocity(peak.after_shock(part), omega) / limit.allowed;
+            let rings = swing(part, rest);
             per_velocity * (rings + 2.0 * self.followed.weight_to_come_m_s2() / omega)
         };
         parts.into_iter().map(of).fold(0.0, f64::max)
@@ -154,7 +166,7 @@ impl PlaceHistory<'_> {
             return 0.0;
         }
         let rest = self.end_of(part);
-        per_velocity * (libm::hypot(omega * rest.displacement, rest.velocity) + shock)
+        per_velocity * (swing(part, rest) + shock)
     }
     /// Returns the error bound of a shock of this size: the share of the largest shock that lever arms get wrong, and the amount by which
     /// later ones could exceed it.
@@ -179,7 +191,7 @@ impl PlaceHistory<'_> {
             (Source::Turn, _) => later.turn_rad_s,
             (Source::Shock | Source::Boundary, _) => later.turned_m_s,
             (Source::Response(peak), Some(part)) => {
-                let unit = peak.of_velocity(peak.after_impulse(part.damping()), part.omega());
+                let unit = peak.of_velocity(peak.after_shock(part), part.omega());
                 self.rings_most(unit, part, later.shock_of(part), 0.0)
             }
             (Source::Response(_), None) => later.acceleration_m_s2,
@@ -229,7 +241,7 @@ mod tests {
         assert!(later.shock_m_s >= (1.0 + e) * lands && later.turned_m_s >= (1.0 + e) * lands, "{}", later.shock_m_s);
         let thick = 0.02_f64.powi(2) / 12.0;
         let own = 1.0 + 0.06_f64.powi(2) / (0.058_f64.powi(2) + thick) + 0.04_f64.powi(2) / (0.039_f64.powi(2) + thick);
-        let peak = lands * std::f64::consts::FRAC_PI_2 * (1.0 + e) / time_s * (4.0 / own).sqrt();
+        let peak = lands * FRAC_PI_2 * (1.0 + e) / time_s * (4.0 / own).sqrt();
         assert!(later.acceleration_m_s2 >= peak, "{} below {peak}", later.acceleration_m_s2);
         // All of it in a turn about the axis of least inertia.
         let least = (0.039_f64.powi(2) + thick).sqrt();
@@ -257,7 +269,7 @@ mod tests {
         let part = Suspension::from_hz(40.0, clatter_shock::DampingRatio::new(0.05).unwrap()).unwrap();
         let asked = place.answer_or_nothing(&limit, Some(&part)).unwrap();
         // It comes down with e v = 1 m/s: on its end that would be one blow of (1 + e) e v, by which the part swings v/ω, less e^(−ζ π/2).
-        let swing = 1.5 * 0.995 / part.omega() * (-0.05 * std::f64::consts::FRAC_PI_2).exp();
+        let swing = 1.5 * 0.995 / part.omega() * (-0.05 * FRAC_PI_2).exp();
         assert!(asked.value.abs() < 1e-12 && (swing..4.0 * swing).contains(&asked.off_by), "{asked:?}, {swing}");
     }
 
@@ -340,7 +352,7 @@ mod tests {
         let followed = follow(&drop, Model::Compliant, 0.01, Until::Lands).unwrap();
         let later = PlaceHistory::new(&followed, Place::default()).unwrap().later();
         let duration = time_s * (0.5 * (1.0 + (0.075_f64 / 0.045).powi(2))).sqrt();
-        let amplitude = (1.0 + e) * e * v * std::f64::consts::FRAC_PI_2 / duration;
+        let amplitude = (1.0 + e) * e * v * FRAC_PI_2 / duration;
         let shape = clatter_shock::Shape::HalfSine;
         let blow =
             clatter_shock::Pulses::new(&[clatter_shock::Pulse { shape, amplitude, duration, start: 0.0 }]).unwrap();

@@ -264,6 +264,11 @@ pub(super) fn parts(component: &Component, limit: &Limit, worst: Option<&WorstCa
     let mut all = vec![(frequency_hz.lo(), least), (frequency_hz.hi(), least)];
     all.extend(worst.and_then(|worst| worst.frequency_hz().zip(worst.damping_ratio())));
     all.dedup();
-    let part = |&(hz, ratio): &(f64, f64)| Suspension::from_hz(hz, DampingRatio::new(ratio).ok()?).ok();
-    all.iter().filter_map(part).map(Some).collect()
+    let stop = component.stops.as_ref().and_then(|stops| stops.hardest().ok());
+    let part = |&(hz, ratio): &(f64, f64)| {
+        let free = Suspension::from_hz(hz, DampingRatio::new(ratio).ok()?).ok()?;
+        Some(stop.map_or(free, |stop| free.with_stop(stop)))
+    };
+    let own = worst.map(|worst| worst.part.suspension).filter(|_| stop.is_some());
+    all.iter().filter_map(part).map(Some).chain(own).collect()
 }

@@ -9,7 +9,9 @@ use super::full::{self, FollowedDrops, LEAST};
 use super::philox::Stream;
 use super::sample::{PartSample, Sample};
 use super::{SampleDemand, cheap};
-use clatter_product::{Component, Drop, Error, Input, Limit, MERGE_S, Model, Mount, ProductFile, Spread, searched};
+use clatter_product::{
+    Component, Drop, Error, Input, Limit, MERGE_S, Model, Mount, ProductFile, Spread, Stops, searched,
+};
 
 /// The worst at every point of a plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,7 +130,9 @@ fn variants(component: &Component) -> Result<Vec<PartSample>, Error> {
         let [least, most] = damping.ratios();
         for ratio in std::iter::once(least).chain((most > least).then_some(most)) {
             for hz in three(frequency_hz) {
-                suspensions.push(Some(Suspension::from_hz(hz, DampingRatio::new(ratio)?)?));
+                let free = Suspension::from_hz(hz, DampingRatio::new(ratio)?)?;
+                let stop = component.stops.as_ref().map(Stops::hardest).transpose()?;
+                suspensions.push(Some(stop.map_or(free, |stop| free.with_stop(stop))));
             }
         }
     }

@@ -182,6 +182,8 @@ pub enum Column {
     FrequencyHz(usize),
     /// Damping ratio of a part, where it varies.
     DampingRatio(usize),
+    /// A number of the stops of a part in SI, by its index in [`Stops::INPUTS`](clatter_product::Stops::INPUTS), where it varies.
+    Stop(usize, usize),
     /// The place of the middle of a part, in m, where it varies.
     PositionM(usize),
     /// The place of the middle of a part across a plate, in m, where it varies.

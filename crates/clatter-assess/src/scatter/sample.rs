@@ -11,7 +11,7 @@ use super::philox::Stream;
 use super::{Column, PlateAs};
 use clatter_product::{
     Base, Component, Damping, Error, INPUTS, Input, Inside, Law, Limit, LimitKind, Listed, Mount, NUMBERS_OF_ALL,
-    NUMBERS_OF_DROP, Product, ProductFile, Source, Spread, places,
+    NUMBERS_OF_DROP, Product, ProductFile, Source, Spread, Stops, places,
 };
 
 /// An input that varies from sample to sample; parts are given by their index in the file.
@@ -24,6 +24,8 @@ pub enum Varied {
     Frequency(usize),
     /// Damping ratio or quality factor of a part, whichever the file gives.
     Damping(usize),
+    /// A number of the stops of a part, by its index in [`Stops::INPUTS`].
+    Stop(usize, usize),
     /// The place of a part.
     Position(usize),
     /// The place of a part across a plate.
@@ -35,7 +37,7 @@ pub enum Varied {
 }
 
 impl Varied {
-    /// Returns the name of the input of the drop, or `natural-frequency`, `damping`, `position`, `position-across`, `limit` or
+    /// Returns the name of the input of the drop, or `natural-frequency`, `damping`, `stop-gap`, …, `position`, `position-across`, `limit` or
     /// `critical-acceleration`.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -43,6 +45,7 @@ impl Varied {
             Self::Drop(input, _) => input.row().name,
             Self::Frequency(_) => "natural-frequency",
             Self::Damping(_) => "damping",
+            Self::Stop(_, n) => Stops::INPUTS[*n].name,
             Self::Position(_) => "position",
             Self::Across(_) => "position-across",
             Self::Limit(..) => "limit",
@@ -60,6 +63,7 @@ impl Varied {
         match self {
             Self::Frequency(i)
             | Self::Damping(i)
+            | Self::Stop(i, _)
             | Self::Position(i)
             | Self::Across(i)
             | Self::Limit(i, _)
@@ -73,6 +77,7 @@ impl Varied {
             Self::Drop(input, landing) => Column::Drop(input.told(), landing),
             Self::Frequency(i) => Column::FrequencyHz(i),
             Self::Damping(i) => Column::DampingRatio(i),
+            Self::Stop(i, n) => Column::Stop(i, n),
             Self::Position(i) => Column::PositionM(i),
             Self::Across(i) => Column::AcrossM(i),
             Self::Limit(i, kind) => Column::Limit(i, kind),
@@ -94,6 +99,8 @@ impl Varied {
             Self::Position(_) => 2,
             Self::CriticalAcceleration(_) => 3,
             Self::Across(_) => 4,
+            #[expect(clippy::cast_possible_truncation, reason = "one of three")]
+            Self::Stop(_, n) => 5 + n as u32,
             Self::Limit(_, kind) => 8 + kind as u32,
         };
         #[expect(clippy::cast_possible_truncation, reason = "a file has at most 1000 parts")]
@@ -159,6 +166,7 @@ struct PartInputs {
     extent_m: [f64; 2],
     inside: Inside,
     mount: Option<(Drawn, Drawn, Damping)>,
+    stops: Option<[Drawn; 3]>,
     limits: Vec<(LimitKind, Drawn, Option<Drawn>)>,
 }
 
@@ -257,8 +265,16 @@ impl Finder {
                 critical.map(|spread| self.drawn(Varied::CriticalAcceleration(i), spread, &of)).transpose()?;
             limits.push((kind, allowed, critical));
         }
+        let stops = match &component.stops {
+            None => None,
+            Some(stops) => {
+                let [gap, time, restitution] = stops.ranges();
+                let mut drawn = |n, range| self.drawn(Varied::Stop(i, n), range, &of);
+                Some([drawn(0, gap)?, drawn(1, time)?, drawn(2, restitution)?])
+            }
+        };
         let extent_m = [component.extent_m, component.extent_across_m];
-        Ok(PartInputs { position, extent_m, inside: component.inside, mount, limits })
+        Ok(PartInputs { position, extent_m, inside: component.inside, mount, stops, limits })
     }
 
     /// Collects which end is first, and the inputs of a drop; of one of several, which it is.
@@ -370,7 +386,9 @@ impl Inputs {
             });
             if let Some((frequency, given, damping)) = &inputs.mount {
                 let ratio = damping.ratio(given.at(uniforms))?;
-                part.suspension = Some(Suspension::from_hz(frequency.at(uniforms), ratio)?);
+                let free = Suspension::from_hz(frequency.at(uniforms), ratio)?;
+                let stop = inputs.stops.map(|stops| Stops::of(stops.map(|drawn| drawn.at(uniforms)))).transpose()?;
+                part.suspension = Some(stop.map_or(free, |stop| free.with_stop(stop)));
             }
             for (limit, (_, allowed, critical)) in part.limits.iter_mut().zip(&inputs.limits) {
                 limit.allowed = allowed.at(uniforms);
@@ -411,6 +429,7 @@ impl Inputs {
         all.extend(shared.map(|input| Column::Drop(input, None)));
         for (i, part) in self.parts.iter().enumerate() {
             all.extend(part.mount.map(|_| [Column::FrequencyHz(i), Column::DampingRatio(i)]).into_iter().flatten());
+            all.extend((0..3).filter(|_| part.stops.is_some()).map(|n| Column::Stop(i, n)));
             all.push(Column::PositionM(i));
             all.extend(is_plate.then_some(Column::AcrossM(i)));
             for (kind, _, critical) in &part.limits {
@@ -454,6 +473,7 @@ impl Inputs {
             columns.extend(part.mount.map(|_| Column::FrequencyHz(i)));
             columns.extend(self.varied.iter().filter_map(|input| match *input {
                 Varied::Damping(of) if of == i => Some(Column::DampingRatio(i)),
+                Varied::Stop(of, n) if of == i => Some(Column::Stop(i, n)),
                 Varied::Position(of) if of == i => Some(Column::PositionM(i)),
                 Varied::Across(of) if of == i => Some(Column::AcrossM(i)),
                 Varied::Limit(of, kind) if of == i => Some(Column::Limit(i, kind)),
@@ -480,6 +500,7 @@ impl Sample {
             Column::Drop(input, landing) => input.value(&self.drops[landing.unwrap_or(0)]),
             Column::FrequencyHz(i) => suspension(i).map(|part| part.omega() / TAU),
             Column::DampingRatio(i) => suspension(i).map(|part| part.damping().get()),
+            Column::Stop(i, n) => suspension(i).and_then(Suspension::stop).map(|stop| Stops::numbers(&stop)[n]),
             Column::PositionM(i) => Some(self.parts[i].at_m[0]),
             Column::AcrossM(i) => Some(self.parts[i].at_m[1]),
             Column::Limit(i, kind) => limit(i, kind).map(|limit| limit.allowed),

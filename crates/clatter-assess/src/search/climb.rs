@@ -5,7 +5,7 @@ use super::budgets::{
     EDGES_TRIES, FACE_TRIES, LATE_REACH, LATE_TRIES, LATER, NEAR, NEXT,
 };
 use super::grid::halton;
-use super::ranges::{AXES, Coordinates, DAMPING, DIRECTION, FREQUENCY, Ranges, TILT};
+use super::ranges::{AXES, Coordinates, DAMPING, DIRECTION, FREQUENCY, Ranges, STOPS, TILT};
 use rayon::prelude::*;
 
 use super::{Candidate, Task, Work, fastest_rad_s, rough_to_rad_s};
@@ -60,7 +60,7 @@ impl Ranges<'_> {
                         continue;
                     }
                     let place = best.place.with(axis, share);
-                    let same = axis == FREQUENCY || axis == DAMPING;
+                    let same = axis == FREQUENCY || axis == DAMPING || STOPS.contains(&axis);
                     let moved = if same { None } else { self.follow(&place, until).ok() };
                     if !same && moved.is_none() {
                         continue;

@@ -317,7 +317,7 @@ impl Ranges<'_> {
 }
 
 /// Bases of Halton's sequence.
-const PRIMES: [u32; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+const PRIMES: [u32; 13] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41];
 const _: () = assert!(AXES <= PRIMES.len(), "each axis has its base");
 
 /// Returns number k of Halton's sequence along an axis.

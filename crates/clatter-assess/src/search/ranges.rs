@@ -8,7 +8,7 @@ use crate::WorstCase;
 use crate::search::{Candidate, Task};
 use clatter_flight::Drop;
 pub(crate) use clatter_product::AXES;
-use clatter_product::{Base, Component, ContactLaw, DropRanges, Model, Mount, Product, Spread, searched};
+use clatter_product::{Base, Component, ContactLaw, DropRanges, Model, Mount, Product, Spread, Stops, searched};
 
 /// The place of a drop and a part in the ranges.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,6 +31,8 @@ pub(super) const CONTACT: usize = 3;
 pub(crate) const FREQUENCY: usize = 4;
 pub(crate) const DAMPING: usize = 5;
 pub(crate) const DIRECTION: usize = 7;
+/// The gap of the stops of a part, their contact time and their restitution.
+pub(crate) const STOPS: [usize; 3] = [10, 11, 12];
 
 /// The ranges of a product's drops, and how they are followed.
 #[derive(Debug, Clone, Copy)]
@@ -97,6 +99,11 @@ impl Ranges<'_> {
             }
         }
         [shares[FREQUENCY], shares[DAMPING]] = part;
+        if let (Some(stops), Some(stop)) = (&component.stops, worst.part.suspension.and_then(|part| part.stop())) {
+            for ((axis, range), x) in STOPS.into_iter().zip(stops.ranges()).zip(Stops::numbers(&stop)) {
+                shares[axis] = of(range, x);
+            }
+        }
         shares[DIRECTION] = direction;
         Coordinates { first: drop.first(), flat: drop.is_flat, mirrored, at_m: worst.part.at_m(), shares }
     }
@@ -150,6 +157,11 @@ impl Ranges<'_> {
             }
             _ => [false; 2],
         };
+        if let Some(stops) = task.component.stops.as_ref().filter(|_| task.limit.is_response()) {
+            for (axis, range) in STOPS.into_iter().zip(stops.ranges()) {
+                free[axis] = !range.is_value();
+            }
+        }
         free
     }
 
@@ -226,6 +238,13 @@ impl Coordinates {
         self.shares[TILT] = 0.0;
         self
     }
+    /// Returns the same with the nearest stops that press shortest and throw back most.
+    pub(super) fn at_hardest_stops(mut self) -> Self {
+        for (axis, share) in STOPS.into_iter().zip(Stops::HARDEST) {
+            self.shares[axis] = share;
+        }
+        self
+    }
     pub(super) fn with(mut self, axis: usize, share: f64) -> Self {
         self.shares[axis] = share;
         self
@@ -251,7 +270,7 @@ mod tests {
     #[test]
     fn every_axis_is_searched_once() {
         let mut axes: Vec<usize> = searched().map(|(_, search)| search.axis).collect();
-        axes.extend([FREQUENCY, DAMPING, DIRECTION]);
+        axes.extend([FREQUENCY, DAMPING, DIRECTION].into_iter().chain(STOPS));
         axes.sort_unstable();
         assert_eq!(axes, (0..AXES).collect::<Vec<_>>());
     }

@@ -13,7 +13,7 @@ use clatter_product::{
 };
 use clatter_shock::Suspension;
 
-use super::peaks::{Shocks, doubts, equivalent_table};
+use super::peaks::{Shocks, at_stop, doubts, equivalent_table};
 use super::{Args, limits, six};
 use crate::drop_args::{ExtraArgs, Setup};
 use crate::inputs::Format;
@@ -74,7 +74,10 @@ impl Args {
         let places = self.places(&fall, &setup)?;
         let mut question = Question::new(fall, setup.model, places[0]);
         question.places = places;
-        question.suspension = self.suspension(setup.part.as_ref().and_then(|part| part.suspension))?;
+        question.suspension = {
+            let part = setup.part.as_ref();
+            self.suspension(part.and_then(|part| part.suspension), part.and_then(|part| part.stop))?
+        };
         question.limits = setup.part.as_ref().map(|part| part.allowed.clone());
         question.tolerance = self.tolerance;
         question.shock_table = self.equivalent_pulse.then_some(self.shock_table);
@@ -183,9 +186,14 @@ impl Drop<'_> {
                     Some(Quantity { si, unit }) => Show { unit, name: "Hz" }.given(self.input(si)),
                     None => format!("W = {} rad/s", given(self.input(omega.0))),
                 };
+                let stop = self.suspension.and_then(|part| part.stop()).map_or(String::new(), |stop| {
+                    let (gap, time) = (self.input(stop.gap()), self.input(stop.contact_time()));
+                    let (gap, time) = (shown.length.given(gap), shown.time.given(time));
+                    format!("; stops at {gap} with contacts of {time}, e = {}", given(self.input(stop.restitution())))
+                });
                 writeln!(
                     out,
-                    "Component at {at}{axis} of a body of {sides}, e = {e}; {frequency}, damping ratio {zeta}"
+                    "Component at {at}{axis} of a body of {sides}, e = {e}; {frequency}, damping ratio {zeta}{stop}"
                 )?;
             }
             None => writeln!(out, "Place {at}{axis} of a body of {sides}, e = {e}; a part there is mounted rigidly")?,
@@ -231,6 +239,7 @@ impl Drop<'_> {
         }
         if let Some(part) = &self.answer.place.part {
             self.peaks(part, out)?;
+            at_stop(self.answer.place.at_stop.as_ref(), self.shown.speed, self.shown.time, out)?;
         }
         self.place(out)?;
         self.shocks(out)?;

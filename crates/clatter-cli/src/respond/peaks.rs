@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::respond::{Equivalent, Factors, HalfSine, LargestValues, NOTHING_FELT, ServiceCondition};
+use clatter_answer::respond::{AtStop, Equivalent, Factors, HalfSine, LargestValues, NOTHING_FELT, ServiceCondition};
 
 use crate::numbers::figures;
 use crate::quantities::Show;
@@ -21,6 +21,17 @@ pub(super) fn equivalent_table(equivalent: Option<&Equivalent>, out: &mut dyn Wr
         None if no_equivalent_pulse.as_deref() == Some(NOTHING_FELT) => Ok(()),
         None => writeln!(out, "Shock test: no service condition of JESD22-B110 does as much to the component"),
     }
+}
+
+/// Writes the hits of the stops.
+pub(super) fn at_stop(hits: Option<&AtStop>, speed: Show, time: Show, out: &mut dyn Write) -> io::Result<()> {
+    let Some(AtStop { largest_hit_m_s, hits, .. }) = hits else { return Ok(()) };
+    let Some(hardest) = hits.iter().max_by(|a, b| a.speed_m_s.0.total_cmp(&b.speed_m_s.0)) else {
+        return writeln!(out, "  it reaches no stop");
+    };
+    let count = if hits.len() == 1 { "once".to_owned() } else { format!("{} times", hits.len()) };
+    let (name, size, at) = ("speed at the stop", speed.said(largest_hit_m_s.0), time.figures(hardest.time_s.0));
+    writeln!(out, "  {name:<32}{size:>12} {at:>13}  it is reached {count}")
 }
 
 fn half_sine(pulse: &HalfSine, out: &mut dyn Write) -> io::Result<()> {

@@ -40,7 +40,12 @@ impl Args {
         let Some(omega) = self.omega() else {
             return Err(Failure::Usage("--omega is missing: the natural angular frequency of the component"));
         };
-        let suspension = Suspension::new(omega, self.damping.ratio()?)?;
+        let free = Suspension::new(omega, self.damping.ratio()?)?;
+        let stop = self.stop.given()?;
+        if stop.is_some() && self.shocks_file.is_none() && self.pulses_file.is_none() {
+            return Err(Failure::Usage("--stop needs SI units: --model, --product or a file"));
+        }
+        let suspension = stop.map_or(free, |stop| free.with_stop(stop));
         let (file, excitation) = match (&self.shocks_file, &self.pulses_file) {
             (Some(path), _) => (Some(path), Excitation::Shocks(VelocityShocks::new(lists::shocks(path)?)?)),
             (None, Some(path)) => (Some(path), Excitation::Pulses(lists::pulses(path)?)),

@@ -3,7 +3,7 @@
 use super::{At, Reader, Section};
 use crate::check::sensor;
 use crate::quantity::Source;
-use crate::{Axis, Component, Damping, DataFault, Inside, LimitKind, Limits, Mount, Product, RecordFile};
+use crate::{Axis, Component, Damping, DataFault, Inside, LimitKind, Limits, Mount, Product, RecordFile, Stops};
 
 impl Reader {
     pub(super) fn component(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<Component> {
@@ -16,6 +16,7 @@ impl Reader {
         // A box comes down on any side: what is mounted rigidly in it is struck along the blow.
         let is_struck = self.is_box && mount == Some(Mount::Hard);
         let axis = axis.unwrap_or(if is_struck { Axis::Any } else { Axis::Z });
+        let stops = self.stops(section);
         let limits = self.limits(section);
         let (position, [extent_m, extent_across_m]) = (position?, extent.map_or([0.0; 2], |e| e.value));
         let [position_m, across_m] = position.value;
@@ -28,6 +29,7 @@ impl Reader {
             extent_across_m,
             inside: Inside { height_m, axis },
             mount: mount?,
+            stops,
             limits,
             limit_source,
         };
@@ -36,6 +38,13 @@ impl Reader {
             let height = section.table.get("height").filter(|_| is_high);
             self.data(height.map_or(position.span, toml::Spanned::span), &fault, "this position");
             return None;
+        }
+        let is_read = component.stops.is_some() || !section.table.contains_key("stop");
+        if let Err(fault) = component.check_stops()
+            && is_read
+        {
+            let value = section.table.get("stop").or(section.table.get("stop_speed_limit"));
+            self.data(value.map_or(section.span.clone(), toml::Spanned::span), &fault, "here");
         }
         if let Err(fault) = component.check_axis(self.is_box) {
             let value = section.table.get("axis").or(section.table.get("height"));
@@ -82,7 +91,7 @@ impl Reader {
         }
         if mount.is_some_and(|mount| mount.value == "hard") {
             let limits = LimitKind::ALL.into_iter().filter(|kind| kind.needs_suspension()).map(LimitKind::key);
-            for name in ["natural_frequency", "damping_ratio", "quality_factor"].into_iter().chain(limits) {
+            for name in ["natural_frequency", "damping_ratio", "quality_factor", "stop"].into_iter().chain(limits) {
                 if let Some((key, _)) = section.table.get_key_value(name) {
                     self.data(key.span(), &DataFault::Hard { field: name }, "beside mount = \"hard\"");
                 }
@@ -102,6 +111,14 @@ impl Reader {
             (None, None) => return None,
         };
         Some(Mount::Suspended { frequency_hz: frequency?.value, damping })
+    }
+
+    /// Reads the stops of a part; a fault leaves none.
+    fn stops(&mut self, section: &Section<'_>) -> Option<Stops> {
+        let section = self.table(section, "stop")?;
+        let [gap, time, restitution] =
+            ["gap", "contact_time", "restitution"].map(|name| self.spread(&section, name).map(|spread| spread.value));
+        Some(Stops { gap_m: gap?, contact_time_s: time?, restitution: restitution? })
     }
 
     fn limits(&mut self, section: &Section<'_>) -> Limits {

@@ -258,7 +258,16 @@ fn mount(component: &Component) -> String {
                 Damping::Ratio(ratio) => format!("a damping ratio of {}", range(ratio, 1.0, "")),
                 Damping::Quality(quality) => format!("a quality factor of {}", range(quality, 1.0, "")),
             };
-            format!("Its natural frequency is {}, with {damping}.", range(frequency_hz, 1.0, "Hz"))
+            let stops = component.stops.map_or(String::new(), |stops| {
+                let [gap, time, e] = stops.ranges();
+                format!(
+                    " It has stops at {}, with contacts of {} and a restitution of {}.",
+                    range(gap, 1e3, "mm"),
+                    range(time, 1e3, "ms"),
+                    range(e, 1.0, "")
+                )
+            });
+            format!("Its natural frequency is {}, with {damping}.{stops}", range(frequency_hz, 1.0, "Hz"))
         }
     }
 }

@@ -88,6 +88,20 @@ pub(crate) struct Touch {
     pub(crate) interval: usize,
 }
 
+/// The motion of a component at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// The time.
+    pub time: f64,
+    /// Displacement and velocity relative to the base.
+    pub state: State,
+    /// Absolute acceleration: that of spring, damper and stop.
+    pub acceleration: f64,
+}
+
+/// The most moments of one phase.
+const MOST_PARTS: f64 = 1e4;
+
 /// An instant as the interval it falls into and the time since its begin.
 #[derive(Debug, Clone, Copy)]
 struct When {
@@ -114,6 +128,8 @@ pub(crate) struct Stopped<'a, 'r> {
     panels: u32,
     /// Where it is no longer followed, if it touches its stops too often.
     gave_up: Option<When>,
+    /// The moments that are wanted: no further apart than so long.
+    pub(crate) curve: Option<(f64, Vec<Moment>)>,
 }
 
 impl<'a, 'r> Stopped<'a, 'r> {
@@ -132,6 +148,7 @@ impl<'a, 'r> Stopped<'a, 'r> {
             events: 0,
             panels: MOST_PANELS,
             gave_up: None,
+            curve: None,
         }
     }
     /// Returns the interval and the time at which it gave up, if it did.
@@ -283,7 +300,7 @@ impl<'a, 'r> Stopped<'a, 'r> {
     /// Takes the component to where it leaves the band of its contact, or else to the end of the segment under way, and
     /// notes its extremes until then.
     fn follow(&mut self, when: When, end: &Sample) -> Option<Exit> {
-        let (k, band) = self.band();
+        let ((k, band), center) = (self.band(), self.center());
         let segment = &self.segments[self.contact as usize];
         let mut panels = self.panels.min(MOST_PANELS_OF_ONE);
         self.panels -= panels;
@@ -296,6 +313,23 @@ impl<'a, 'r> Stopped<'a, 'r> {
         let end = exit.map_or(*end, |exit| segment.sample(Phase::product(1.0, exit.tau)));
         if exit.is_none_or(|exit| exit.tau > 0.0) {
             self.frame(when).note(&mut self.wanted, |k, range| segment.extremes(k, &end, when.interval, range));
+        }
+        if let Some((step, curve)) = &mut self.curve {
+            let (system, start) =
+                (&self.systems.list[self.contact as usize], self.pulses.begin(when.interval) + when.at);
+            let parts = (end.tau / (system.omega * *step)).ceil().clamp(1.0, MOST_PARTS);
+            let mut part = 0.0;
+            while part <= parts {
+                let tau = end.tau * (part / parts);
+                let m = segment.sample(Phase::product(1.0, tau)).m;
+                let State { displacement, velocity } = system.modes.state(system.omega, m);
+                curve.push(Moment {
+                    time: start + tau / system.omega,
+                    state: State { displacement: displacement + center, velocity },
+                    acceleration: system.omega * system.modes.quantity(Modes::ACCELERATION, m),
+                });
+                part += 1.0;
+            }
         }
         self.m = end.m;
         exit
