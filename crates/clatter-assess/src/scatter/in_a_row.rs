@@ -128,62 +128,57 @@ pub(crate) fn draw(
             let each = |(n, of_law): (usize, &OfLaw)| {
                 let asked: Vec<usize> = active.iter().copied().filter(|i| !known[*i].by_law[n].exceeded).collect();
                 let said = of_law.sample((seed, k), accuracy.tolerance, asked.iter().map(|i| &known[*i]));
-                (n, asked.into_iter().zip(said).collect::<Vec<_>>())
+                asked.into_iter().zip(said).collect()
             };
-            let said = goes_on().then(|| of_laws.iter().enumerate().map(each).collect::<Vec<_>>());
+            let said = goes_on().then(|| of_laws.iter().enumerate().map(each).collect());
             done.fetch_add(1, Ordering::Relaxed);
             said
         };
-        let wave: Vec<Option<Vec<_>>> = (next..until).into_par_iter().map(of_sample).collect();
-        for (k, said) in (next..until).zip(wave) {
-            // Those after the first that was not drawn are left out, as on one thread.
-            let Some(said) = said.filter(|_| !stopped) else {
-                stopped = true;
-                continue;
-            };
-            let mut open = vec![None; limits.len()];
-            for (n, outcomes) in said {
-                for (i, outcome) in outcomes {
-                    if let Some(error) = limits[i].by_law[n].take(k, outcome) {
-                        open[i] = open[i].take().or(Some(error));
-                    }
-                }
-            }
-            for i in &active {
-                let limit = &mut limits[*i];
-                limit.drawn += 1;
-                if let Some(error) = open[*i].take() {
-                    limit.open += 1;
-                    limit.error = limit.error.take().or(error);
-                }
-            }
+        let wave: Vec<Option<Said>> = (next..until).into_par_iter().map(of_sample).collect();
+        // Those after the first that was not drawn are left out, as on one thread.
+        for (k, said) in (next..until).zip(wave.into_iter().map_while(|said| said)) {
+            next = k + 1;
+            take(limits, &active, k, said);
         }
-        next = until;
+        stopped = next < until;
     }
     // The demand is the largest of all drops that were answered.
     for limit in limits {
-        for n in 0..limit.by_law.len() {
+        for (n, of_law) in of_laws.iter().enumerate() {
             let ByLaw { exceeded, share, most, .. } = limit.by_law[n];
             let Some((_, k, listed)) = most.filter(|(most, ..)| !exceeded && *most > share) else { continue };
-            let shown = of_laws[n].again((seed, k), listed, accuracy.tolerance, limit, share);
+            let shown = of_law.again((seed, k), listed, accuracy.tolerance, limit, share);
             limit.by_law[n].shown = shown.filter(|shown| shown.answer.utilization() <= 1.0);
         }
     }
     Ok(())
 }
 
-impl ByLaw {
-    /// Takes in what a product says; returns that it is open.
-    fn take(&mut self, k: u64, outcome: Outcome) -> Option<Option<Error>> {
-        match outcome {
-            Outcome::Open(error) => return Some(error),
-            Outcome::Exceeds(shown) if !self.exceeded => (self.exceeded, self.shown) = (true, Some(*shown)),
-            Outcome::Holds(share, listed) if self.most.is_none_or(|(most, ..)| share > most) => {
-                self.most = Some((share, k, listed));
+/// What a product says by each law of the limits of these numbers.
+type Said = Vec<Vec<(usize, Outcome)>>;
+
+/// Takes in what product k says.
+fn take(limits: &mut [DrawnLimit<'_>], active: &[usize], k: u64, said: Said) {
+    let mut open = vec![false; limits.len()];
+    for (n, outcomes) in said.into_iter().enumerate() {
+        for (i, outcome) in outcomes {
+            let of_law = &mut limits[i].by_law[n];
+            match outcome {
+                Outcome::Exceeds(shown) => (of_law.exceeded, of_law.shown) = (true, of_law.shown.or(Some(*shown))),
+                Outcome::Holds(share, listed) if of_law.most.is_none_or(|(most, ..)| share > most) => {
+                    of_law.most = Some((share, k, listed));
+                }
+                Outcome::Holds(..) => {}
+                Outcome::Open(error) => {
+                    open[i] = true;
+                    limits[i].error = limits[i].error.take().or(error);
+                }
             }
-            Outcome::Exceeds(_) | Outcome::Holds(..) => {}
         }
-        None
+    }
+    for i in active {
+        limits[*i].drawn += 1;
+        limits[*i].open += u64::from(open[*i]);
     }
 }
 
