@@ -296,6 +296,8 @@ def assess(
     model: Model | None = None,
     merge_s: float = 1e-3,
     measured: Mapping[str, Mapping[str, Any]] | None = None,
+    reliability: float | None = None,
+    confidence: float | None = None,
     report: str | os.PathLike[str] | None = None,
     report_date: str | None = None,
 ) -> Answer:
@@ -317,6 +319,11 @@ def assess(
     measured : dict of dicts, optional
         Further measured drops, by their names: of each what :func:`fit` takes, ``strikes``, ``heights``, ``bounces``,
         ``accelerations`` and ``timing_s``.
+    reliability : float, optional
+        Draw products for each limit that is undecided, until so many hold in a row that this share of all survives, such as 0.99; in place
+        of ``[verdict] reliability`` of the product.
+    confidence : float, optional
+        How sure that is to be; 0.95 unless given.
     report : path, optional
         Write the printed report there too, a file ending in ``.pdf``; typst sets it, as for the command.
     report_date : str, optional
@@ -325,7 +332,7 @@ def assess(
     Returns
     -------
     Answer
-        ``verdict`` (safe, unsafe or undecided) and ``components`` with their ``limits``: ``allowed``, ``demand``, ``margin`` in
+        ``verdict`` (safe, reliable, undecided or unsafe) and ``components`` with their ``limits``: ``allowed``, ``demand``, ``margin`` in
         SI; ``measured`` with the ``estimates`` of each drop, where there are any; as ``clatter assess`` has it.
         ``plot()`` is the product with its parts, as the report shows it.
 

@@ -13,7 +13,7 @@ use clatter_assess::{
     ladder::ProductLadder,
     scatter::{Sampler, Settings},
 };
-use clatter_product::{EXAMPLE, ProductFile, visible};
+use clatter_product::{EXAMPLE, ProductFile, Reliability, visible};
 use clatter_report::{Pages, ReportError};
 use pyo3::prelude::*;
 
@@ -70,6 +70,7 @@ pub(crate) fn assess(py: Python<'_>, given: Given<'_>) -> PyResult<(Answered, Ve
     let (file, name, folder) = (product.file.clone(), product.name.clone(), product.folder.clone());
     let (tolerance, merge_s) = (given.read("tolerance")?, given.read("merge_s")?);
     let accuracy = Accuracy { tolerance, model: given.read("model")?, merge_s };
+    let asked = reliability(&given, &file)?;
     let (report, date) = (given.read::<Option<PathBuf>>("report")?, given.read::<Option<String>>("report_date")?);
     let measured = measured::given(&given.value("measured")?)?;
     given.done()?;
@@ -78,6 +79,9 @@ pub(crate) fn assess(py: Python<'_>, given: Given<'_>) -> PyResult<(Answered, Ve
         drops.extend(measured);
         let answer = assess_of::watched(&file, &accuracy, &|_, _| wanted.still());
         let mut answer = answer.map_err(words)?;
+        if let Some(asked) = asked {
+            answer.draw(asked, &|_, _| wanted.still()).map_err(words)?;
+        }
         answer.measured = measured::fitted(drops, &file, wanted)?;
         let told = answer.warnings().into_iter().map(|(drop, told)| format!("{drop}: {told}"));
         let mut warnings: Vec<String> = told.collect();
@@ -95,6 +99,12 @@ pub(crate) fn assess(py: Python<'_>, given: Given<'_>) -> PyResult<(Answered, Ve
         clatter_figures::assessed(&file, &assessment, &portraits)
     };
     Ok(((text, Some(Drawing::new(draw))), warnings))
+}
+
+/// Returns the reliability that is asked of a product, by its file or in place of that.
+fn reliability(given: &Given<'_>, file: &ProductFile) -> PyResult<Option<Reliability>> {
+    let (share, confidence) = (given.read::<Option<f64>>("reliability")?, given.read::<Option<f64>>("confidence")?);
+    file.asked(share, confidence).map_err(refused)
 }
 
 /// Writes the printed report. What typst says is of an outside program.

@@ -579,6 +579,68 @@ fn names_of_any_kind_keep_the_table_in_order() {
     }
 }
 
+/// A bar whose limit leaves its worst drop so little room that no search decides it.
+fn close_call() -> (tempfile::TempDir, String) {
+    let text = |limit: &str| {
+        format!(
+            "[product]\nname = \"bar\"\nlength = \"150 mm\"\nradius_of_gyration = \"45 mm\"\nrestitution = 0.3\ncontact_time = \"0.5 ms\"\n\
+             contact_law = \"hysteretic\"\n[drop]\nheight = \"1 m\"\ntilt = [\"1 deg\", \"6 deg\"]\n[[component]]\nname = \"part\"\n\
+             position = \"40 mm\"\nnatural_frequency = \"90 Hz\"\ndamping_ratio = 0.05\nacceleration_limit = \"{limit}\"\n"
+        )
+    };
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("product.toml");
+    fs::write(&path, text("9000 gn")).unwrap();
+    let path_text = path.to_str().unwrap().to_owned();
+    let json: Value = serde_json::from_str(&clatter(["assess", &path_text, "--format=json"]).stdout).unwrap();
+    let demand = json["components"][0]["limits"][0]["demand"].as_f64().unwrap();
+    fs::write(&path, text(&format!("{} m/s2", 1.005 * demand))).unwrap();
+    (dir, path_text)
+}
+
+/// What a search leaves undecided is reliable by products that are drawn, asked for by the command or by the file, in each way to be told.
+#[test]
+fn what_is_undecided_is_reliable_by_drawn_products() {
+    let (_dir, path) = close_call();
+    let outcome = clatter(["assess", &path]);
+    assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Unsafe, ""));
+    assert!(outcome.stdout.contains("\n  decided by: acceleration_limit = \""), "{}", outcome.stdout);
+    let outcome = clatter(["assess", &path, "--reliability=99%"]);
+    assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""), "{}", outcome.stdout);
+    let first = "bar is reliable: 1 of 1 components, R99 C95, 299 products, none exceeded it, as a bar; ";
+    assert!(outcome.stdout.starts_with(first), "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("\n  reliable: R99 C95, 299 products, none exceeded it\n"), "{}", outcome.stdout);
+    assert!(!outcome.stdout.contains("safe"), "it is never called so: {}", outcome.stdout);
+    let by_option = clatter(["assess", &path, "--reliability=0.9", "--confidence=90%", "--format=json"]).stdout;
+    let json: Value = serde_json::from_str(&by_option).unwrap();
+    for of in [&json["components"][0], &json["components"][0]["limits"][0]] {
+        assert_eq!([&of["verdict"], &json["verdict"]], ["reliable"; 2]);
+        assert_eq!((&of["reliability"], &of["confidence"], &of["samples"]), (&0.9.into(), &0.9.into(), &22.into()));
+    }
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, format!("{text}[verdict]\nreliability = \"90 %\"\nconfidence = 0.9\n")).unwrap();
+    assert_eq!(clatter(["assess", &path, "--format=json"]).stdout, by_option, "the file asks for the same");
+    let other = clatter(["assess", &path, "--confidence=95%", "--format=json"]).stdout;
+    assert!(other.contains("\"samples\":29"), "in place of what the file says: {other}");
+}
+
+/// A reliability has a sign of percent or is a share below 1.
+#[test]
+fn what_is_no_reliability_is_refused() {
+    let path = example("bar-handheld.toml");
+    for value in ["0", "1", "100%", "99", "NaN", "-5%", "much"] {
+        for option in ["--reliability", "--confidence"] {
+            let outcome = clatter(["assess", &path, &format!("{option}={value}")]);
+            assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""), "{value}");
+            let said = format!("'{value}' is not a share from 1% to 99.999%, such as 99% or 0.99");
+            assert!(outcome.stderr.contains(&said) && outcome.stderr.contains(option), "{}", outcome.stderr);
+        }
+    }
+    let outcome = clatter(["assess", &path, "--confidence=90%"]);
+    assert_eq!(outcome.exit, Exit::BadInput);
+    assert!(outcome.stderr.contains("a confidence is how sure a reliability is"), "{}", outcome.stderr);
+}
+
 #[test]
 fn the_schema_names_every_key_of_the_examples() {
     let schema: Value = answer_of_schema();

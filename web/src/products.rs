@@ -26,6 +26,9 @@ pub(crate) fn read(name: &str, given: &str) -> Result<(ProductFile, Vec<String>)
     if !file.records.is_empty() {
         warnings.push("the records that the file names are not read here: the command reads them".to_owned());
     }
+    if file.reliability.is_some() {
+        warnings.push("no products are drawn here, as [verdict] of the file asks: the command draws them".to_owned());
+    }
     Ok((file, warnings))
 }
 

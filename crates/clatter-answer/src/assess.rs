@@ -14,7 +14,7 @@
 
 use clatter_assess::{Accuracy, Assessment, Watch};
 use clatter_fit::{Comparison, MeasuredDrop};
-use clatter_product::{Error, ProductFile};
+use clatter_product::{Error, ProductFile, Reliability};
 use serde::{Serialize, Serializer};
 
 use crate::{Json, significant};
@@ -48,6 +48,14 @@ pub fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy, watch: Watch<'_>)
 }
 
 impl Answer<'_> {
+    /// Draws products for the limits that are undecided, and counts the progress; ends early where `watch` says so.
+    ///
+    /// # Errors
+    /// As [`clatter_assess::reliable`].
+    pub fn draw(&mut self, asked: Reliability, watch: Watch<'_>) -> Result<(), Error> {
+        self.assessment = clatter_assess::reliable(self.file, self.assessment.clone(), asked, watch)?;
+        Ok(())
+    }
     /// Returns the warnings about measured drops, each with the name of the drop: where the measured product differs from that of the file,
     /// and where no fit was found.
     #[must_use]

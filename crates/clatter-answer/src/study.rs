@@ -357,7 +357,8 @@ fn found(assessment: &Assessment) -> impl Iterator<Item = f64> {
         let si = [limit.allowed, or_none(limit.demand), or_none(limit.bound)];
         let verdict = match limit.verdict {
             Verdict::Safe => 1.0,
-            Verdict::Undecided => 0.0,
+            // A study searches, and draws nothing for what that leaves open.
+            Verdict::Reliable | Verdict::Undecided => 0.0,
             Verdict::Unsafe => -1.0,
         };
         si.into_iter().take(if in_si(limit.limit) { 3 } else { 0 }).chain([or_none(limit.margin), verdict])

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::bound::bound;
+use crate::decide::decide;
 use crate::engine::answer;
 use crate::reason::{Contradiction, Doubt, Note, Reason};
 use crate::search::{Candidate, Coordinates, LaterLandings, Ranges, Task, Watch, Worst, with_gravity};
@@ -14,7 +15,7 @@ use crate::{
 };
 use clatter_flight::Drop;
 use clatter_product::{
-    Base, Component, DropName, DropRanges, Error, Limit, LimitKind, Model, Mount, ProductFile, Source, Unit,
+    Base, Component, ContactLaw, DropName, DropRanges, Error, Limit, LimitKind, Model, Mount, ProductFile, Source, Unit,
 };
 
 /// The part of a worst case that the search may miss, as a share of it: tests hold single drops of the same ranges to this.
@@ -142,16 +143,11 @@ pub(crate) fn assess_these(
     let listed = file.listed();
     let tasks: Vec<Task<'_>> = these.iter().copied().flat_map(limits_of).collect();
     let all_tasks: Vec<Task<'_>> = file.components.iter().flat_map(limits_of).collect();
-    let laws = |ranges: Ranges<'_>| match ranges.model {
-        // Contacts that differ are hysteretic, and a law that the file names is the one that counts.
-        Model::Compliant if !own && file.product.contact_law.is_none() => vec![ranges.law, ranges.law.other()],
-        _ => vec![ranges.law],
-    };
     let searched: Vec<Vec<Ranges<'_>>> = listed
         .iter()
         .map(|one| {
             let ranges = ranges_of(file, &one.drop, one.base, accuracy);
-            laws(ranges).into_iter().map(|law| Ranges { law, ..ranges }).collect()
+            laws(file, ranges.model).into_iter().map(|law| Ranges { law, ..ranges }).collect()
         })
         .collect();
     let numbered = searched.iter().map(Vec::len).enumerate();
@@ -202,9 +198,7 @@ pub(crate) fn assess_these(
         for drop in 0..listed.len() {
             let mut of_drop: Vec<&mut LimitAssessment> =
                 of_limits.iter_mut().map(|of_drops| &mut of_drops[drop]).collect();
-            if component.stops.is_none() {
-                stopped(&mut of_drop);
-            }
+            stopped(component, &mut of_drop);
             if let Some(landing) = landings.get_mut(drop) {
                 for limit in of_drop {
                     landing.take(component, limit);
@@ -218,9 +212,19 @@ pub(crate) fn assess_these(
                 tell_stop(limit, component, &searched);
             }
         }
-        components.push(verdict(component, file.product.body.is_wide(), limits));
+        components.push(verdict(file, component, limits));
     }
     Ok(Ok(Found { components, landings }))
+}
+
+/// Returns the contact laws by which drops are followed, its own first.
+pub(crate) fn laws(file: &ProductFile, model: Model) -> Vec<ContactLaw> {
+    let (law, own) = (file.product.law(), !file.product.own_contacts.is_none());
+    match model {
+        // Contacts that differ are hysteretic, and a law that the file names is the one that counts.
+        Model::Compliant if !own && file.product.contact_law.is_none() => vec![law, law.other()],
+        _ => vec![law],
+    }
 }
 
 /// Returns the ranges as the search takes them, of a product that falls once.
@@ -387,6 +391,7 @@ fn limit_of(ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitA
         demand: demand.map(|answer| answer.value),
         margin: demand.map(|answer| answer.allowed / answer.value - 1.0),
         verdict,
+        reliability: None,
         bound: bound.filter(|_| demand.is_none_or(|answer| answer.unit == unit)),
         uncertainty,
         governs: None,
@@ -396,6 +401,7 @@ fn limit_of(ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitA
         at_stop: None,
         model: model(ranges, task, accuracy_reason(ranges, &ranges.single(&shown))),
         undecided: if verdict == Verdict::Undecided { doubts } else { Vec::new() },
+        decided_by: None,
         notes,
     };
     limit.hold_to_bound(ranges.tolerance);
@@ -404,7 +410,7 @@ fn limit_of(ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitA
 
 impl LimitAssessment {
     /// Checks that the demand is within the bound, but for what its answer may be off by.
-    fn hold_to_bound(&mut self, tolerance: f64) {
+    pub(crate) fn hold_to_bound(&mut self, tolerance: f64) {
         if let Some((demand, bound)) =
             self.demand.zip(self.bound).filter(|(demand, bound)| *demand > bound * (1.0 + tolerance))
         {
@@ -568,7 +574,7 @@ fn in_unit_of(own: &Candidate, other: &Candidate) -> f64 {
 }
 
 /// Returns the limit whose demand has this unit: of a damage boundary the velocity change or the acceleration.
-fn in_unit(limit: &Limit, unit: Unit) -> Limit {
+pub(crate) fn in_unit(limit: &Limit, unit: Unit) -> Limit {
     match limit.kind.source() {
         Source::Boundary if unit != limit.kind.unit() => {
             Limit::new(LimitKind::Acceleration, limit.critical_acceleration_m_s2)
@@ -586,6 +592,13 @@ fn accuracy_reason(ranges: &Ranges<'_>, drop: &Drop) -> Reason {
     }
 }
 
+/// Returns the model with the most physics for a task in one of the drops.
+pub(crate) fn model_of(file: &ProductFile, listed: usize, task: &Task<'_>) -> ModelChoice {
+    let one = file.listed()[listed];
+    let ranges = ranges_of(file, &one.drop, one.base, &Accuracy::default());
+    model(&ranges, task, accuracy_reason(&ranges, &ranges.single(&ranges.middle(task.component))))
+}
+
 fn model(ranges: &Ranges<'_>, task: &Task<'_>, reason: Reason) -> ModelChoice {
     let contacts = ranges.model == Model::Compliant;
     let component = match (task.limit.is_response(), task.component.mount) {
@@ -601,6 +614,7 @@ fn worst_case(asked: &Candidate, ranges: &Ranges<'_>, component: &Component) -> 
     WorstCase {
         drop: ranges.single(&asked.place),
         part: asked.part_there(component),
+        drawn: false,
         gyration_varies: !ranges.product.gyration_m.is_value(),
         landing: None,
         listed: 0,
@@ -622,10 +636,13 @@ fn tell_stop(limit: &mut LimitAssessment, component: &Component, searched: &[Vec
     limit.notes.extend(limit.at_stop.map(Note::AtStop));
 }
 
-/// A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration. Where none of the drops that
+/// A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration where the file has none. Where none of the drops that
 /// were found reaches it, one of them that exceeds another limit does so all the same.
-fn stopped(limits: &mut [&mut LimitAssessment]) {
-    let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
+pub(crate) fn stopped(component: &Component, limits: &mut [&mut LimitAssessment]) {
+    if component.stops.is_some() {
+        return;
+    }
+    let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict > Verdict::Reliable);
     let Some((verdict, margin)) = stop.map(|l| (l.verdict, l.margin)) else { return };
     // By either law, where the file names none.
     let within = |limit: &&mut LimitAssessment| {
@@ -637,19 +654,28 @@ fn stopped(limits: &mut [&mut LimitAssessment]) {
         |l: &LimitAssessment| l.limit.is_changed_by_stop() && !(none_reaches && l.verdict == Verdict::Unsafe);
     for limit in limits.iter_mut().filter(|l| may_change(l)) {
         let margin = margin.filter(|margin| margin.is_finite());
-        limit.verdict = Verdict::Undecided;
+        (limit.verdict, limit.reliability) = (Verdict::Undecided, None);
         limit.undecided = vec![Doubt::Stop { hits: verdict == Verdict::Unsafe, margin }];
     }
 }
 
-fn verdict(component: &Component, is_plate: bool, limits: Vec<LimitAssessment>) -> ComponentAssessment {
+/// Returns the result of a component from those of its limits.
+pub(crate) fn verdict(
+    file: &ProductFile,
+    component: &Component,
+    mut limits: Vec<LimitAssessment>,
+) -> ComponentAssessment {
+    let is_plate = file.product.body.is_wide();
+    decide(&mut limits, file.product.contact_law.is_none() && file.product.contact_time_s.is_some());
     let tightest = limits.iter().min_by(|a, b| a.room().total_cmp(&b.room()));
     let Some(tightest) = tightest else { unreachable!("a component has a limit") };
     let (worst_case, model) = (tightest.worst_case, tightest.model.clone());
+    let verdict = Verdict::of(limits.iter().map(|l| l.verdict));
     ComponentAssessment {
         name: component.name.clone(),
         position_m: Sides::new([component.position_m, component.across_m].map(|place| place.at(0.5)), is_plate),
-        verdict: Verdict::of(limits.iter().map(|l| l.verdict)),
+        verdict,
+        reliability: limits.iter().filter(|_| verdict == Verdict::Reliable).find_map(|l| l.reliability),
         limits,
         worst_case,
         model,

@@ -26,6 +26,7 @@
 mod assess;
 mod bound;
 mod case;
+mod decide;
 pub mod design;
 mod engine;
 mod history;
@@ -33,6 +34,7 @@ pub mod ladder;
 mod model;
 mod portrait;
 mod reason;
+mod reliable;
 mod repeat;
 pub mod scatter;
 mod search;
@@ -46,6 +48,7 @@ pub use engine::{Answer, Part, answer, respond};
 pub use ladder::ladders;
 pub use portrait::{CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait, portraits};
 pub use reason::{Contradiction, Doubt, Note, Reason};
+pub use reliable::reliable;
 pub use repeat::repeat;
 pub use search::Watch;
 pub use verdict::{

@@ -53,6 +53,17 @@ pub enum Doubt {
     },
     /// The file names no contact law, and the limit is exceeded by this one.
     ExceededByOtherLaw(ContactLaw),
+    /// Products were drawn, which do not decide it either.
+    Drawn {
+        /// The number of products that were drawn.
+        drawn: u64,
+        /// The number that the reliability takes.
+        of: u64,
+        /// Those of them that hold or exceed it, nobody knows.
+        open: u64,
+        /// The reason why the first of them has no answer; none where what may still come decides.
+        error: Option<Error>,
+    },
     /// The part may hit its stop, after which the suspension is not linear.
     Stop {
         /// True where it does for sure.
@@ -99,6 +110,18 @@ impl Display for Doubt {
             }
             Self::ExceededByOtherLaw(law) => {
                 write!(f, "by the {} contact law, which the file does not rule out, it is exceeded", law.name())
+            }
+            Self::Drawn { drawn, of, open: 0, .. } => {
+                write!(f, "the draw was stopped after {drawn} of {of} products, none of which exceeded it")
+            }
+            Self::Drawn { drawn, open, error, .. } => {
+                write!(f, "of {drawn} products that were drawn {open} are not decided, and none exceeded it: ")?;
+                match error {
+                    Some(error) => write!(f, "{error}"),
+                    None => {
+                        f.write_str("what they may still ask for as they land again, or be off by, passes the limit")
+                    }
+                }
             }
             Self::Stop { hits, margin } => {
                 let (hits, more) = if *hits { ("hits", "exceeds") } else { ("may hit", "may exceed") };

@@ -11,7 +11,7 @@ use crate::Part;
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
 use clatter_product::{
     Axis, Component, Drop, DropName, DropRanges, INPUTS, Input, Landing, LimitKind, MERGE_S, Model, Optional, Product,
-    ProductFile, Row, Unit, optional_inputs,
+    ProductFile, Reliability, Row, Unit, optional_inputs,
 };
 
 /// The answer to the question whether every limit holds in the worst drop.
@@ -20,6 +20,8 @@ use clatter_product::{
 pub enum Verdict {
     /// It does, with room for what the answer may be off by.
     Safe,
+    /// No search decides it; of products that were drawn none exceeded it, and they are enough for a stated [`Reliability`].
+    Reliable,
     /// The drops that were found do not decide it.
     Undecided,
     /// A drop of the ranges exceeds a limit.
@@ -27,16 +29,17 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Returns the name: `safe`, `undecided` or `unsafe`.
+    /// Returns the name: `safe`, `reliable`, `undecided` or `unsafe`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Safe => "safe",
+            Self::Reliable => "reliable",
             Self::Undecided => "undecided",
             Self::Unsafe => "unsafe",
         }
     }
-    /// Returns the verdict of several parts: unsafe if one is, undecided if one is and none is unsafe.
+    /// Returns the verdict of several parts: the worst of unsafe, undecided, reliable and safe.
     pub(crate) fn of(all: impl IntoIterator<Item = Self>) -> Self {
         all.into_iter().max().unwrap_or(Self::Safe)
     }
@@ -47,7 +50,7 @@ impl Verdict {
 pub struct Assessment {
     /// Name of the product.
     pub product: String,
-    /// Unsafe where a component is, undecided where one is and none is unsafe.
+    /// The worst of the components: unsafe, undecided, reliable, safe.
     pub verdict: Verdict,
     /// Inputs that the file does not state.
     pub assumed: Vec<Assumed>,
@@ -169,7 +172,7 @@ pub struct LandingAssessment {
     /// The ranges of inputs there that a file may leave out, where it does not.
     #[serde(flatten, serialize_with = "by_column")]
     pub optional: Vec<(Input, [f64; 2])>,
-    /// Unsafe where a limit is, undecided where one is and none is unsafe.
+    /// The worst of the limits: unsafe, undecided, reliable, safe.
     pub verdict: Verdict,
     /// One for each limit of each component, in the order of the file.
     pub limits: Vec<LandingLimit>,
@@ -275,6 +278,9 @@ pub struct ComponentAssessment {
     pub position_m: Sides,
     /// The verdict of its limits together.
     pub verdict: Verdict,
+    /// The reliability where that is `reliable`.
+    #[serde(flatten)]
+    pub reliability: Option<Reliability>,
     /// One for each limit of the file.
     pub limits: Vec<LimitAssessment>,
     /// The drop behind the smallest margin; null where no drop was answered.
@@ -296,6 +302,11 @@ impl ComponentAssessment {
 }
 
 impl LimitAssessment {
+    /// Returns how sure the limit holds where products were drawn for that: "R99 C95, 299 products, none exceeded it".
+    #[must_use]
+    pub fn why_reliable(&self) -> Option<String> {
+        self.reliability.map(|by| format!("{by}, {} products, none exceeded it", by.samples()))
+    }
     /// Returns why the limit is undecided, in a sentence.
     #[must_use]
     pub fn why_undecided(&self) -> Option<String> {
@@ -324,6 +335,9 @@ pub struct LimitAssessment {
     pub margin: Option<f64>,
     /// The verdict on the limit.
     pub verdict: Verdict,
+    /// The reliability where that is `reliable`.
+    #[serde(flatten)]
+    pub reliability: Option<Reliability>,
     /// The bound that no drop of the ranges exceeds, by the energy that the body has; null for the response of a suspended part.
     pub bound: Option<f64>,
     /// The largest excess of drops of the ranges over the demand, as a share of it: what the answer may be off by and what
@@ -348,6 +362,9 @@ pub struct LimitAssessment {
     /// The reasons why the limit is undecided; else empty.
     #[serde(serialize_with = "as_sentence")]
     pub undecided: Vec<Doubt>,
+    /// The command or the change that would decide the limit, in words; none where it is decided or nothing is known to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decided_by: Option<String>,
     /// Further facts to be known, each with its size; may be empty.
     #[serde(serialize_with = "as_texts")]
     pub notes: Vec<Note>,
@@ -373,6 +390,8 @@ pub struct WorstCase {
     pub landing: Option<DropName>,
     /// Its place in that list, from 0.
     pub listed: usize,
+    /// True where it is of a product that was drawn: a search does not find it again.
+    pub drawn: bool,
     /// True where the file gives a range of radii of gyration, of which this drop has one.
     pub gyration_varies: bool,
     /// The impact that does it, or that the peak follows; from 1.
@@ -430,6 +449,9 @@ impl Serialize for WorstCase {
         let mut map = serializer.serialize_map(None)?;
         if let Some(landing) = self.landing {
             map.serialize_entry("landing", &landing)?;
+        }
+        if self.drawn {
+            map.serialize_entry("drawn", &true)?;
         }
         map.serialize_entry("flat", &drop.is_flat)?;
         for row in INPUTS.iter().filter(|row| row.input.told() == row.input) {

@@ -649,6 +649,7 @@ fn directions_are_told_as_compasses_have_them() {
     let drop = one([0.15, 0.07, 0.014], [0.043, 0.02], [0.0, 0.0], [0.0, 0.0, 1.0]);
     for (turn, told) in [(-0.25, 270.0), (0.25, 90.0), (1.125, 45.0), (0.0, 0.0)] {
         let worst = WorstCase {
+            drawn: false,
             drop: Drop { direction_rad: TAU * turn, ..drop },
             part: Part::new(0.0, None),
             landing: None,

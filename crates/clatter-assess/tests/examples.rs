@@ -149,6 +149,7 @@ fn a_search_that_is_stopped_calls_nothing_safe_but_by_energy() {
                         assert!(cut.bound.is_some_and(|bound| bound <= cut.allowed), "{most} drops: {cut:?}");
                     }
                     Verdict::Unsafe => assert_eq!(whole.verdict, Verdict::Unsafe, "{most} drops"),
+                    Verdict::Reliable => panic!("nothing is drawn"),
                     Verdict::Undecided => {
                         let why = cut.why_undecided().unwrap_or_default();
                         assert!(why.contains("stopped") || whole.verdict == Verdict::Undecided, "{most} drops: {why}");

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueHint;
 use clatter_answer::assess::{self, Answer};
 use clatter_assess::{Accuracy, ComponentAssessment, Verdict};
-use clatter_product::{Component, LARGEST_FILE, Model, ProductFile, units::Quantity};
+use clatter_product::{Component, LARGEST_FILE, Model, ProductFile, Reliability, units::Quantity};
 use clatter_report::Pages;
 use serde::Serialize;
 
@@ -17,6 +17,7 @@ use crate::input::is_standard;
 use crate::inputs::{self, Format};
 use crate::output::Files;
 use crate::progress::Counted;
+use crate::text::visible;
 use crate::{Exit, Failure, Streams, budget, input, output, quantities, text};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
@@ -27,7 +28,11 @@ use crate::{Exit, Failure, Streams, budget, input, output, quantities, text};
 ///
 /// A limit is UNSAFE where a drop was found that exceeds it; safe where energy allows no drop to exceed it, or where the
 /// worst drop found leaves room for what the search may miss and its answer be off by ('good to'); else undecided, with
-/// the reason. 'clatter init' writes a product file.
+/// the reason and what would decide it. 'clatter init' writes a product file.
+///
+/// With --reliability, products are drawn for each limit that is undecided, as 'clatter scatter' draws them, each through all of its
+/// drops. Where so many in a row hold that the share is sure, 299 for 99% at 95%, the limit is reliable; it is never called safe. A drop
+/// that exceeds it makes it UNSAFE.
 ///
 /// A file without `width` is answered as a bar, and the first line says so: what is wider than a quarter of its length is a plate, which
 /// asks for up to 30 % more.
@@ -42,9 +47,10 @@ Examples:
   clatter assess before.toml after.toml          verdicts side by side
   clatter assess handheld.toml --tolerance=0.1%  each drop answered more exactly
   clatter assess bar.toml --model=map            of a bar: every drop by a model with less physics
+  clatter assess handheld.toml --reliability=99% what is undecided is drawn: 299 products in a row
   clatter assess handheld.toml --format=json     an object; with several files, a list of them
 
-Exit status: 0 all safe, 1 a part is unsafe or undecided, 2 bad input, 3 typst is missing or failed: no printed report.")]
+Exit status: 0 all safe or reliable, 1 a part is unsafe or undecided, 2 bad input, 3 typst is missing or failed: no printed report.")]
 pub(crate) struct Args {
     /// Product files, - for standard input; 'clatter schema' describes them for editors
     #[arg(required = true, value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
@@ -67,6 +73,13 @@ pub(crate) struct Args {
     /// leaves less between the ends, landing flat is one of the drops
     #[arg(long, value_name = "TIME", default_value = "1ms", allow_hyphen_values = true, value_parser = quantities::contact_time)]
     merge: Quantity,
+    /// Draw products for each limit that the search leaves undecided, until so many hold in a row that this share of all survives:
+    /// 0.99 or 99%, from 1% to 99.999%; in place of `[verdict] reliability` of the file
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = sure)]
+    reliability: Option<f64>,
+    /// How sure that is to be, likewise [default: 95%]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = sure)]
+    confidence: Option<f64>,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -108,7 +121,18 @@ impl Args {
         let assessed = |(file, path): (_, &PathBuf)| {
             watched(file, &accuracy).map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
         };
+        let asked =
+            files.iter().map(|file| file.asked(self.reliability, self.confidence)).collect::<Result<Vec<_>, _>>()?;
         let mut answers = files.iter().zip(&self.products).map(assessed).collect::<Result<Vec<_>, _>>()?;
+        for ((answer, asked), path) in answers.iter_mut().zip(asked).zip(&self.products) {
+            let Some(asked) = asked else { continue };
+            let drawing = Counted::heard("drawing products");
+            let drawn = answer.draw(asked, &|done, all| {
+                drawing.of(done, all);
+                budget::go_on()
+            });
+            drawn.map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))?;
+        }
         // The fits come after the assessments: whatever the records are, the verdicts come in their time.
         for (answer, drops) in answers.iter_mut().zip(drops) {
             answer.measured = drops.into_iter().map(|drop| drop.fitted(answer.file)).collect::<Result<_, _>>()?;
@@ -130,8 +154,8 @@ impl Args {
             measured::warn(answer, streams);
         }
         // The answer does not wait for its print, which may take long or fail, nor the print for a reader of the answer.
-        let safe = answers.iter().all(|answer| answer.assessment.verdict == Verdict::Safe);
-        let exit = if safe { Exit::Done } else { Exit::Unsafe };
+        let holds = answers.iter().all(|answer| answer.assessment.verdict <= Verdict::Reliable);
+        let exit = if holds { Exit::Done } else { Exit::Unsafe };
         if let (Some(pdf), [answer]) = (&self.output, &answers[..]) {
             let flushed = streams.out.flush(); // whoever writes next sees the same failure, and tells
             let unwritten = format!("{} is not written", text::path(pdf));
@@ -184,6 +208,13 @@ impl Args {
         }
         Ok(())
     }
+}
+
+/// Reads a reliability or a confidence.
+fn sure(text: &str) -> Result<f64, String> {
+    let allowed = format!("'{}' is not a share from 1% to 99.999%, such as 99% or 0.99", visible(text));
+    let share = inputs::share(text).map_err(|_| allowed.clone())?;
+    Reliability::new(share, share).map(|_| share).map_err(|_| allowed)
 }
 
 /// Reads a day of the calendar, as ISO 8601 has it.

@@ -158,8 +158,8 @@ impl Budget {
                         stop("--time-limit is over", less);
                     }
                 }
-                if interactive && n.is_multiple_of(PICTURE) {
-                    progress::show();
+                if n.is_multiple_of(PICTURE) {
+                    if interactive { progress::show() } else { progress::tell() }
                 }
                 thread::sleep(INTERVAL);
             }

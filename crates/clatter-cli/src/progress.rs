@@ -16,6 +16,8 @@ struct Work {
     total: u64,
     begin: Instant,
     shown: bool,
+    /// When it is told next where nobody watches; none of work that is not.
+    told_at: Option<Duration>,
 }
 
 /// The work of now.
@@ -27,6 +29,8 @@ fn work() -> MutexGuard<'static, Option<Work>> {
 
 /// The time for which work shows no progress.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// Where standard error is no terminal, long draws are told once in this time.
+const SILENCE: Duration = Duration::from_secs(20);
 /// The number of steps of the bar.
 const WIDTH: usize = 30;
 
@@ -36,8 +40,25 @@ pub(crate) struct Counted(());
 impl Counted {
     /// Begins `what`, such as "drawing", of which there are `total` parts; 0 where they are not counted.
     pub(crate) fn begin(what: &'static str, total: u64) -> Self {
-        *work() = Some(Work { what, step: String::new(), done: 0, total, begin: Instant::now(), shown: false });
+        *work() = Some(Work {
+            what,
+            step: String::new(),
+            done: 0,
+            total,
+            begin: Instant::now(),
+            shown: false,
+            told_at: None,
+        });
         Self(())
+    }
+
+    /// Begins work that is told now and then where standard error is no terminal, too.
+    pub(crate) fn heard(what: &'static str) -> Self {
+        let counted = Self::begin(what, 0);
+        if let Some(work) = &mut *work() {
+            work.told_at = Some(SILENCE);
+        }
+        counted
     }
 
     /// Notes how much of the work is done.
@@ -82,6 +103,16 @@ pub(crate) fn show() {
         let mut err = io::stderr();
         let _ = write!(err, "\r{}", work.line(work.begin.elapsed()));
         let _ = err.flush();
+    }
+}
+
+/// Tells the work of now, where that is heard, in a line now and then.
+pub(crate) fn tell() {
+    if let Some(work) = &mut *work()
+        && let Some(at) = work.told_at.filter(|at| work.begin.elapsed() > *at)
+    {
+        work.told_at = Some(at + SILENCE);
+        let _ = writeln!(io::stderr(), "clatter: {}", work.line(work.begin.elapsed()).trim_end());
     }
 }
 
@@ -140,6 +171,7 @@ mod tests {
             total,
             begin: Instant::now(),
             shown: false,
+            told_at: None,
         };
         let at = |done, total| work(done, total).line(Duration::from_secs(30));
         assert_eq!(at(25, 100), format!("drawing    [=======                       ]  25 %, {:<14}", "90 s left"));

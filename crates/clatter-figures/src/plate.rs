@@ -107,6 +107,7 @@ impl<'a> View<'a> {
 fn ground(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Safe => "#e9f0f7",
+        Verdict::Reliable => "#f2f6fa",
         Verdict::Undecided => "#f7f2da",
         Verdict::Unsafe => "#f8ebe4",
     }

@@ -29,6 +29,7 @@ pub struct Place<'a> {
 pub(crate) fn shade(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Safe => BLUES[8],
+        Verdict::Reliable => BLUES[6],
         Verdict::Undecided => OCHRE,
         Verdict::Unsafe => RUST,
     }

@@ -8,7 +8,7 @@ pub enum Error {
     #[error(transparent)]
     Given(#[from] clatter::Error),
     /// A contact time or a radius of gyration beyond what this body and this drop allow.
-    #[error("{name} {}: {} {} here, {reason}", milli(*value, unit), if *most { "at most" } else { "at least" }, milli(towards(*bound, *most), unit))]
+    #[error("{name} {}: {} here, {reason}", milli(*value, unit), within(*bound, *most, unit))]
     Bound {
         /// What the value stands for.
         name: &'static str,
@@ -67,6 +67,21 @@ pub enum Error {
         /// What was made and lost, without regard to sign, over the energy at the first touch.
         share: f64,
     },
+}
+
+impl Error {
+    /// Returns what is refused by its name, and what would be allowed: contact time, at most 1.1 ms.
+    #[must_use]
+    pub fn allowed(&self) -> Option<(&'static str, String)> {
+        match *self {
+            Self::Bound { name, bound, most, unit, .. } => Some((name, within(bound, most, unit))),
+            _ => None,
+        }
+    }
+}
+
+fn within(bound: f64, most: bool, unit: &str) -> String {
+    format!("{} {}", if most { "at most" } else { "at least" }, milli(towards(bound, most), unit))
 }
 
 /// In thousandths of the unit.

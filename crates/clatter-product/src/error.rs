@@ -52,6 +52,9 @@ pub enum Error {
     /// A tolerance that no model could be held to, or that says nothing.
     #[error("the tolerance is {0:?}; allowed: a share in [1e-4, 0.5]")]
     Tolerance(f64),
+    /// A confidence of nothing.
+    #[error("a confidence is how sure a reliability is: give that too, or [verdict] in the file")]
+    Confidence,
     /// The bar refuses a value.
     #[error(transparent)]
     Bar(#[from] clatter::Error),

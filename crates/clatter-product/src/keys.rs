@@ -2,6 +2,7 @@
 
 use clatter_flight::PLACES as PLACES_OF_CONTACTS;
 
+use crate::reliability::VERDICT_SHARES;
 use crate::units::{self, Dimension};
 
 /// One key of a table.
@@ -65,6 +66,7 @@ pub(crate) static FILE: &[Key] = &[
         "How it falls; one table [[drop]] for each of several drops, which all must hold.",
     ),
     key("component", true, Tables(COMPONENT), "The fragile parts, one table [[component]] each."),
+    key("verdict", false, Table(VERDICT), "How limits are decided that no search decides: by products that are drawn."),
     key("record", false, Tables(RECORD), "Measured drops of the product, one table [[record]] for each file."),
 ];
 
@@ -398,6 +400,16 @@ pub(crate) static STOP: &[Key] = &[
 pub(crate) static BOUNDARY: &[Key] = &[
     key("velocity_change", true, Spread(&units::SPEED, ["1e-3 mm/s", "1000 m/s"]), "Critical velocity change."),
     key("acceleration", true, Spread(&units::ACCELERATION, ["1e-3 gn", "1e7 gn"]), "Critical acceleration."),
+];
+
+pub(crate) static VERDICT: &[Key] = &[
+    key(
+        "reliability",
+        true,
+        Quantity(&units::SURE, VERDICT_SHARES),
+        "The share of all products that is to survive, such as \"99 %\": products are drawn until so many hold in a row that this is sure.",
+    ),
+    key("confidence", false, Quantity(&units::SURE, VERDICT_SHARES), "How sure that is to be; \"95 %\" unless given."),
 ];
 
 pub(crate) static RECORD: &[Key] = &[

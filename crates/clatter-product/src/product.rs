@@ -6,7 +6,7 @@ use clatter::End;
 use clatter_flight::{Body, Contact, ContactLaw, Drop, OwnContacts};
 use serde::{Serialize, Serializer};
 
-use crate::{Attitude, Base, Component, Error, INPUTS, Law, Row, Spread};
+use crate::{Attitude, Base, Component, Error, INPUTS, Law, Reliability, Row, Spread};
 
 /// The least side along a broad face over the thickness of a thin product: a phone has 77 mm over 9 mm.
 const THIN: f64 = 8.0;
@@ -28,6 +28,8 @@ pub struct ProductFile {
     pub components: Vec<Component>,
     /// The measured records; none unless the file names some.
     pub records: Vec<RecordFile>,
+    /// The reliability that decides what no search decides, where the file asks for one.
+    pub reliability: Option<Reliability>,
 }
 
 impl ProductFile {
@@ -55,7 +57,7 @@ impl ProductFile {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(product: Product, drop: DropRanges, components: Vec<Component>) -> Result<Self, Error> {
-        let file = Self { product, drop, landings: Vec::new(), components, records: Vec::new() };
+        let file = Self { product, drop, landings: Vec::new(), components, records: Vec::new(), reliability: None };
         file.check()?;
         Ok(file)
     }

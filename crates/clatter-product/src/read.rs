@@ -15,7 +15,7 @@ use toml::de::{DeTable, DeValue};
 use crate::check::{named, told_apart};
 use crate::fault::{Fault, Faults};
 use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
-use crate::{DataFault, ProductFile};
+use crate::{DataFault, ProductFile, Reliability};
 use quantities::written;
 
 pub use plan::{Axis as GridAxis, Family, Plan};
@@ -301,7 +301,12 @@ impl Reader {
         }
         let records = self.tables(root, "record");
         let records = records.iter().filter_map(|section| self.record(section, product.as_ref())).collect();
-        let mut file = ProductFile { product: product?, drop: drop?, landings, components, records };
+        let verdict = self.table(root, "verdict");
+        let reliability = verdict.and_then(|section| {
+            let confidence = self.quantity(&section, "confidence").map_or(Reliability::CONFIDENCE, |at| at.value);
+            Reliability::new(self.quantity(&section, "reliability")?.value, confidence).ok()
+        });
+        let mut file = ProductFile { product: product?, drop: drop?, landings, components, records, reliability };
         file.assume_friction();
         Some(file)
     }

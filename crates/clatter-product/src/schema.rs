@@ -83,7 +83,8 @@ fn quantity(dimension: &Dimension, bounds: [&str; 2]) -> Value {
 }
 
 fn with_examples(mut value: Value, dimension: &Dimension) -> Value {
-    let example = if dimension.plain { json!(0.3) } else { dimension.example.into() };
+    let plain = dimension.example.parse().ok().filter(|_: &f64| dimension.plain);
+    let example = plain.map_or_else(|| dimension.example.into(), Value::from);
     value["examples"] = json!([example]);
     value
 }

@@ -157,6 +157,9 @@ pub static ANGULAR_VELOCITY: Dimension = Dimension {
 /// A share, as a number or a percentage.
 pub static SHARE: Dimension =
     Dimension { name: "number", example: "0.3", plain: true, units: &[Unit::new("%", |v| v / 100.0)] };
+/// Shares that are neither nothing nor all, such as a reliability.
+pub static SURE: Dimension =
+    Dimension { name: "share below 1", example: "0.99", plain: true, units: &[Unit::new("%", |v| v / 100.0)] };
 /// A plain number.
 pub static NUMBER: Dimension = Dimension { name: "number", example: "0.3", plain: true, units: &[] };
 

@@ -59,6 +59,13 @@ const WRONG: &[(&str, &str, usize, &[&str])] = &[
     ("name = \"crystal\"", "name = \"\"", 8, &["`name` is empty"]),
     ("acceleration_limit = \"1600 gn\"\nrattle_space = \"8 mm\"", "", 1, &["has no limit", "at least one of"]),
     ("contact_time = \"0.4 ms\"", "contact_time = \"400 gn\"", 16, &["\"gn\" is no unit of time", "s, ms"]),
+    ("[drop]", "[verdict]\nreliability = 0\n[drop]", 15, &["`reliability` = 0 is out of its range", "from 1 % to 99.999 %"]),
+    ("[drop]", "[verdict]\nreliability = 99\n[drop]", 15, &["`reliability` = 99 is out of its range", "from 1 % to 99.999 %"]),
+    ("[drop]", "[verdict]\nreliability = \"100 %\"\n[drop]", 15, &["\"100 %\" is out of its range", "from 1 % to 99.999 %"]),
+    ("[drop]", "[verdict]\nreliability = \"99\"\n[drop]", 15, &["`reliability` cannot be \"99\"", "a share below 1 such as 0.99"]),
+    ("[drop]", "[verdict]\nreliability = nan\n[drop]", 15, &["does not begin with a number", "from 1 % to 99.999 %"]),
+    ("[drop]", "[verdict]\nreliability = 0.9\nconfidence = 1\n[drop]", 14, &["`confidence` = 1 is out of its range"]),
+    ("[drop]", "[verdict]\nconfidence = 0.9\n[drop]", 1, &["[verdict] has no `reliability`"]),
     ("[drop]", "[drop", 6, &["invalid TOML"]),
     ("mount = \"hard\"", "mount = \"hard\"\nacceleration_limit = \"-3 gn\"", 22, &["\"-3 gn\" is out of its range", "1e-3 gn"]),
 ];

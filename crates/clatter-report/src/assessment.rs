@@ -128,6 +128,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "verdict": assessment.verdict.name(),
         "assumed": assessment.assumed.iter().map(|assumed| assumed.told()).collect::<Vec<_>>(),
         "safe": with(Verdict::Safe),
+        "reliable": with(Verdict::Reliable),
         "undecided": with(Verdict::Undecided),
         "unsafe": with(Verdict::Unsafe),
         "hardest": hardest(assessment),

@@ -153,7 +153,14 @@ impl Case<'_> {
         let (drop, landings, mut components) =
             (self.file.drop, self.file.landings.clone(), self.file.components.clone());
         components[self.number] = component;
-        Some(ProductFile { product, drop, landings, components, records: Vec::new() })
+        Some(ProductFile {
+            product,
+            drop,
+            landings,
+            components,
+            records: Vec::new(),
+            reliability: self.file.reliability,
+        })
     }
 }
 

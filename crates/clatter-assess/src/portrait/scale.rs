@@ -30,7 +30,7 @@ impl Scale {
         // The picture agrees with the verdict.
         match limit.verdict {
             Verdict::Safe => scales.iter_mut().for_each(|scale| scale.counted = scale.counted.min(1.0)),
-            Verdict::Undecided | Verdict::Unsafe => {
+            Verdict::Reliable | Verdict::Undecided | Verdict::Unsafe => {
                 let most = scales.iter_mut().max_by(|a, b| a.counted.total_cmp(&b.counted)).filter(|_| !by_stop);
                 if let Some(scale) = most {
                     scale.counted = scale.counted.max(1.0 + 1e-6);

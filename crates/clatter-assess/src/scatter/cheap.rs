@@ -109,7 +109,7 @@ mod tests {
             for limit in limits {
                 let (at_m, inside) = ([ends_m[0], 0.0], Inside::default());
                 let reaches_m = [ends_m, [0.0; 2]];
-                let part = PartSample { at_m, reaches_m, inside, suspension, limits: vec![limit] };
+                let part = PartSample { number: 0, skipped: 0, at_m, reaches_m, inside, suspension, limits: vec![limit] };
                 let known = part.ends().iter().map(|x| {
                     let part = Part::new(*x, suspension);
                     crate::answer(&drop, &part, &limit, Model::Map, 1e-6).unwrap().utilization()

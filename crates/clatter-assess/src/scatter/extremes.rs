@@ -140,7 +140,7 @@ fn variants(component: &Component) -> Result<Vec<PartSample>, Error> {
     let part = |suspension| {
         let limits = Limit::of(component);
         let (at_m, inside) = (reaches_m.map(|[lo, hi]| 0.5 * (lo + hi)), component.inside);
-        PartSample { at_m, reaches_m, inside, suspension, limits }
+        PartSample { number: 0, skipped: 0, at_m, reaches_m, inside, suspension, limits }
     };
     Ok(suspensions.into_iter().map(part).collect())
 }

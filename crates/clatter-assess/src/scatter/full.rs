@@ -11,9 +11,9 @@ use clatter_flight::{Followed, Until};
 use clatter_product::{Drop, Error, Limit, LimitKind, Model, Source};
 
 /// The tolerance to which a sample is answered. A coarser answer costs no less: more samples are left open and followed once more.
-const TOLERANCE: f64 = 0.005;
+pub(super) const TOLERANCE: f64 = 0.005;
 /// The tolerances to which a sample is answered whose error leaves open whether a limit holds, one after the other.
-const FINER: [f64; 2] = [5e-4, 5e-5];
+pub(super) const FINER: [f64; 2] = [5e-4, 5e-5];
 /// The tolerance to which a drop is answered of which only the largest of many counts.
 const COARSE: f64 = 0.02;
 /// The error of a demand from the steps of a box, and the straight lines between them, at most.
@@ -36,6 +36,8 @@ pub(super) struct FollowedDrops<'a> {
     later: Option<&'a Landings>,
     early: LazyDrop,
     whole: LazyDrop,
+    /// A box until it lies.
+    rest: LazyDrop,
     finer: [LazyDrop; 2],
 }
 
@@ -46,13 +48,36 @@ impl<'a> FollowedDrops<'a> {
     pub(super) fn of(drop: &'a Drop, parts: &[PartSample]) -> Self {
         let suspensions = parts.iter().filter_map(|part| part.suspension.as_ref());
         let swing_s = suspensions.map(|part| PI / part.omega()).fold(0.0, f64::max);
-        Self { drop, boxed: drop.boxed(), swing_s, later: None, early: None, whole: None, finer: [None, None] }
+        let (boxed, finer) = (drop.boxed(), [None, None]);
+        Self { drop, boxed, swing_s, later: None, early: None, whole: None, rest: None, finer }
     }
 
-    /// Returns the demand of the drop on a part, by its number, or the reason why it is not answered.
-    fn answer(&mut self, number: usize, part: &PartSample) -> Result<SampleDemand, Error> {
+    /// Knows what a box may ask for as it lands again.
+    pub(super) fn landing_again(self, later: Option<&'a Landings>) -> Self {
+        Self { later, ..self }
+    }
+
+    /// Returns the drops that it is followed as, the one with the most physics first.
+    pub(super) fn drops(&self) -> impl Iterator<Item = &Drop> {
+        self.boxed.iter().chain([self.drop])
+    }
+
+    /// Returns the demand of the drop on a part; of a box that is followed until it lies where nothing less tells whether the part survives.
+    pub(super) fn closed(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
+        let asked = self.answer(part)?;
+        if !asked.is_open() || !(self.drop.is_solid() || self.boxed.is_some()) {
+            return Ok(asked);
+        }
+        let drop = self.boxed.as_ref().unwrap_or(self.drop);
+        let rest = self.rest.get_or_insert_with(|| follow(drop, Model::fullest(drop), TOLERANCE, Until::Over));
+        // A motion that is too long to be followed stays open.
+        Ok(rest.as_ref().ok().and_then(|rest| of_part_of_box(rest, part, None).ok()).unwrap_or(asked))
+    }
+
+    /// Returns the demand of the drop on a part, or the reason why it is not answered.
+    fn answer(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
         if self.drop.is_solid() || self.boxed.is_some() {
-            return self.of_box(number, part);
+            return self.of_box(part);
         }
         let mut asked = self.passing(part, TOLERANCE, LEAST)?;
         for (following, tolerance) in self.finer.iter_mut().zip(FINER) {
@@ -73,7 +98,7 @@ impl<'a> FollowedDrops<'a> {
     /// whether a limit holds. Where what is left of it in the end still may, the sample is open.
     ///
     /// A plate whose contacts are too soft for so thin a box lands on the corners of its bottom, however far they sink in.
-    fn of_box(&mut self, number: usize, part: &PartSample) -> Result<SampleDemand, Error> {
+    fn of_box(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
         let later = self.later;
         let drop = self.boxed.as_ref().unwrap_or(self.drop);
         let until = |time_s| follow(drop, Model::fullest(drop), TOLERANCE, Until::Past(time_s));
@@ -86,7 +111,7 @@ impl<'a> FollowedDrops<'a> {
             let followed = followed.as_ref().map_err(Clone::clone)?;
             let landings = match (later, followed.energy_m2_s2().filter(|_| followed.is_early())) {
                 (Some(later), Some(energy_m2_s2)) => {
-                    Some(later.worst(energy_m2_s2, drop.gravity_m_s2)?.swap_remove(number))
+                    Some(later.worst(energy_m2_s2, drop.gravity_m_s2)?.swap_remove(part.number))
                 }
                 _ => None,
             };
@@ -133,9 +158,9 @@ pub(super) fn answer(
     later: Option<&Landings>,
     asked: &mut Vec<Result<SampleDemand, Error>>,
 ) {
-    let mut followings = FollowedDrops { later, ..FollowedDrops::of(drop, parts) };
+    let mut followings = FollowedDrops::of(drop, parts).landing_again(later);
     asked.clear();
-    asked.extend(parts.iter().enumerate().map(|(n, part)| followings.answer(n, part)));
+    asked.extend(parts.iter().map(|part| followings.answer(part)));
 }
 
 /// A value below every utilization: the demand of a drop passes it, 0 too, unless it is no number.
@@ -179,7 +204,7 @@ fn of_part_of_box(followed: &Followed, part: &PartSample, landings: Option<&[f64
             let used = answer.utilization();
             // A boundary is passed by both of its quantities, and what is off nothing has no share.
             let later = if let Some(landings) = landings {
-                landings[k] + felt.rings(limit, part.suspension.as_slice())
+                landings[part.skipped + k] + felt.rings(limit, part.suspension.as_slice())
             } else if used > 0.0 && limit.kind.source() != Source::Boundary {
                 used + answer.off_by / answer.allowed
             } else {

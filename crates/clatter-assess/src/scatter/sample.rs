@@ -183,6 +183,10 @@ pub(super) struct Sample {
 /// A part in a sample.
 #[derive(Debug, Clone)]
 pub(super) struct PartSample {
+    /// Its number in the file.
+    pub(super) number: usize,
+    /// How many limits of the part come before its first one here.
+    pub(super) skipped: usize,
     /// Its middle, along the product and across it.
     pub(super) at_m: [f64; 2],
     /// The range that it reaches along the product and across it, the same for a point.
@@ -206,6 +210,10 @@ impl DropInputs {
 }
 
 impl PartSample {
+    /// Returns the part with one of its limits, by its number.
+    pub(super) fn with_one_limit(&self, number: usize) -> Self {
+        Self { skipped: self.skipped + number, limits: vec![self.limits[number]], ..self.clone() }
+    }
     /// Returns both ends along the product, or the point.
     pub(super) fn ends(&self) -> &[f64] {
         let along = &self.reaches_m[0];
@@ -361,12 +369,12 @@ impl Inputs {
     /// Returns a sample to draw into.
     pub(super) fn blank(&self) -> Sample {
         let limit = |(kind, ..): &(LimitKind, _, _)| Limit::new(*kind, f64::INFINITY);
-        let part = |part: &PartInputs| {
+        let part = |(number, part): (usize, &PartInputs)| {
             let limits = part.limits.iter().map(limit).collect();
             let (at_m, reaches_m) = ([0.0; 2], [[0.0; 2]; 2]);
-            PartSample { at_m, reaches_m, inside: part.inside, suspension: None, limits }
+            PartSample { number, skipped: 0, at_m, reaches_m, inside: part.inside, suspension: None, limits }
         };
-        let parts = self.parts.iter().map(part).collect();
+        let parts = self.parts.iter().enumerate().map(part).collect();
         Sample { uniforms: vec![0.0; self.varied.len()], drops: vec![self.drop; self.drops.len()], parts }
     }
 

@@ -312,6 +312,7 @@ component = [{ name = "part", position = "30 mm", natural_frequency = ["80 Hz", 
         let worst = WorstCase {
             drop,
             part: Part::new(0.03, Some(part)),
+            drawn: false,
             gyration_varies: true,
             landing: None,
             listed: 0,

@@ -18,6 +18,7 @@ use crate::words::{drop, four, in_words, margin, percent};
 fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Safe => "safe",
+        Verdict::Reliable => "reliable",
         Verdict::Undecided => "undecided",
         Verdict::Unsafe => "UNSAFE",
     }
@@ -71,7 +72,12 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
 fn headline(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     let count = |verdict: Verdict| assessment.components.iter().filter(|c| c.verdict == verdict).count();
     let (product, all) = (shown(&assessment.product, 60), assessment.components.len());
+    let reliable = assessment.components.iter().find(|component| component.verdict == Verdict::Reliable);
+    let why = reliable.and_then(|component| component.limits.iter().find_map(LimitAssessment::why_reliable));
     let verdict = match (count(Verdict::Unsafe), count(Verdict::Undecided)) {
+        (0, 0) if let Some(why) = why => {
+            format!("is reliable: {} of {all} components, {why}", count(Verdict::Reliable))
+        }
         (0, 0) => "is safe: every limit holds in the worst drop".to_owned(),
         (0, undecided) => format!("is undecided: {undecided} of {all} components"),
         (failing, 0) => format!("is UNSAFE: {failing} of {all} components"),
@@ -196,15 +202,21 @@ fn worst_drop(
         }
         None => sentence(out, &first, "no drop is answered")?,
     }
+    if let Some(why) = limit.why_reliable() {
+        sentence(out, "  reliable: ", &why)?;
+    }
     match (limit.why_undecided(), limit.governs) {
         (Some(reason), Some(other)) => sentence(out, "  undecided: ", &format!("by {other}, {reason}"))?,
         (Some(reason), None) => sentence(out, "  undecided: ", &reason)?,
         (None, Some(other)) => sentence(out, &format!("  {}: ", verdict(limit.verdict)), &format!("by {other}"))?,
         (None, None) => {}
     }
+    if let Some(change) = &limit.decided_by {
+        sentence(out, "  decided by: ", change)?;
+    }
     limit.notes.iter().try_for_each(|note| sentence(out, "  note: ", &note.to_string()))?;
     let Some(worst) = &limit.worst_case else { return Ok(()) };
-    let short = repeat(path, &component.name, limit.limit, accuracy);
+    let short = repeat(path, &component.name, limit.limit, accuracy).filter(|_| !worst.drawn);
     writeln!(out, "  {}", short.unwrap_or_else(|| worst.command()))
 }
 

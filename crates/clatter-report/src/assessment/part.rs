@@ -80,7 +80,7 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
         "worst": of.worst_case.as_ref().map(|worst| columns(of, worst)),
         "said": said(file, of),
         "undecided": of.why_undecided().as_deref().map(minus),
-        "command": of.worst_case.as_ref().map(|worst| short.unwrap_or_else(|| worst.command())),
+        "command": of.worst_case.as_ref().map(|worst| short.filter(|_| !worst.drawn).unwrap_or_else(|| worst.command())),
     })
 }
 
@@ -180,13 +180,15 @@ pub(super) fn part(
     let is_plate = pages.file.product.body.is_wide();
     let over_time = portrait.history.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
     let over_tilt = portrait.over_tilt.iter().flat_map(|(_, curve)| curve).map(|p| tightest.allowed * p.share);
+    let reliable = assessed.limits.iter().filter(|l| l.verdict == Verdict::Reliable);
     let undecided = assessed.limits.iter().filter(|l| l.verdict == Verdict::Undecided);
     json!({
         "name": name(&assessed.name),
         "verdict": assessed.verdict.name(),
         "position": if is_plate { place(assessed.position_m.m()) } else { millimeters(assessed.position_m.m()[0]) },
         "summary": summary(component, tightest, portrait, pages.file),
-        "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.why_undecided().as_deref().map(minus) })).collect::<Vec<_>>(),
+        "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.why_undecided().as_deref().map(minus), "by": l.decided_by })).collect::<Vec<_>>(),
+        "reliable": reliable.map(|l| json!({ "limit": l.limit.words(), "why": l.why_reliable() })).collect::<Vec<_>>(),
         "limits": assessed.limits.iter().map(|l| row(pages, &component.name, l)).collect::<Vec<_>>(),
         "changes": changes(Of { file: pages.file, component }, assessed, remedies),
         "drawn": !portrait.history.is_empty(),
