@@ -91,7 +91,7 @@ fn a_stop(space: &LimitAssessment) -> String {
 
 /// Returns the limit, to three digits, that leaves room for all that drops may ask for, where that is at most `most` of it.
 fn more_room(limit: &LimitAssessment, most: f64) -> Option<String> {
-    let asked = limit.demand?.max(limit.other_law.filter(|_| most.is_infinite()).unwrap_or(0.0));
+    let asked = limit.demand?;
     let needed = asked * (1.0 + limit.uncertainty);
     if !(needed.is_finite() && needed <= most * limit.allowed) {
         return None;
