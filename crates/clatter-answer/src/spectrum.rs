@@ -20,7 +20,7 @@ use clatter_product::units::Unit;
 use clatter_record::{Between, Channel, Record, TimeAxis};
 use clatter_shock::{
     DampingRatio, Deviation, EnvelopingPulse, Frequencies, LimitCurve, Margin, Pulse, Pulses, Quantity,
-    RequiredSpectrum, Search, Shape, Spectrum, Summary, VelocityShocks, find_shocks,
+    RequiredSpectrum, Search, Shape, Spectrum, Stop, Summary, VelocityShocks, find_shocks,
 };
 
 use crate::error::within_periods;
@@ -95,6 +95,8 @@ pub struct Question {
     pub frequencies: Option<Frequencies>,
     /// A spectrum for each.
     pub dampings: Vec<DampingRatio>,
+    /// The stops of all parts; records are then straight lines between their samples.
+    pub stop: Option<Stop>,
     /// The requested quantity of the response.
     pub quantity: Quantity,
     /// The course of a record between its samples.
@@ -123,6 +125,7 @@ impl Question {
             excitation,
             frequencies: None,
             dampings: vec![damping],
+            stop: None,
             quantity: Quantity::AbsoluteAcceleration,
             between: Between::BandLimited,
             limit: None,
@@ -275,11 +278,17 @@ pub fn counted(question: &Question, mut progress: impl FnMut(u64)) -> Result<Ans
     let alone = |spectrum: &dyn Fn(DampingRatio) -> Spectrum| dampings.iter().map(|of| (None, spectrum(*of))).collect();
     let spectra: Vec<(Option<String>, Spectrum)> = match &question.excitation {
         Excitation::Records(records) => of_records(question, records, &list, &mut progress)?,
-        Excitation::Shocks(shocks) => alone(&|damping| shocks.spectrum(&list, damping, *quantity)),
+        Excitation::Shocks(shocks) => alone(&|damping| match question.stop {
+            Some(stop) => shocks.spectrum_with_stop(&list, damping, *quantity, stop),
+            None => shocks.spectrum(&list, damping, *quantity),
+        }),
         Excitation::Pulses(pulses) => {
             within_periods(pulses, list.hz())?;
             let pulses = Pulses::new(pulses)?;
-            alone(&|damping| pulses.spectrum(&list, damping, *quantity))
+            alone(&|damping| match question.stop {
+                Some(stop) => pulses.spectrum_with_stop(&list, damping, *quantity, stop),
+                None => pulses.spectrum(&list, damping, *quantity),
+            })
         }
     };
     let parts =
@@ -316,7 +325,10 @@ fn of_records(
             let first = of_channels.len();
             for channel in measured.record.channels() {
                 let progress = |samples| progress(done + samples);
-                let spectrum = channel.spectrum(list, *damping, question.quantity, question.between, progress);
+                let spectrum = match question.stop {
+                    Some(stop) => with_stop(channel, list, *damping, question.quantity, stop),
+                    None => channel.spectrum(list, *damping, question.quantity, question.between, progress),
+                };
                 of_channels.push(spectrum.map_err(bad(measured))?);
                 done += channel.values.len() as u64;
                 names.push((count > 1).then(|| measured.called(&visible(&channel.name))));
@@ -342,6 +354,18 @@ fn of_records(
         found.extend(summaries);
     }
     Ok(found)
+}
+
+/// Computes the spectrum of parts with stops, of a record that is straight between its samples.
+fn with_stop(
+    channel: &Channel,
+    list: &Frequencies,
+    damping: DampingRatio,
+    quantity: Quantity,
+    stop: Stop,
+) -> Result<Spectrum, clatter_record::Error> {
+    let points: Vec<(f64, f64)> = channel.times().times_s().zip(channel.values.iter().copied()).collect();
+    Ok(Pulses::piecewise_linear(&points)?.spectrum_with_stop(list, damping, quantity, stop))
 }
 
 impl Measured {

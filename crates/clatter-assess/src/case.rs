@@ -62,15 +62,19 @@ pub struct CaseStop {
     pub restitution: f64,
 }
 
+impl From<Stop> for CaseStop {
+    fn from(stop: Stop) -> Self {
+        let [gap_m, contact_time_s, restitution] = Stops::numbers(&stop);
+        Self { gap_m, contact_time_s, restitution }
+    }
+}
+
 impl Swings {
     /// Returns those of a suspension.
     #[must_use]
     pub fn of(part: Suspension) -> Self {
-        let stop = |stop: Stop| {
-            let [gap_m, contact_time_s, restitution] = Stops::numbers(&stop);
-            CaseStop { gap_m, contact_time_s, restitution }
-        };
-        Self { omega_rad_s: part.omega(), damping_ratio: part.damping().get(), stop: part.stop().map(stop) }
+        let (omega_rad_s, damping_ratio) = (part.omega(), part.damping().get());
+        Self { omega_rad_s, damping_ratio, stop: part.stop().map(CaseStop::from) }
     }
     fn suspension(self) -> Result<Suspension, Error> {
         let free = Suspension::new(self.omega_rad_s, DampingRatio::new(self.damping_ratio)?)?;

@@ -20,7 +20,7 @@ use serde::Serialize;
 use crate::condition_args::ConditionArgs;
 use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg, Tolerance};
 use crate::find_args::FindArgs;
-use crate::inputs::{DampingListArgs, RowFormat};
+use crate::inputs::{DampingListArgs, RowFormat, StopArgs};
 use crate::numbers::figures;
 use crate::output::{Files, Kind, Target, buffered};
 use crate::progress::Counted;
@@ -107,6 +107,8 @@ pub(crate) struct Args {
     frequency: Option<FrequencyArg>,
     #[command(flatten)]
     damping: DampingListArgs,
+    #[command(flatten)]
+    stop: StopArgs,
     /// Which quantity of the component
     #[arg(long, value_enum, default_value_t = QuantityName::Acceleration)]
     quantity: QuantityName,
@@ -303,6 +305,10 @@ impl Args {
         let required = self.required_within(required)?;
         let mut question = Question::new(self.excitation()?, self.damping.ratios()?[0]);
         question.dampings = self.damping.ratios()?;
+        question.stop = self.stop.given()?;
+        if question.stop.is_some() && (self.damage_boundary || self.history.is_some()) {
+            return Err(Failure::Usage("--stop goes with spectra alone: not with --damage-boundary or --history"));
+        }
         question.frequencies = self.frequency.as_ref().map(|frequency| frequency.list.clone());
         question.quantity = self.quantity.quantity();
         question.between = self.interpolation.into();

@@ -500,6 +500,19 @@ impl Pulses {
         }
         Ok(part.curve.map_or_else(Vec::new, |(_, curve)| curve))
     }
+    /// Returns the extremes of quantity `k` of a component with a stop during the history and after it; all are infinite if it gives up.
+    pub(crate) fn stopped_ranges(&self, suspension: &Suspension, stop: Stop, k: usize) -> [Range; 2] {
+        let systems = Systems::new(suspension, stop);
+        let mut ranges = [Range::default(); 2];
+        let ([during, after], quantities) = (&mut ranges, [k]);
+        let wanted = Wanted { quantities: &quantities, ranges: std::slice::from_mut(during) };
+        let mut part = Stopped::new(self, &systems, wanted);
+        part.drive();
+        let mut part = part.noting(std::slice::from_mut(after));
+        part.ring_down();
+        part.finish();
+        ranges
+    }
     /// Notes the extremes of a component with a stop; all are infinite if it gives up.
     fn drive_stopped(&self, suspension: &Suspension, stop: Stop, wanted: Wanted, rings_down: bool) {
         let systems = Systems::new(suspension, stop);

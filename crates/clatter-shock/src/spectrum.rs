@@ -2,7 +2,7 @@
 
 use crate::peaks::{Peak, Peaks, Range};
 use crate::suspension::Modes;
-use crate::{DampingRatio, Error, Pulses, VelocityShocks};
+use crate::{DampingRatio, Error, Pulses, Stop, Suspension, VelocityShocks};
 use std::f64::consts::TAU;
 
 /// The five quantities of ISO 18431-4. Signs as in [`crate::Response`].
@@ -276,7 +276,54 @@ impl VelocityShocks {
     }
 }
 
+impl VelocityShocks {
+    /// Returns the same of components with stops, as [`Pulses::spectrum_with_stop`].
+    #[must_use]
+    pub fn spectrum_with_stop(
+        &self,
+        frequencies: &Frequencies,
+        damping: DampingRatio,
+        quantity: Quantity,
+        stop: Stop,
+    ) -> Spectrum {
+        Pulses::of_shocks(self.as_slice()).spectrum_with_stop(frequencies, damping, quantity, stop)
+    }
+}
+
 impl Pulses {
+    /// Returns the spectrum of components that all have the same stops: of the acceleration that of spring, damper and stop.
+    ///
+    /// # Accuracy
+    ///
+    /// It is that of [`respond`](Self::respond) at every frequency; all is infinite of a component that touches its stops too often.
+    ///
+    /// # Examples
+    ///
+    /// Soft components reach a stop that stiff ones do not, which then changes nothing:
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape, Stop};
+    /// let pulses = Pulses::new(&[Pulse { shape: Shape::HalfSine, amplitude: 5000.0, duration: 1e-3, start: 0.0 }])?;
+    /// let (list, zeta) = (Frequencies::list(vec![50.0, 2000.0])?, DampingRatio::new(0.05)?);
+    /// let free = pulses.spectrum(&list, zeta, Quantity::AbsoluteAcceleration).maximax;
+    /// let stop = Stop::new(1e-3, 0.5e-3, 0.4)?;
+    /// let stopped = pulses.spectrum_with_stop(&list, zeta, Quantity::AbsoluteAcceleration, stop).maximax;
+    /// assert!(stopped[0] > 5.0 * free[0] && (stopped[1] / free[1] - 1.0).abs() < 1e-12);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn spectrum_with_stop(
+        &self,
+        frequencies: &Frequencies,
+        damping: DampingRatio,
+        quantity: Quantity,
+        stop: Stop,
+    ) -> Spectrum {
+        Spectrum::collect(frequencies, damping, quantity, |_, omega, k| {
+            let part = Suspension::of_omega(omega, damping);
+            self.stopped_ranges(&part, stop, k).map(|range| range.peaks(omega, |i| self.begin(i)))
+        })
+    }
     /// Returns the shock response spectrum of the pulses, exact at every frequency; times in seconds.
     ///
     /// # Examples

@@ -93,6 +93,10 @@ impl Suspension {
         crate::error::positive("natural frequency (Hz)", frequency_hz)?;
         Self::new(TAU * frequency_hz, damping)
     }
+    /// Creates a suspension from a natural angular frequency that is checked already.
+    pub(crate) fn of_omega(omega: f64, damping: DampingRatio) -> Self {
+        Self { omega, ..Self::unit(damping) }
+    }
     /// Creates a suspension with ω = 1.
     pub(crate) fn unit(damping: DampingRatio) -> Self {
         Self { omega: 1.0, damping, stop: None }

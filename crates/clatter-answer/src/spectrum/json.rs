@@ -1,5 +1,6 @@
 //! This module writes a spectrum for programs.
 
+use clatter_assess::CaseStop;
 use clatter_product::units::Unit;
 use clatter_record::{Channel, Finding, TimeAxis};
 use clatter_shock::{EnvelopingPulse, LimitCurve, Margin, RequiredSpectrum, Spectrum};
@@ -22,6 +23,7 @@ impl Serialize for Answer<'_> {
         AnswerJson {
             quantity,
             unit: question.unit.map_or(si, |unit| unit.name),
+            stop: question.stop.map(CaseStop::from),
             records: if measured.len() > 1 { records.by_ref().collect() } else { Vec::new() },
             record: records.next(),
             first: columns().next().filter(|_| is_one),
@@ -36,6 +38,8 @@ impl Serialize for Answer<'_> {
 struct AnswerJson<'a> {
     quantity: &'static str,
     unit: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stop: Option<CaseStop>,
     #[serde(skip_serializing_if = "Option::is_none")]
     record: Option<RecordJson<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -54,7 +54,11 @@ impl Computed<'_> {
         let ([name, _], unit, zeta) = (self.args.quantity.name(), self.show().name(), part.spectrum.damping.get());
         let (name, ratio, q) = (name.replace('-', " "), given(zeta), figures(0.5 / zeta));
         let of = part.name.as_ref().map(|of| format!(" of {of}")).unwrap_or_default();
-        writeln!(out, "Shock response spectrum{of}: {name} in {unit}, damping ratio {ratio} (Q = {q})")
+        let stop = self.answer.question.stop.map_or(String::new(), |stop| {
+            let (gap, time) = (figures(1e3 * stop.gap()), figures(1e3 * stop.contact_time()));
+            format!("; stops at {gap} mm with contacts of {time} ms, e = {}", given(stop.restitution()))
+        });
+        writeln!(out, "Shock response spectrum{of}: {name} in {unit}, damping ratio {ratio} (Q = {q}){stop}")
     }
 
     fn about_excitation(&self, out: &mut dyn Write) -> io::Result<()> {

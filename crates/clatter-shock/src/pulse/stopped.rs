@@ -151,6 +151,13 @@ impl<'a, 'r> Stopped<'a, 'r> {
             curve: None,
         }
     }
+    /// Goes on noting extremes in other ranges.
+    pub(crate) fn noting<'s>(self, ranges: &'s mut [Range]) -> Stopped<'a, 's>
+    where
+        'r: 's,
+    {
+        Stopped { wanted: Wanted { quantities: self.wanted.quantities, ranges }, ..self }
+    }
     /// Returns the interval and the time at which it gave up, if it did.
     pub(crate) fn gave_up(&self) -> Option<(usize, f64)> {
         self.gave_up.map(|when| (when.interval, self.pulses.begin(when.interval) + when.at))
