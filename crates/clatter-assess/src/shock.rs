@@ -297,11 +297,11 @@ const MOST: f64 = 512.0;
 /// Share of an acceleration by which two sections may differ where they join.
 const JOINS: f64 = 0.01;
 
-/// Samples of a section.
+/// Samples of a section: where it is curved, at least one within it, so that no crest is missed between its ends.
 pub(crate) fn samples(section: &Section<'_>) -> u32 {
     let fastest = section.sines.iter().fold(0.0, |most: f64, sine| most.max(sine.rate));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 512")]
-    let count = (fastest * section.length / PHASE).clamp(1.0, MOST).ceil() as u32;
+    let count = (fastest * section.length / PHASE).clamp(if fastest > 0.0 { 2.0 } else { 1.0 }, MOST).ceil() as u32;
     count
 }
 

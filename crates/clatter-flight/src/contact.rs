@@ -7,9 +7,15 @@
 //! # Lever arms
 //! A phase has constant lever arms, and a constant acceleration by turning: those of the mean angle, weighed by its
 //! forces. At its end the pose follows in exact geometry. The error of this is estimated in each phase, from the turn
-//! of the body and the impulses on it; phases are cut where it would exceed the wanted precision. The unexplained
+//! of the body and the impulses on it; phases are cut where it would exceed the wanted precision, or where the effect of a
+//! force would change by some times as much: accelerations follow lever arms of one moment. The unexplained
 //! changes of the energy of the body are summed in [`Motion::energy_error`]; a flight ends where that sum is no longer
 //! small, and one phase with as large a change is an error.
+//!
+//! # Soft contacts
+//! However long contacts are, that alone is no error: points may sink in by half of the length of the body, or by its
+//! thickness if that is more. A point that goes deeper ends the flight, and the longest contact time that is answered is
+//! found by trying others.
 //!
 //! # A point in its dent
 //! A hysteretic contact that parts below the ground leaves the ground of that contact where it was. It touches there again, as a
@@ -167,9 +173,9 @@ impl<const N: usize> Scene<N> {
     /// # Errors
     /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Restitution`] unless the contact has the restitution of the
     /// drop; [`Error::Bound`] unless the radius of gyration is at least 0.05 of
-    /// the length (light ends would whirl it through large angles while they touch), and the contact time is so short that points sink
-    /// in by a small part of the length, at most 0.1 length over the speed and 0.1 √(length/gravity), and so long that
-    /// they sink in at all, 1e−10 length over the speed; [`Error::Energy`] where the motion does not keep its energy.
+    /// the length (light ends would whirl it through large angles while they touch), and the contact time is so short that no point sinks
+    /// in by more than half of the length, or than the thickness if that is more, at most 0.1 √(length/gravity), and so long that they
+    /// sink in at all, 1e−10 length over the speed; [`Error::Energy`] where the motion does not keep its energy.
     pub fn contacts_until(
         &self,
         contact: &Contact,
@@ -209,33 +215,35 @@ impl<const N: usize> Scene<N> {
         &self,
         contacts: &[Contact; N],
         precision: f64,
-        enough: impl FnMut(&Ahead<N>) -> bool,
+        mut enough: impl FnMut(&Ahead<N>) -> bool,
     ) -> Result<Motion<N>, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         alike(contacts)?;
         // The first contact that is refused gives the error.
         contacts.iter().try_for_each(|contact| self.check(contact))?;
-        let log = Log::new(self.time_limit_s(), self.impact_limit());
-        Run::new(Planar::start(self), log, contacts, precision).run(enough)
+        let reasons =
+            ["so that ends sink in by half of the length at most", "so that ends sink in by the thickness at most"];
+        let body = self.body();
+        let allowed = Allowed::new(body.length_m().max(body.reach()), body.height_m(), reasons);
+        allowed.followed(contacts, |contacts, deepest_m| {
+            let log = Log::new(self.time_limit_s(), self.impact_limit());
+            Run::new(Planar::start(self), log, contacts, precision, deepest_m).run(&mut enough)
+        })
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {
-        let reach = self.body().reach();
-        let (length, gyration) = (self.body().length_m().max(reach), self.body().gyration_m());
+        let (length, gyration) = (self.body().length_m().max(self.body().reach()), self.body().gyration_m());
         // The bound itself is allowed.
         if gyration * (1.0 + 1e-12) < 0.05 * length {
             let (name, reason) = ("radius of gyration", "0.05 of the length for contacts that take time");
             let (value, bound) = (gyration, 0.05 * length);
             return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
         }
-        let of_speed = 0.1 * length / (self.speed_m_s() + reach * self.spin_rad_s().abs());
-        let most = [of_speed, 0.1 * (length / self.gravity_m_s2()).sqrt()];
         let reasons = [
-            "a tenth of length/speed, so that the ends sink in little",
-            "a tenth of sqrt(length/gravity), so that the ends sink in little",
+            "a tenth of sqrt(length/gravity), so that the ends sink in little by the weight alone",
             "1e-10 length/speed, so that the ends sink in at all",
         ];
-        check_time(contact.time_s(), most, 1e-10 * length / self.speed_m_s(), reasons)
+        check_time(contact.time_s(), length, self.speed_m_s(), self.gravity_m_s2(), reasons)
     }
 }
 
@@ -250,19 +258,107 @@ pub(crate) fn alike(contacts: &[Contact]) -> Result<(), Error> {
     }
 }
 
-/// Refuses a contact time above the bounds of speed and gravity, or below the shortest, for these reasons.
+/// The longest contact time over √(length/gravity). Up to there what a body at rest may still ring with, four times the energy of its weight
+/// suddenly applied, is some percent of that of a fall from half of its length.
+const WEIGHS: f64 = 0.1;
+
+/// Refuses a contact time so long that the weight counts for as much as the fall, or so short that nothing sinks in.
 pub(crate) fn check_time(
     value: f64,
-    [of_speed, of_gravity]: [f64; 2],
-    shortest: f64,
-    [by_speed, by_gravity, by_depth]: [&'static str; 3],
+    length_m: f64,
+    speed_m_s: f64,
+    gravity_m_s2: f64,
+    [by_weight, by_depth]: [&'static str; 2],
 ) -> Result<(), Error> {
     let refused =
         |bound, most, reason| Err(Error::Bound { name: "contact time", value, bound, most, unit: "s", reason });
-    // The bound itself is allowed.
-    let (longest, beyond) = (of_speed.min(of_gravity), 1.0 + 1e-12);
+    // The bounds themselves are allowed.
+    let (longest, shortest, beyond) =
+        (WEIGHS * (length_m / gravity_m_s2).sqrt(), 1e-10 * length_m / speed_m_s, 1.0 + 1e-12);
     if value > longest * beyond {
-        return refused(longest, true, if of_speed < of_gravity { by_speed } else { by_gravity });
+        return refused(longest, true, by_weight);
     }
     if value * beyond < shortest { refused(shortest, false, by_depth) } else { Ok(()) }
+}
+
+/// A motion that is not answered.
+#[derive(Debug)]
+pub(crate) enum Refused {
+    /// A point sinks in too deep.
+    Deep(Depth),
+    /// Another error.
+    Other(Error),
+}
+
+impl From<Error> for Refused {
+    fn from(error: Error) -> Self {
+        Self::Other(error)
+    }
+}
+
+/// How deep a point sinks in, over what is allowed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Depth {
+    point: usize,
+    over_allowed: f64,
+}
+
+/// The share of its length by which a body may sink in, whose thickness is not known or less. No body is thicker than it is long, and
+/// its center of mass is half of the thickness above the bottom: deeper, it would be in the ground whatever the body is.
+const DEEPEST: f64 = 0.5;
+/// The largest contact time that is answered is told to this share, after so many flights at most.
+const TOLD: f64 = 5e-3;
+const TRIED: usize = 40;
+
+/// How deep the points of a body may sink in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Allowed {
+    deepest_m: f64,
+    reason: &'static str,
+}
+
+impl Allowed {
+    /// Returns the depth allowed to a body: half of its length, or all of its thickness if that is more; `reasons` say so.
+    pub(crate) fn new(length_m: f64, thickness_m: f64, [by_length, by_thickness]: [&'static str; 2]) -> Self {
+        let half_m = DEEPEST * length_m;
+        let is_thick = thickness_m > half_m;
+        Self { deepest_m: half_m.max(thickness_m), reason: if is_thick { by_thickness } else { by_length } }
+    }
+
+    /// Returns the motion by these contacts.
+    ///
+    /// # Errors
+    /// [`Error::Bound`] with the largest contact time that is answered, of those contacts that take as long as that of the point which sinks
+    /// in too deep.
+    pub(crate) fn followed<const N: usize, T>(
+        &self,
+        contacts: &[Contact; N],
+        mut fly: impl FnMut(&[Contact; N], f64) -> Result<T, Refused>,
+    ) -> Result<T, Error> {
+        let depth = match fly(contacts, self.deepest_m) {
+            Ok(motion) => return Ok(motion),
+            Err(Refused::Other(error)) => return Err(error),
+            Err(Refused::Deep(depth)) => depth,
+        };
+        let value = contacts[depth.point].time_s();
+        let (mut answered, mut refused, mut over) = (0.0, value, depth.over_allowed);
+        for _ in 0..TRIED {
+            if refused <= answered * (1.0 + TOLD) {
+                break;
+            }
+            // Until one is answered the depth is taken to be in proportion to the contact time.
+            let next =
+                if answered > 0.0 { (answered * refused).sqrt() } else { refused * (0.99 / over).clamp(1e-6, 0.9) };
+            let last = |contact: Contact| {
+                if contact.time_s().to_bits() == value.to_bits() { contact.lasting(next) } else { contact }
+            };
+            match fly(&contacts.map(last), self.deepest_m) {
+                Ok(_) => answered = next,
+                Err(Refused::Deep(depth)) => (refused, over) = (next, depth.over_allowed),
+                Err(Refused::Other(_)) => refused = next,
+            }
+        }
+        let bound = if answered > 0.0 { answered } else { refused };
+        Err(Error::Bound { name: "contact time", value, bound, most: true, unit: "s", reason: self.reason })
+    }
 }

@@ -380,7 +380,8 @@ impl Drop {
         let plate = Plate::new([left, right, front, back], [self.body.gyration_m(), width.gyration_m])?
             .with_product_of_inertia(sx * sy * self.body.products_m2[0])?;
         let scene = PlateScene::new(plate, self.speed_m_s, self.gaps_m(), self.gravity_m_s2)?;
-        Ok(scene.with_spin(self.spin_of_plate())?)
+        let thickness = self.body.thickness.map_or(0.0, |thickness| thickness.m());
+        Ok(scene.with_spin(self.spin_of_plate())?.with_thickness(thickness))
     }
     /// Heights of the corners next to the lowest one as it touches, along the length and along the width.
     #[must_use]

@@ -3,7 +3,7 @@
 use clatter::Error as Given;
 
 use crate::Error;
-use crate::contact::{Contact, Level, Run, alike, check_time};
+use crate::contact::{Allowed, Contact, Level, Run, alike, check_time};
 use crate::flight::Log;
 use crate::motion::{Ahead, FeetMotion, PlateMotion};
 use crate::scene::{SLOWEST, within};
@@ -151,6 +151,7 @@ pub struct PlateScene {
     gaps: [f64; 2],
     spin: [f64; 2],
     gravity: f64,
+    thickness: f64,
     time_limit: f64,
     impact_limit: usize,
 }
@@ -179,6 +180,7 @@ impl PlateScene {
             gaps: gaps_m.map(|gap| gap + 0.0),
             spin: [0.0; 2],
             gravity: gravity_m_s2 + 0.0,
+            thickness: 0.0,
             time_limit: f64::INFINITY,
             impact_limit: 100_000,
         })
@@ -199,6 +201,10 @@ impl PlateScene {
             return Err(Given::Quantity { name: "spin in rad/s", value, allowed });
         }
         Ok(self)
+    }
+    /// So thick, by which corners may sink in; else that is not known.
+    pub(crate) fn with_thickness(self, thickness_m: f64) -> Self {
+        Self { thickness: thickness_m, ..self }
     }
     /// Vertical velocities of the corners at the first touch.
     #[must_use]
@@ -267,8 +273,8 @@ impl PlateScene {
     ///
     /// # Errors
     /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Bound`] unless each radius of gyration is at least 0.05 of the
-    /// side along it, and the contact time at most a fifth of the longer side over the speed and a tenth of √(longer side/gravity), and
-    /// at least 1e−10 of the longer side over the speed; [`Error::Energy`] where the motion does not keep its energy.
+    /// side along it, and the contact time is so short that no corner sinks in by more than half of the longer side, or than the
+    /// thickness if that is more, at most 0.1 √(longer side/gravity), and at least 1e−10 of the longer side over the speed; [`Error::Energy`] where the motion does not keep its energy.
     ///
     /// # Examples
     /// A plate that lands flat is pressed at all corners along one half-sine, and rises with the restitution.
@@ -297,13 +303,15 @@ impl PlateScene {
         &self,
         contacts: &[Contact; 4],
         precision: f64,
-        enough: impl FnMut(&Ahead<4>) -> bool,
+        mut enough: impl FnMut(&Ahead<4>) -> bool,
     ) -> Result<PlateMotion, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         alike(contacts)?;
         contacts.iter().try_for_each(|contact| self.check(contact))?;
-        let log = Log::new(self.time_limit, self.impact_limit);
-        Run::new(Level::start(self), log, contacts, precision).run(enough)
+        self.allowed().followed(contacts, |contacts, deepest_m| {
+            let log = Log::new(self.time_limit, self.impact_limit);
+            Run::new(Level::start(self), log, contacts, precision, deepest_m).run(&mut enough)
+        })
     }
 
     /// The same of a plate whose corners are feet: the bottom over them, so high, reaches so far beyond them along x and along y. Its four
@@ -329,7 +337,7 @@ impl PlateScene {
         height_m: f64,
         contacts: &[Contact; 8],
         precision: f64,
-        enough: impl FnMut(&Ahead<8>) -> bool,
+        mut enough: impl FnMut(&Ahead<8>) -> bool,
     ) -> Result<FeetMotion, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         let [x, y] = beyond_m;
@@ -343,8 +351,10 @@ impl PlateScene {
         let edges = feet.map(|[a, b]| [a + x.copysign(a), b + y.copysign(b)]);
         let points = std::array::from_fn(|i| if i < 4 { feet[i] } else { edges[i - 4] });
         let over = std::array::from_fn(|i| if i < 4 { 0.0 } else { height_m });
-        let log = Log::new(self.time_limit, self.impact_limit);
-        Run::new(Level::on(self, points, over), log, contacts, precision).run(enough)
+        self.allowed().followed(contacts, |contacts, deepest_m| {
+            let log = Log::new(self.time_limit, self.impact_limit);
+            Run::new(Level::on(self, points, over), log, contacts, precision, deepest_m).run(&mut enough)
+        })
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {
@@ -358,16 +368,20 @@ impl PlateScene {
                 return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
             }
         }
-        let length = sides[0].max(sides[1]);
-        // No corner is faster at the first touch.
-        let reach = self.plate.corners_m().iter().fold(0.0_f64, |most, [x, y]| most.max(libm::hypot(*x, *y)));
-        let fastest = self.speed + reach * libm::hypot(self.spin[0], self.spin[1]);
-        let most = [0.2 * length / fastest, 0.1 * (length / self.gravity).sqrt()];
         let reasons = [
-            "a fifth of longer side/speed, so that the corners sink in little",
-            "a tenth of sqrt(longer side/gravity), so that the corners sink in little",
+            "a tenth of sqrt(longer side/gravity), so that the corners sink in little by the weight alone",
             "1e-10 longer side/speed, so that the corners sink in at all",
         ];
-        check_time(contact.time_s(), most, 1e-10 * length / self.speed, reasons)
+        check_time(contact.time_s(), sides[0].max(sides[1]), self.speed, self.gravity, reasons)
+    }
+
+    /// Returns how deep corners may sink in.
+    fn allowed(&self) -> Allowed {
+        let [length, width] = self.plate.sides_m();
+        let reasons = [
+            "so that corners sink in by half of the longer side at most",
+            "so that corners sink in by the thickness at most",
+        ];
+        Allowed::new(length.max(width), self.thickness, reasons)
     }
 }

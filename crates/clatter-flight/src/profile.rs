@@ -72,6 +72,13 @@ impl<const N: usize> Profile<N> {
         let (lo, hi) = self.points.iter().fold((0.0_f64, 0.0_f64), |(lo, hi), [x, _]| (lo.min(*x), hi.max(*x)));
         hi - lo
     }
+    /// Returns its thickness as far as it is known: from the lowest to the highest point, or twice what a single face is below the center of
+    /// mass; 0 of a bar.
+    pub(crate) fn height_m(&self) -> f64 {
+        let heights = || self.points.iter().map(|[_, z]| *z);
+        let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+        if high > low { high - low } else { (-2.0 * low).max(0.0) }
+    }
     /// Lever arms of the points with sign, and their heights over the center of mass, at the angle with this sine and
     /// cosine.
     pub(crate) fn levers(&self, sin: f64, cos: f64) -> ([f64; N], [f64; N]) {

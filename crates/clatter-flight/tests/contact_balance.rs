@@ -1,6 +1,6 @@
 //! What no contact may break: energy never grows, momentum adds up, and what a place feels is its motion.
 
-use clatter_flight::{Contact, ContactLaw, Model, Motion, Profile, Scene, Stop, Strike};
+use clatter_flight::{Contact, ContactLaw, Error, Model, Motion, Profile, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 const TIME: f64 = 1e-3;
@@ -18,7 +18,7 @@ fn any_drop() -> impl Strategy<Value = (Scene, Contact)> {
     let law = prop::sample::select(&ContactLaw::ALL[..]);
     let e = prop_oneof![Just(0.0), 0.0..=1.0_f64, 0.0..0.1_f64, 0.99..=1.0_f64];
     let by_gravity = prop_oneof![Just(0.0999), Just(0.0), 0.001..0.1_f64];
-    let by_speed = prop_oneof![Just(0.0999), 0.001..0.1_f64];
+    let by_speed = prop_oneof![Just(0.3), 0.001..0.1_f64, 0.1..0.5_f64];
     (
         law,
         -0.5..0.98_f64,
@@ -31,6 +31,14 @@ fn any_drop() -> impl Strategy<Value = (Scene, Contact)> {
         .prop_map(|(law, q, off, e, tilt, by_gravity, by_speed)| {
             (drop(q, off, e, tilt, by_gravity, by_speed), Contact::new(law, e, TIME).expect("a contact"))
         })
+}
+
+/// The flight; none of a body that is refused because it would be pressed through the ground.
+fn flown(flight: Result<Motion, Error>) -> Option<Motion> {
+    match flight {
+        Err(Error::Bound { name: "contact time", reason, .. }) if reason.contains("half of the length") => None,
+        flight => Some(flight.expect("a flight")),
+    }
 }
 
 fn center(scene: &Scene, of: [f64; 2]) -> f64 {
@@ -80,7 +88,7 @@ proptest! {
     /// that is little.
     #[test]
     fn energy_never_grows((scene, contact) in any_drop(), precision in prop_oneof![Just(1e-3), Just(1e-4), Just(1e-5)]) {
-        let flight = scene.contacts_until(&contact, precision, |_| false).expect("a flight");
+        let Some(flight) = flown(scene.contacts_until(&contact, precision, |_| false)) else { return Ok(()) };
         // Some of the precision for each press, over the energy of the drop and not that of a faster turn; and 1 % whatever their number.
         let pressed = f64::from(u32::try_from(flight.presses.len()).expect("presses"));
         let most = (4.0 * pressed * precision).min(0.02);
@@ -104,7 +112,7 @@ proptest! {
     /// The shocks of all strikes together stop the center of mass, and what gravity gives it until then.
     #[test]
     fn all_shocks_together_stop_the_drop((scene, contact) in any_drop()) {
-        let flight = scene.fly(Model::Contacts(contact)).expect("a flight");
+        let Some(flight) = flown(scene.fly(Model::Contacts(contact))) else { return Ok(()) };
         let Stop::AtRest { time_s, .. } = flight.stop else { return Ok(()) };
         let stopped: f64 = flight.strikes.iter().map(|strike| center(&scene, strike.delta_v_m_s)).sum();
         let fallen = scene.speed_m_s() + scene.gravity_m_s2() * time_s;
@@ -124,7 +132,7 @@ proptest! {
         let thick = Scene::new(body, scene.e(), scene.speed_m_s(), scene.tilt_rad().to_degrees(), scene.gravity_m_s2());
         let scene = thick.and_then(|scene| scene.with_time_limit_s(0.3)).expect("a drop");
         let precision = 1e-3;
-        let flight = scene.contacts_until(&contact, precision, |_| false).expect("a flight");
+        let Some(flight) = flown(scene.contacts_until(&contact, precision, |_| false)) else { return Ok(()) };
         if tumbles(&flight) {
             return Ok(());
         }

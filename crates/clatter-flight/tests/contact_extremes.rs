@@ -40,7 +40,7 @@ fn sane(flight: &Motion) -> Result<(), String> {
     if failed.is_empty() { Ok(()) } else { Err(format!("not {failed:?}: {:?}", flight.stop)) }
 }
 
-/// In units of the body: contact times from the shortest to the longest, all restitutions, tilts from none to 89.9°,
+/// In units of the body: contact times from the shortest to ten times as long as the drop takes for the length, all restitutions, tilts from none to 89.9°,
 /// gravity from none to what the contact time allows.
 fn extreme() -> impl Strategy<Value = (Scene, Contact)> {
     let law = prop::sample::select(&ContactLaw::ALL[..]);
@@ -53,7 +53,7 @@ fn extreme() -> impl Strategy<Value = (Scene, Contact)> {
     ];
     let tilt =
         prop_oneof![Just(0.0), Just(1e-6), Just(89.0), 0.0..89.9_f64, (-9.0..1.5_f64).prop_map(|x| 10f64.powf(x))];
-    let time = prop_oneof![Just(0.0999), Just(1.1e-10), (-10.0..-1.0_f64).prop_map(|x| 10f64.powf(x))];
+    let time = prop_oneof![Just(0.0999), Just(1.1e-10), (-10.0..1.0_f64).prop_map(|x| 10f64.powf(x)), 0.05..0.6_f64];
     let gravity = prop_oneof![Just(0.0), Just(100.0), Just(9.81), (-6.0..5.0_f64).prop_map(|x| 10f64.powf(x))];
     let speed = prop_oneof![Just(4.43), (-3.0..3.0_f64).prop_map(|x| 10f64.powf(x))];
     let spin = prop_oneof![Just(0.0), -1.0..3.0_f64];
@@ -87,10 +87,12 @@ proptest! {
         match scene.contacts_until(&contact, precision, |_| false) {
             Ok(flight) => {
                 prop_assert_eq!(sane(&flight), Ok(()));
-                prop_assert!(flight.phases_s().count() < 200_000, "{} phases", flight.phases_s().count());
-                // All but elastic bodies with the longest contacts may take more phases than are followed, as the stop says.
+                // 150 000 and 128 for each press, as the flight bounds them.
+                let most = 150_000 + 128 * flight.presses.len();
+                prop_assert!(flight.phases_s().count() <= most, "{} phases", flight.phases_s().count());
+                // Lively bodies with the longest contacts may take more phases than are followed, as the stop says.
                 let (phases, ends) = (flight.phases_s().count(), !matches!(flight.stop, Stop::TimeLimit { .. }));
-                let many = phases >= 150_000 && scene.e() > 0.99 && precision < 1e-4;
+                let many = phases >= 150_000 && scene.e() > 0.95 && precision < 1e-3;
                 prop_assert!(ends || many, "{:?} after {phases} phases", flight.stop);
             }
             // To a hundredth, one of some thousand such drops changes its energy by more in one phase than an answer may.
@@ -292,24 +294,91 @@ fn a_bound_is_told_as_the_number_that_is_allowed_here() {
     let refused = |scene: &Scene, time_s: f64| {
         scene.fly(Model::Contacts(contact(ContactLaw::Hysteretic, 0.5, time_s))).err().map(|error| error.to_string())
     };
+    let half = "so that ends sink in by half of the length at most";
+    let thick = Profile::new(0.1, 0.04).and_then(|body| body.with_thickness(0.09)).expect("a body");
+    let level = |body: Profile| Scene::new(body, 0.5, 5.0, 0.0, 0.0).expect("a drop");
+    // Level, both ends press at once, at a rate of ω₁ √(2/μ) with μ = 1 + (50 mm/40 mm)², and sink in by the speed over it: of half of the
+    // length, or of the thickness if that is more, ω₁ = (π/2)(1 + e)/τ makes τ.
+    let deep = |depth_m: f64| 0.75 * std::f64::consts::PI * (2.0 / (1.0 + 1.25_f64.powi(2))).sqrt() * depth_m / 5.0;
     for (scene, value, told, bound_s) in [
-        // 0.14 m/4.83 m/s/10 = 2.8985… ms
-        (
-            drop(0.14, 0.04, 4.83, 9.81),
-            5e-3,
-            "contact time 5 ms: at most 2.89 ms here, a tenth of length/speed",
-            2.89e-3,
-        ),
         // √(0.14 m/9.81 m/s²)/10 = 11.946… ms
-        (drop(0.14, 0.04, 1e-3, 9.81), 0.02, "contact time 20 ms: at most 11.9 ms here, a tenth of sqrt", 11.9e-3),
-        (drop(0.1, 0.04, 5.0, 0.0), 2.5e-3, "contact time 2.5 ms: at most 2 ms here, a tenth of length/speed", 2e-3),
+        (
+            drop(0.14, 0.04, 1e-3, 9.81),
+            0.05,
+            "a tenth of sqrt(length/gravity), so that the ends sink in little by the weight alone",
+            11.946e-3,
+        ),
+        (level(Profile::new(0.1, 0.04).expect("a body")), 0.05, half, deep(0.05)),
+        (level(thick), 0.05, "so that ends sink in by the thickness at most", deep(0.09)),
+        // Whatever is told is answered.
+        (drop(0.14, 0.015, 8.0, 9.81), 0.0115, half, f64::NAN),
     ] {
         let text = refused(&scene, value).expect("too long");
-        assert!(text.starts_with(told) && text.ends_with("so that the ends sink in little"), "{text}");
-        assert_eq!(refused(&scene, bound_s), None);
-        assert!(refused(&scene, 1.01 * bound_s).is_some(), "{told}");
+        assert!(
+            text.starts_with(&format!("contact time {} ms: at most ", 1e3 * value)) && text.ends_with(told),
+            "{text}"
+        );
+        let (_, ms) = text.split_once("at most ").expect("a bound");
+        let told_s = 1e-3 * ms.split_once(" ms").and_then(|(ms, _)| ms.parse::<f64>().ok()).expect("a number");
+        // To three digits, below the bound by a share of 5e-3 at most where that is found by trying.
+        assert!(bound_s.is_nan() || told_s <= bound_s && told_s > 0.985 * bound_s, "{text}, not {bound_s}");
+        assert_eq!(refused(&scene, told_s), None);
+        assert!(refused(&scene, 1.02 * told_s).is_some(), "{told}");
     }
     let text = refused(&drop(0.14, 0.001, 3.0, 9.81), 1e-4).expect("too light ends");
     assert!(text.starts_with("radius of gyration 1 mm: at least 7 mm here, 0.05 of the length"), "{text}");
     assert_eq!(refused(&drop(0.14, 0.007, 3.0, 9.81), 1e-4), None);
+}
+
+/// Contacts of 0.2 to 2 ms, which `init` advises, are answered for bars of 60 to 400 mm from up to 2 m.
+#[test]
+fn usual_contacts_of_usual_products_are_answered() {
+    let mut state = 12345_u64;
+    let mut unit = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(state >> 33).expect("31 bits")) / 2_f64.powi(31)
+    };
+    for n in 0..4000 {
+        // A fourth of them are the shortest, from the highest, on the softest.
+        let [length, height_m, time_s] = if n % 4 == 0 {
+            [0.06, 2.0, 2e-3]
+        } else {
+            [0.06 + 0.34 * unit(), 0.05 + 1.95 * unit(), 0.2e-3 + 1.8e-3 * unit()]
+        };
+        let (off, gyration, e) = (0.6 * unit() - 0.3, length * (0.2 + 0.15 * unit()), 0.9 * unit());
+        let tilt_deg = if n % 10 == 1 { 0.0 } else { 40.0 * unit() };
+        let body = Profile::off_center(0.5 * length * (1.0 + off), 0.5 * length * (1.0 - off), gyration);
+        let scene = Scene::from_height(body.expect("a body"), e, height_m, tilt_deg, 9.81).expect("a drop");
+        let contact = contact(ContactLaw::ALL[n % 2], e, time_s);
+        let flight = scene.contacts_until(&contact, 1e-3, |_| false);
+        assert!(flight.is_ok(), "{scene:?} {contact:?}: {:?}", flight.err());
+    }
+}
+
+/// However soft, a drop ends at once: it is refused, or answered where little sinks in.
+#[test]
+fn contacts_softer_than_all_bounds_end() {
+    for law in ContactLaw::ALL {
+        for e in [0.0, 0.5, 1.0] {
+            for gravity in [0.0, 9.81, 100.0] {
+                for tilt_deg in [0.0, 0.5, 15.0, 60.0] {
+                    for time_s in [3e-3, 0.03, 0.1, 0.3, 1.0, 1000.0] {
+                        let scene = Scene::new(body(0.5), e, 4.43, tilt_deg, gravity)
+                            .and_then(|scene| scene.with_impact_limit(200))
+                            .expect("a drop");
+                        match scene.contacts_until(&contact(law, e, time_s), 1e-3, |_| false) {
+                            Ok(flight) => assert_eq!(sane(&flight), Ok(())),
+                            Err(Error::Bound { name: "contact time", bound, most: true, .. }) => {
+                                assert!(
+                                    bound < time_s && bound > 3e-3,
+                                    "{law:?} {e} {gravity} {tilt_deg} {time_s}: {bound}"
+                                );
+                            }
+                            Err(error) => panic!("{error}: {law:?} {e} {gravity} {tilt_deg} {time_s}"),
+                        }
+                    }
+                }
+            }
+        }
+    }
 }

@@ -25,4 +25,5 @@ mod plain;
 mod plate_impacts;
 mod reference;
 mod rest;
+mod slapdown;
 mod train;

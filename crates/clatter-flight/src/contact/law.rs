@@ -115,6 +115,11 @@ impl Contact {
         };
         Ok(Self { law, e, time_s, frequency, damping })
     }
+    /// Returns the same contact with another duration.
+    pub(super) fn lasting(self, time_s: f64) -> Self {
+        // Frequencies are angles over the time.
+        Self { time_s, frequency: self.frequency * self.time_s / time_s, ..self }
+    }
     /// Returns the law.
     #[must_use]
     pub fn law(&self) -> ContactLaw {

@@ -173,6 +173,11 @@ impl<const N: usize> Pose<N> for Planar<N> {
     fn steepness(&self, arms: &Levers<N>, point: usize) -> f64 {
         arms.over[point].abs() / arms.x[point].abs().max(0.1 * self.body.gyration_m())
     }
+    /// Of 1 + x x_i/ρ² the lever arm x_i changes by its height over the center of mass.
+    fn bend(&self, arms: &Levers<N>, point: usize) -> f64 {
+        let farthest = arms.x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        arms.over[point].abs() * farthest / (self.rho2 + arms.x[point] * arms.x[point])
+    }
 
     /// The lowest points on both sides of its center of mass bear it.
     fn borne(

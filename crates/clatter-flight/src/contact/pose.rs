@@ -88,6 +88,10 @@ pub trait Pose<const N: usize>: Copy + Debug {
     fn steepness(&self, _arms: &Self::Arms, _point: usize) -> f64 {
         0.0
     }
+    /// Returns the largest change, by a turn, of the acceleration of any point by a force on this one, over that of this point.
+    fn bend(&self, _arms: &Self::Arms, _point: usize) -> f64 {
+        0.0
+    }
 
     /// Returns the points and forces by which the ground can bear the weight at these lever arms and heights; the force
     /// on each point is a straight line, given by stiffness and height without force.

@@ -5,7 +5,7 @@ use super::mode::Motion;
 use super::phase::{Hold, Phase};
 use super::pose::{Extent, Pose};
 use super::touch::{Event, Margins, State, Touch, Watch};
-use super::{Phases, Press};
+use super::{Depth, Phases, Press, Refused};
 use crate::Error;
 use crate::flight::{After, Flight, Log, Model, State as Heights, Stop};
 use crate::motion::{Ahead, Course};
@@ -18,6 +18,12 @@ const ENERGY: f64 = 0.01;
 /// Factor on the precision for the turn of a phase over the lever arm, times its push over the fastest approach: a
 /// strike is then wrong by less than the precision (measured on random scenes by the tests).
 const KEPT: f64 = 4.0;
+/// The largest change of what a force does to any point, as a share, in a phase in which something vibrates, over the precision: as much an
+/// acceleration may be off while velocities are as precise as asked. A tolerance is ten times the precision, half of the change is on either side of the mean, and
+/// a part may swing by twice that.
+const SMOOTH: f64 = 5.0;
+/// The precision below which that share no longer falls: a phase would be a thousandth of a contact.
+const SMOOTHEST: f64 = 1e-4;
 /// The most computations of a phase with better lever arms.
 const PASSES: usize = 6;
 /// Share of the past force on a point by which roundings may pull or push it.
@@ -36,6 +42,9 @@ const LONG: f64 = 64.0;
 /// The most phases beyond those for each strike so far: a body that neither rests nor strikes is left then.
 const PHASES: usize = 150_000;
 const EACH_STRIKE: usize = 128;
+/// The parts of a phase, and the halvings next to the lowest of them, by which the lowest height of a dashpot is found.
+const PARTS: u32 = 32;
+const NARROWED: usize = 40;
 /// Heights within this share of the body's length, and velocities within this share of the largest approach, count as
 /// equal just after an event.
 const MARGIN: f64 = 1e-14;
@@ -44,6 +53,8 @@ pub(crate) struct Run<'a, P: Pose<N>, const N: usize> {
     /// Contact of each point, all by one law.
     pub(super) contacts: &'a [Contact; N],
     pub(super) precision: f64,
+    /// Depth below the ground that no point may exceed.
+    deepest: f64,
     pub(super) margins: Margins,
     pub(super) extent: Extent,
     pub(super) log: Log<N>,
@@ -72,12 +83,13 @@ struct Lasting<P: Pose<N>, const N: usize> {
 }
 
 impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
-    /// Creates a flight from the first touch.
-    pub(crate) fn new(pose: P, log: Log<N>, contacts: &'a [Contact; N], precision: f64) -> Self {
+    /// Creates a flight from the first touch, in which no point sinks in deeper than `deepest`.
+    pub(crate) fn new(pose: P, log: Log<N>, contacts: &'a [Contact; N], precision: f64, deepest: f64) -> Self {
         let extent = pose.extent();
         Self {
             contacts,
             precision,
+            deepest,
             margins: Margins { height: MARGIN * extent.size, velocity: 0.0, force: precision },
             extent,
             log,
@@ -96,7 +108,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         }
     }
 
-    pub(crate) fn run(mut self, mut enough: impl FnMut(&Ahead<N>) -> bool) -> Result<crate::Motion<N, P>, Error> {
+    pub(crate) fn run(mut self, mut enough: impl FnMut(&Ahead<N>) -> bool) -> Result<crate::Motion<N, P>, Refused> {
         let mut goes_on = self.first_touches();
         while goes_on {
             if let Some((forces, bound)) = self.rests() {
@@ -116,7 +128,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     }
 
     /// Computes a phase and the event at its end, and returns whether the flight goes on.
-    fn step(&mut self, enough: &mut impl FnMut(&Ahead<N>) -> bool) -> Result<bool, Error> {
+    fn step(&mut self, enough: &mut impl FnMut(&Ahead<N>) -> bool) -> Result<bool, Refused> {
         let Lasting { phase, dt, event } = self.next();
         if dt > 0.0 {
             self.phases.push((self.time.now(), phase));
@@ -221,6 +233,8 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         let steep = (0..N)
             .filter(|&i| self.touches[i].is_pressing())
             .fold(0.1_f64, |most, i| most.max(self.pose.steepness(&arms, i)));
+        let pressing = (0..N).filter(|&i| self.touches[i].is_pressing());
+        let bend = pressing.fold(0.0_f64, |most, i| most.max(self.pose.bend(&arms, i)));
         let of_pressing = |of: &dyn Fn(&Contact) -> f64| {
             let pressing = (0..N).filter(|&i| self.touches[i].is_pressing());
             pressing.fold(f64::INFINITY, |least, i| least.min(of(&self.contacts[i])))
@@ -259,9 +273,12 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             let gap = gap.max(self.pressed_off(&phase, dt, event, &end));
             let wrong = turn * steep * (pushed + turn * steep * reach * pose.angles()[1].abs());
             let over = (wrong / KEPT + gap) / budget;
-            if over > 1.5 && cuts < CUTS {
+            let rough = if phase.is_still() { 0.0 } else { turn * bend / (SMOOTH * self.precision.max(SMOOTHEST)) };
+            // The first grows with the square of the length, the second with the length.
+            let shorter = over.sqrt().max(rough).recip();
+            if (over > 1.5 || rough > 1.2) && cuts < CUTS {
                 cuts += 1;
-                longest = dt * over.sqrt().recip().clamp(0.1, 0.8);
+                longest = dt * shorter.clamp(0.1, 0.8);
                 (halfway, early) = (self.mean(&phase, longest).pose, false);
                 continue;
             }
@@ -272,7 +289,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
                 continue;
             }
             let cut = dt > 0.0 && (event.is_none() || cuts > 0);
-            self.stride = if cut { dt * over.sqrt().recip().min(GROWTH) } else { f64::INFINITY };
+            self.stride = if cut { dt * shorter.min(GROWTH) } else { f64::INFINITY };
             return Lasting { phase, dt, event: event.and_then(|(_, event)| event) };
         }
     }
@@ -367,7 +384,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     }
 
     /// Moves the pose to the end of a phase, and books the impulses of the ground.
-    fn advance(&mut self, phase: &Phase<P, N>, dt: f64) -> Result<(), Error> {
+    fn advance(&mut self, phase: &Phase<P, N>, dt: f64) -> Result<(), Refused> {
         if phase.is_free() {
             self.pose = self.pose.flown(dt);
             return Ok(());
@@ -378,11 +395,14 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         self.pose = phase.pose(dt, &pushes);
         let energy = self.pose.energy();
         if !energy.is_finite() {
-            return Err(Error::Energy { share: f64::INFINITY });
+            return Err(Error::Energy { share: f64::INFINITY }.into());
+        }
+        if let Some(depth) = self.sinks_too_deep(phase, dt) {
+            return Err(Refused::Deep(depth));
         }
         let change = (energy + phase.springs(&self.pose.points().0) + phase.taken(&motions) - held).abs();
         if change > ENERGY * self.opened {
-            return Err(Error::Energy { share: change / self.opened });
+            return Err(Error::Energy { share: change / self.opened }.into());
         }
         self.misfit += change;
         for i in 0..N {
@@ -396,6 +416,39 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             self.pushed(&phase.lies, impulses);
         }
         Ok(())
+    }
+
+    /// Returns the point that is deeper below the ground than allowed at the end of a phase, or on the way there. A point with a dent is
+    /// at its lowest as a phase ends, or has been there before.
+    fn sinks_too_deep(&self, phase: &Phase<P, N>, dt: f64) -> Option<Depth> {
+        let height = self.pose.points().0;
+        let pressing = (0..N).filter(|&i| self.touches[i].is_pressing());
+        let depth = |point: usize| {
+            let lowest =
+                if self.leave_dents() { height[point] } else { height[point].min(self.lowest(phase, point, dt)) };
+            Depth { point, over_allowed: -lowest / self.deepest }
+        };
+        let deepest = pressing.map(depth).max_by(|one, other| one.over_allowed.total_cmp(&other.over_allowed));
+        deepest.filter(|depth| depth.over_allowed > 1.0)
+    }
+
+    /// Returns the lowest height of a point in a phase where that may be too deep, else that at its begin.
+    fn lowest(&self, phase: &Phase<P, N>, i: usize, dt: f64) -> f64 {
+        let Some([height, velocity]) = phase.begins(i) else { return phase.start.points().0[i] };
+        let [curved, ..] = phase.bounds(i, &phase.mode_bounds());
+        if height - dt * (velocity.abs() + 0.5 * curved * dt) > -self.deepest {
+            return height;
+        }
+        let at = |t: f64| phase.watched(i, t)[0];
+        let part = dt / f64::from(PARTS);
+        let lower = |t: f64, other: f64| if at(other) < at(t) { other } else { t };
+        let near = (1..=PARTS).map(|k| f64::from(k) * part).fold(0.0, lower);
+        let [mut from, mut until] = [(near - part).max(0.0), (near + part).min(dt)];
+        for _ in 0..NARROWED {
+            let [one, other] = [from + (until - from) / 3.0, until - (until - from) / 3.0];
+            if at(one) < at(other) { until = other } else { from = one }
+        }
+        at(0.5 * (from + until)).min(at(near))
     }
 
     /// Books the effect of the ground at point i with its strike.
