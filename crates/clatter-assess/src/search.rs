@@ -73,6 +73,10 @@ pub(crate) struct Task<'a> {
 }
 
 impl Task<'_> {
+    /// Returns whether the limit is on the response of a part with stops.
+    pub(crate) fn hits_stops(&self) -> bool {
+        self.component.stops.is_some() && self.limit.is_response()
+    }
     /// Returns a place of the part.
     fn place(&self, at_m: [f64; 2]) -> Place {
         self.component.inside.place(at_m)

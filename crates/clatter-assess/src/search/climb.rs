@@ -31,7 +31,9 @@ impl Ranges<'_> {
             return self.climb_around(task, start, (LATE_REACH, LATE_TRIES[self.by_impacts()]), work);
         }
         let climbed = self.climb(task, start, tilt_step, work);
-        if self.has_edges(task) { self.climb_around(task, climbed, (EDGES_REACH, EDGES_TRIES), work) } else { climbed }
+        // Touches of a stop come and go as contacts do.
+        let by_steps = self.has_edges(task) || task.hits_stops();
+        if by_steps { self.climb_around(task, climbed, (EDGES_REACH, EDGES_TRIES), work) } else { climbed }
     }
 
     /// Climbs from a place in all ranges, one after the other, each step half as long as the last.
