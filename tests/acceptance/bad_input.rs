@@ -137,7 +137,7 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["respond", "--model=map", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--equivalent-pulse"], &["--omega <W>"]),
     (&["respond", "--model=map", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--tolerance=0"], &["--tolerance", "[1e-4, 0.5]"]),
     (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0"], &["--contact-time=TIME"]),
-    (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--contact-time-s=0.1"], &["--contact-time-s", "0.1", "at most 4.66 ms here, a tenth of length/speed"]),
+    (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--contact-time-s=0.1"], &["--contact-time-s", "0.1", "at most 11.9 ms here, a tenth of sqrt(length/gravity)"]),
     (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.001", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--contact-time-s=1e-4"], &["--gyration-m", "0.001", "at least 7 mm here, 0.05 of the length"]),
     (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--thickness-m=0.01", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--contact-time-s=1e-4"], &["--thickness-m", "0.01", "compliant"]),
     (&["respond", "--model=finite-tilt", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--contact-time-s=1e-4", "--contact-law=dashpot"], &["--contact-law", "--model=compliant alone"]),

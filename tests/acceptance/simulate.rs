@@ -63,7 +63,7 @@ const REFUSED: &[(&str, &[&str], &[&str])] = &[
     ("compliant", &[], &["give --contact-time=TIME"]),
     ("compliant", &["--contact-time-s=0"], &["--contact-time-s", "0.0", "[1e-12, 1000]"]),
     ("compliant", &["--contact-time-s=1e-13"], &["--contact-time-s", "1e-13", "[1e-12, 1000]"]),
-    ("compliant", &["--contact-time-s=0.1"], &["--contact-time-s", "0.1", "at most 3.16 ms here, a tenth of length/speed"]),
+    ("compliant", &["--contact-time-s=0.1"], &["--contact-time-s", "0.1", "at most 11.9 ms here, a tenth of sqrt(length/gravity)"]),
     ("compliant", &["--contact-time-s=1e-3", "--e=1.001"], &["--e", "1.001", "[0, 1]"]),
     ("compliant", &["--contact-time-s=1e-3", "--contact-law=glue"], &["--contact-law", "glue", "hysteretic, dashpot"]),
     ("compliant", &["--contact-law=dashpot"], &["give --contact-time=TIME"]),

@@ -221,10 +221,13 @@ impl<const N: usize> Scene<N> {
         alike(contacts)?;
         // The first contact that is refused gives the error.
         contacts.iter().try_for_each(|contact| self.check(contact))?;
-        let reasons =
-            ["so that ends sink in by half of the length at most", "so that ends sink in by the thickness at most"];
+        let reasons = [
+            "so that ends sink in by half of the length at most",
+            "so that ends sink in by the thickness at most",
+            "a tenth of sqrt(length/gravity), so that the ends sink in little by the weight alone",
+        ];
         let body = self.body();
-        let allowed = Allowed::new(body.length_m().max(body.reach()), body.height_m(), reasons);
+        let allowed = Allowed::new(body.length_m().max(body.reach()), body.height_m(), self.gravity_m_s2(), reasons);
         allowed.followed(contacts, |contacts, deepest_m| {
             let log = Log::new(self.time_limit_s(), self.impact_limit());
             Run::new(Planar::start(self), log, contacts, precision, deepest_m).run(&mut enough)
@@ -239,11 +242,8 @@ impl<const N: usize> Scene<N> {
             let (value, bound) = (gyration, 0.05 * length);
             return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
         }
-        let reasons = [
-            "a tenth of sqrt(length/gravity), so that the ends sink in little by the weight alone",
-            "1e-10 length/speed, so that the ends sink in at all",
-        ];
-        check_time(contact.time_s(), length, self.speed_m_s(), self.gravity_m_s2(), reasons)
+        let reason = "1e-10 length/speed, so that the ends sink in at all";
+        check_shortest(contact.time_s(), 1e-10 * length / self.speed_m_s(), reason)
     }
 }
 
@@ -262,23 +262,13 @@ pub(crate) fn alike(contacts: &[Contact]) -> Result<(), Error> {
 /// suddenly applied, is some percent of that of a fall from half of its length.
 const WEIGHS: f64 = 0.1;
 
-/// Refuses a contact time so long that the weight counts for as much as the fall, or so short that nothing sinks in.
-pub(crate) fn check_time(
-    value: f64,
-    length_m: f64,
-    speed_m_s: f64,
-    gravity_m_s2: f64,
-    [by_weight, by_depth]: [&'static str; 2],
-) -> Result<(), Error> {
-    let refused =
-        |bound, most, reason| Err(Error::Bound { name: "contact time", value, bound, most, unit: "s", reason });
-    // The bounds themselves are allowed.
-    let (longest, shortest, beyond) =
-        (WEIGHS * (length_m / gravity_m_s2).sqrt(), 1e-10 * length_m / speed_m_s, 1.0 + 1e-12);
-    if value > longest * beyond {
-        return refused(longest, true, by_weight);
+/// Refuses a contact time so short that nothing sinks in.
+pub(crate) fn check_shortest(value: f64, bound: f64, reason: &'static str) -> Result<(), Error> {
+    // The bound itself is allowed.
+    if value * (1.0 + 1e-12) < bound {
+        return Err(Error::Bound { name: "contact time", value, bound, most: false, unit: "s", reason });
     }
-    if value * beyond < shortest { refused(shortest, false, by_depth) } else { Ok(()) }
+    Ok(())
 }
 
 /// A motion that is not answered.
@@ -310,38 +300,67 @@ const DEEPEST: f64 = 0.5;
 const TOLD: f64 = 5e-3;
 const TRIED: usize = 40;
 
-/// How deep the points of a body may sink in.
+/// How deep the points of a body may sink in, and how long contacts may take by its weight.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Allowed {
     deepest_m: f64,
-    reason: &'static str,
+    by_depth: &'static str,
+    longest_s: f64,
+    by_weight: &'static str,
 }
 
 impl Allowed {
-    /// Returns the depth allowed to a body: half of its length, or all of its thickness if that is more; `reasons` say so.
-    pub(crate) fn new(length_m: f64, thickness_m: f64, [by_length, by_thickness]: [&'static str; 2]) -> Self {
+    /// Returns the depth allowed to a body: half of its length, or all of its thickness if that is more; and the longest contact. The
+    /// reasons say so.
+    pub(crate) fn new(
+        length_m: f64,
+        thickness_m: f64,
+        gravity_m_s2: f64,
+        [by_length, by_thickness, by_weight]: [&'static str; 3],
+    ) -> Self {
         let half_m = DEEPEST * length_m;
-        let is_thick = thickness_m > half_m;
-        Self { deepest_m: half_m.max(thickness_m), reason: if is_thick { by_thickness } else { by_length } }
+        let by_depth = if thickness_m > half_m { by_thickness } else { by_length };
+        let longest_s = WEIGHS * (length_m / gravity_m_s2).sqrt();
+        Self { deepest_m: half_m.max(thickness_m), by_depth, longest_s, by_weight }
     }
 
     /// Returns the motion by these contacts.
     ///
     /// # Errors
     /// [`Error::Bound`] with the largest contact time that is answered, of those contacts that take as long as that of the point which sinks
-    /// in too deep.
+    /// in too deep, or as the longest by the weight.
     pub(crate) fn followed<const N: usize, T>(
         &self,
         contacts: &[Contact; N],
         mut fly: impl FnMut(&[Contact; N], f64) -> Result<T, Refused>,
     ) -> Result<T, Error> {
-        let depth = match fly(contacts, self.deepest_m) {
-            Ok(motion) => return Ok(motion),
-            Err(Refused::Other(error)) => return Err(error),
-            Err(Refused::Deep(depth)) => depth,
+        let refused =
+            |value, bound, reason| Error::Bound { name: "contact time", value, bound, most: true, unit: "s", reason };
+        // The bound itself is allowed.
+        let too_long = contacts.iter().map(Contact::time_s).find(|time_s| *time_s > self.longest_s * (1.0 + 1e-12));
+        let light = contacts.map(|contact| {
+            let is_longer = too_long.is_some() && contact.time_s() > self.longest_s;
+            if is_longer { contact.lasting(self.longest_s) } else { contact }
+        });
+        let depth = match (fly(&light, self.deepest_m), too_long) {
+            (Err(Refused::Deep(depth)), _) => depth,
+            (Err(Refused::Other(error)), None) => return Err(error),
+            (Ok(motion), None) => return Ok(motion),
+            (_, Some(value)) => return Err(refused(value, self.longest_s, self.by_weight)),
         };
-        let value = contacts[depth.point].time_s();
-        let (mut answered, mut refused, mut over) = (0.0, value, depth.over_allowed);
+        let (value, from_s) = (contacts[depth.point].time_s(), light[depth.point].time_s());
+        Err(refused(value, self.longest_answered(&light, from_s, depth.over_allowed, fly), self.by_depth))
+    }
+
+    /// Returns the longest that those contacts may take which take so long, where one sinks in by so much over what is allowed.
+    fn longest_answered<const N: usize, T>(
+        &self,
+        contacts: &[Contact; N],
+        from_s: f64,
+        mut over: f64,
+        mut fly: impl FnMut(&[Contact; N], f64) -> Result<T, Refused>,
+    ) -> f64 {
+        let (mut answered, mut refused) = (0.0, from_s);
         for _ in 0..TRIED {
             if refused <= answered * (1.0 + TOLD) {
                 break;
@@ -350,7 +369,7 @@ impl Allowed {
             let next =
                 if answered > 0.0 { (answered * refused).sqrt() } else { refused * (0.99 / over).clamp(1e-6, 0.9) };
             let last = |contact: Contact| {
-                if contact.time_s().to_bits() == value.to_bits() { contact.lasting(next) } else { contact }
+                if contact.time_s().to_bits() == from_s.to_bits() { contact.lasting(next) } else { contact }
             };
             match fly(&contacts.map(last), self.deepest_m) {
                 Ok(_) => answered = next,
@@ -358,7 +377,6 @@ impl Allowed {
                 Err(Refused::Other(_)) => refused = next,
             }
         }
-        let bound = if answered > 0.0 { answered } else { refused };
-        Err(Error::Bound { name: "contact time", value, bound, most: true, unit: "s", reason: self.reason })
+        if answered > 0.0 { answered } else { refused }
     }
 }

@@ -3,7 +3,7 @@
 use clatter::Error as Given;
 
 use crate::Error;
-use crate::contact::{Allowed, Contact, Level, Run, alike, check_time};
+use crate::contact::{Allowed, Contact, Level, Run, alike, check_shortest};
 use crate::flight::Log;
 use crate::motion::{Ahead, FeetMotion, PlateMotion};
 use crate::scene::{SLOWEST, within};
@@ -368,11 +368,8 @@ impl PlateScene {
                 return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
             }
         }
-        let reasons = [
-            "a tenth of sqrt(longer side/gravity), so that the corners sink in little by the weight alone",
-            "1e-10 longer side/speed, so that the corners sink in at all",
-        ];
-        check_time(contact.time_s(), sides[0].max(sides[1]), self.speed, self.gravity, reasons)
+        let reason = "1e-10 longer side/speed, so that the corners sink in at all";
+        check_shortest(contact.time_s(), 1e-10 * sides[0].max(sides[1]) / self.speed, reason)
     }
 
     /// Returns how deep corners may sink in.
@@ -381,7 +378,8 @@ impl PlateScene {
         let reasons = [
             "so that corners sink in by half of the longer side at most",
             "so that corners sink in by the thickness at most",
+            "a tenth of sqrt(longer side/gravity), so that the corners sink in little by the weight alone",
         ];
-        Allowed::new(length.max(width), self.thickness, reasons)
+        Allowed::new(length.max(width), self.thickness, self.gravity, reasons)
     }
 }

@@ -312,6 +312,8 @@ fn a_bound_is_told_as_the_number_that_is_allowed_here() {
         (level(thick), 0.05, "so that ends sink in by the thickness at most", deep(0.09)),
         // Whatever is told is answered.
         (drop(0.14, 0.015, 8.0, 9.81), 0.0115, half, f64::NAN),
+        // So is what is told beyond the bound by the weight, where that would sink in too deep.
+        (drop(0.14, 0.015, 8.0, 9.81), 0.05, half, f64::NAN),
     ] {
         let text = refused(&scene, value).expect("too long");
         assert!(
