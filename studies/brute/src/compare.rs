@@ -10,7 +10,8 @@ use serde_json::Value;
 
 use crate::flight::{Law, Own};
 use crate::hunt::{Worst, hunt};
-use crate::product::{Kind, Product};
+use crate::part::{Stop, Suspension};
+use crate::product::{Kind, Product, gaps};
 use crate::random::{KINDS, Random, product};
 use crate::spatial;
 
@@ -155,7 +156,7 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
 
 /// Returns the same file with limits up to 30 % above the reported demands.
 pub(crate) fn with_room(text: &str, told: &BTreeMap<(String, String), Claimed>, random: &mut Random) -> String {
-    let mut limited = String::new();
+    let (mut limited, gaps) = (String::new(), gaps(text));
     let mut part = -1;
     for line in text.lines() {
         part += i32::from(line == "[[component]]");
@@ -164,7 +165,11 @@ pub(crate) fn with_room(text: &str, told: &BTreeMap<(String, String), Claimed>, 
         });
         match limit {
             Some(((_, kind), told)) if told.demand > 0.0 => {
-                let allowed = told.demand * (1.0 + random.within(0.0, 0.3));
+                let mut allowed = told.demand * (1.0 + random.within(0.0, 0.3));
+                if kind == "rattle-space" {
+                    // A file whose stop lies beyond the rattle space is refused.
+                    allowed = allowed.max(gaps.get(part as usize).copied().unwrap_or(0.0) * (1.0 + 1e-6));
+                }
                 limited += &format!("{} = \"{allowed:.6e} {}\"\n", key(kind), unit(kind));
             }
             _ => limited += &format!("{line}\n"),
@@ -182,7 +187,7 @@ fn unit(kind: &str) -> &str {
     match kind {
         "acceleration" => "m/s2",
         "rattle-space" => "m",
-        "velocity-change" => "m/s",
+        "velocity-change" | "stop-speed" => "m/s",
         "angular-velocity-change" => "rad/s",
         _ => unreachable!("{kind} is no limit of one number"),
     }
@@ -258,8 +263,19 @@ pub fn repeat(worst: &Worst) -> Vec<String> {
         let (e, time) = (own.e.unwrap_or(drop.e), own.time.or(drop.contact.map(|(_, time)| time)).unwrap_or(0.0));
         args.push(format!("--contact={},{e},{time}", ["a", "b"][end ^ usize::from(drop.b_first)]));
     }
-    if let Some((omega, zeta)) = suspension {
-        args.extend([format!("--omega={omega}"), format!("--damping={zeta}")]);
+    args.extend(suspension.iter().flat_map(held));
+    args
+}
+
+/// Returns the arguments of a suspension.
+pub(crate) fn held(Suspension { omega, zeta, stop }: &Suspension) -> Vec<String> {
+    let mut args = vec![format!("--omega={omega}"), format!("--damping={zeta}")];
+    if let Some(Stop { gap, time, e }) = stop {
+        args.extend([
+            format!("--stop-gap-m={gap}"),
+            format!("--stop-contact-time-s={time}"),
+            format!("--stop-restitution={e}"),
+        ]);
     }
     args
 }
@@ -273,6 +289,7 @@ pub(crate) fn answer(clatter: &Path, args: &[String], kind: Kind) -> Option<f64>
         Kind::Acceleration if suspended => value("part_acceleration"),
         Kind::Acceleration => value("acceleration"),
         Kind::RattleSpace => value("part_displacement"),
+        Kind::StopSpeed => answer["at_stop"]["largest_hit_m_s"].as_f64(),
         Kind::VelocityChange => value("velocity_change"),
         Kind::AngularVelocityChange => value("angular_velocity_change"),
         Kind::DamageBoundary(velocity, acceleration) => {

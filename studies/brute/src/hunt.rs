@@ -1,7 +1,7 @@
 //! The worst drop of each limit by sampling and climbing.
 
 use crate::flight::{Drop, Flight, Until, flat, follow};
-use crate::part::{INSTANT, Motion, Peak, largest, largest_acceleration, respond, shocks};
+use crate::part::{INSTANT, Motion, Peak, Response, Stop, Suspension, largest, largest_acceleration, respond, shocks};
 use crate::product::{Kind, Part, Product, Sample};
 use crate::random::Random;
 
@@ -35,18 +35,19 @@ pub struct Worst {
     pub drop: Drop,
     /// Place from the center of mass.
     pub place: f64,
-    /// Natural angular frequency and damping ratio.
-    pub suspension: Option<(f64, f64)>,
+    /// What holds the part.
+    pub suspension: Option<Suspension>,
 }
 
 /// Returns the values of limits of one part in one flight.
 #[must_use]
-pub fn values(kinds: &[Kind], flight: &Flight, place: f64, suspension: Option<(f64, f64)>) -> Vec<Peak> {
-    let response = suspension.map(|(omega, zeta)| respond(flight, place, omega, zeta, None));
-    let value = |kind: &Kind| match (*kind, response) {
+pub fn values(kinds: &[Kind], flight: &Flight, place: f64, suspension: Option<Suspension>) -> Vec<Peak> {
+    let response = suspension.map(|suspension| respond(flight, place, &suspension, None));
+    let value = |kind: &Kind| match (*kind, &response) {
         (Kind::Acceleration, None) => largest_acceleration(flight, place),
         (Kind::Acceleration, Some(response)) => response.acceleration,
-        (Kind::RattleSpace, response) => response.unwrap_or_default().displacement,
+        (Kind::RattleSpace, response) => response.as_ref().map_or_else(Peak::default, |response| response.displacement),
+        (Kind::StopSpeed, response) => response.as_ref().map_or_else(Peak::default, Response::hardest),
         (Kind::VelocityChange, _) => largest(&shocks(flight, place, Motion::Velocity)),
         (Kind::AngularVelocityChange, _) => largest(&shocks(flight, place, Motion::Turning)),
         (Kind::DamageBoundary(velocity, acceleration), _) => {
@@ -106,14 +107,14 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
     let mut random = Random::new(seed);
     let limits: Vec<(&Part, Kind)> =
         product.parts.iter().flat_map(|part| part.limits.iter().map(move |&kind| (part, kind))).collect();
-    let spins = product.spins();
+    let varied = Varied { spins: product.spins(), stops: product.has_stops() };
     let draws = if product.parts.iter().any(Part::varies) { DRAWS } else { 1 };
     let mut best: Vec<Vec<(f64, Sample)>> = vec![Vec::new(); limits.len()];
     for _ in 0..drops.div_ceil(2).max(1) {
-        let base = draw(&mut random, spins);
+        let base = draw(&mut random, varied);
         let flights = flights(&product.drop(&base), ROUGH);
         for _ in 0..draws {
-            let mut sample = draw(&mut random, spins);
+            let mut sample = draw(&mut random, varied);
             sample[..5].copy_from_slice(&base[..5]);
             sample[8] = base[8];
             let mut best = best.iter_mut();
@@ -138,26 +139,39 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
         starts.truncate(STARTS);
         let mut tops: Vec<(f64, Sample)> = starts
             .into_iter()
-            .map(|start| climb(start, tries, spins, &mut random, |sample| high(part, kind, product, sample)))
+            .map(|start| climb(start, tries, varied, &mut random, |sample| high(part, kind, product, sample)))
             .collect();
         tops.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let top = climb(tops[0], 2 * tries, spins, &mut random, |sample| high(part, kind, product, sample));
+        let top = climb(tops[0], 2 * tries, varied, &mut random, |sample| high(part, kind, product, sample));
         evaluate(part, kind, product, &top.1)
     });
     climbed.collect()
 }
 
-/// Draws a sample: uniform, some inputs at an end of their range, tilts rather small.
-fn draw(random: &mut Random, spins: bool) -> Sample {
+/// The inputs that vary beside those of every product.
+#[derive(Debug, Clone, Copy)]
+struct Varied {
+    spins: bool,
+    stops: bool,
+}
+
+/// Draws a sample: uniform, some inputs at an end of their range, those of stops as often as not, tilts rather small.
+fn draw(random: &mut Random, Varied { spins, stops }: Varied) -> Sample {
     let corners = random.chance(0.5);
     let mut one = || match random.unit() {
         u if corners && u < 0.4 => f64::from(u < 0.2),
         _ => random.unit(),
     };
     let [a, b, c, d, e, f, g, h] = [0.0; 8].map(|_: f64| one());
-    let mut sample = [a, b, c, d, e, f, g, h, if spins { one() } else { 0.0 }];
+    let mut sample = [a, b, c, d, e, f, g, h, if spins { one() } else { 0.0 }, 0.0, 0.0, 0.0];
     if random.chance(0.3) {
         sample[3] = sample[3].powi(4);
+    }
+    if stops {
+        sample[9..].fill_with(|| match random.unit() {
+            u if u < 0.5 => f64::from(u < 0.25),
+            _ => random.unit(),
+        });
     }
     sample
 }
@@ -166,7 +180,7 @@ fn draw(random: &mut Random, spins: bool) -> Sample {
 fn climb(
     start: (f64, Sample),
     tries: usize,
-    spins: bool,
+    Varied { spins, stops }: Varied,
     random: &mut Random,
     value: impl Fn(&Sample) -> f64,
 ) -> (f64, Sample) {
@@ -174,8 +188,9 @@ fn climb(
     for _ in 0..tries {
         let few = random.chance(0.5);
         let mut sample = top.1;
-        for (i, x) in sample.iter_mut().take(if spins { 9 } else { 8 }).enumerate() {
-            if i != 4 && !(few && random.chance(0.6)) {
+        for (i, x) in sample.iter_mut().enumerate() {
+            let varies = i < 8 && i != 4 || i == 8 && spins || i > 8 && stops;
+            if varies && !(few && random.chance(0.6)) {
                 *x = (*x + reach * random.normal()).clamp(0.0, 1.0);
             }
         }
@@ -209,8 +224,11 @@ impl std::fmt::Display for Worst {
             write!(f, ", contact {:.5} ms", time * 1e3)?;
         }
         write!(f, ", at {:.3} mm", (place + drop.center) * 1e3)?;
-        if let Some((omega, zeta)) = suspension {
+        if let Some(Suspension { omega, zeta, stop }) = suspension {
             write!(f, ", {:.3} Hz, damping {zeta:.4}", omega / std::f64::consts::TAU)?;
+            if let Some(Stop { gap, time, e }) = stop {
+                write!(f, ", stops at {:.5} mm of {:.5} ms, e {e:.4}", gap * 1e3, time * 1e3)?;
+            }
         }
         Ok(())
     }

@@ -11,7 +11,7 @@ use clatter_brute::{compare, hunt, product::Product, random, spatial};
 const USAGE: &str = "clatter-brute hunt PRODUCT.toml [--drops=4000] [--seed=1]
 clatter-brute random KIND SEED
 clatter-brute compare --kind=KIND|all [--seeds=1..20] [--drops=4000] [--clatter=PATH]
-KIND: instant, contacts, low-e, high-e, tiny-tilt, steep, damped, feet, own-contacts, spin, all of these; plate, box, plate-own-contacts, box-own-contacts, spin-plate, spin-box; without --clatter, the command is that of CLATTER";
+KIND: instant, contacts, low-e, high-e, tiny-tilt, steep, damped, feet, own-contacts, spin, stops, all of these; plate, box, plate-own-contacts, box-own-contacts, spin-plate, spin-box, plate-stops, box-stops; without --clatter, the command is that of CLATTER";
 
 /// Arguments: those in order, and options.
 struct Args(Vec<String>);

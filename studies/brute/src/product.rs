@@ -1,6 +1,7 @@
 //! A product file: the body, its drop, and the limits of its parts.
 
 use crate::flight::{Drop, Law, Own};
+use crate::part::{Stop, Suspension};
 use toml::{Table, Value};
 
 /// Begin and end of a range.
@@ -13,6 +14,8 @@ pub enum Kind {
     Acceleration,
     /// Displacement of a suspended part.
     RattleSpace,
+    /// Speed at which a suspended part reaches its stop.
+    StopSpeed,
     /// Velocity change of one shock.
     VelocityChange,
     /// Change of the angular velocity of one shock.
@@ -28,10 +31,33 @@ impl Kind {
         match self {
             Self::Acceleration => "acceleration",
             Self::RattleSpace => "rattle-space",
+            Self::StopSpeed => "stop-speed",
             Self::VelocityChange => "velocity-change",
             Self::AngularVelocityChange => "angular-velocity-change",
             Self::DamageBoundary(..) => "damage-boundary",
         }
+    }
+}
+
+/// The ranges of what holds a suspended part.
+#[derive(Debug, Clone, Copy)]
+pub struct Suspensions {
+    /// Natural angular frequency.
+    pub omega: Range,
+    /// Damping ratio.
+    pub zeta: Range,
+    /// Gap, contact time and restitution of its stops.
+    pub stop: Option<[Range; 3]>,
+}
+
+impl Suspensions {
+    /// Returns the suspension at shares of its ranges from 0 to 1: frequency, damping, and those of the stops.
+    pub(crate) fn at(&self, omega: f64, zeta: f64, stops: &[f64]) -> Suspension {
+        let stop = self.stop.map(|of| {
+            let [gap, time, e] = [0, 1, 2].map(|i| between(of[i], stops[i]));
+            Stop { gap, time, e }
+        });
+        Suspension { omega: between(self.omega, omega), zeta: between(self.zeta, zeta), stop }
     }
 }
 
@@ -42,8 +68,8 @@ pub struct Part {
     pub name: String,
     /// Range of its place from the center of mass towards end b, with its extent.
     pub place: Range,
-    /// Natural angular frequency and damping ratio; none for a hard-mounted part.
-    pub suspension: Option<(Range, Range)>,
+    /// What holds it; none for a hard-mounted part.
+    pub suspension: Option<Suspensions>,
     /// Its limits.
     pub limits: Vec<Kind>,
 }
@@ -67,8 +93,8 @@ pub struct Product {
 }
 
 /// A drop and a part within all ranges, each from 0 to 1: restitution, contact time, speed, tilt, first end, place,
-/// frequency, damping, spin.
-pub type Sample = [f64; 9];
+/// frequency, damping, spin, and gap, contact time and restitution of stops.
+pub type Sample = [f64; 12];
 
 fn between(range: Range, share: f64) -> f64 {
     range[0] + (range[1] - range[0]) * share
@@ -98,6 +124,12 @@ impl Product {
     #[must_use]
     pub fn spins(&self) -> bool {
         self.spin[1] > self.spin[0]
+    }
+
+    /// Returns whether a part of it has stops.
+    #[must_use]
+    pub fn has_stops(&self) -> bool {
+        self.parts.iter().any(|part| part.suspension.is_some_and(|suspension| suspension.stop.is_some()))
     }
 
     /// Reads a product file.
@@ -149,13 +181,16 @@ impl Part {
     #[must_use]
     pub fn varies(&self) -> bool {
         let wide = |range: Range| range[1] > range[0];
-        wide(self.place) || self.suspension.is_some_and(|(omega, zeta)| wide(omega) || wide(zeta))
+        let held = |of: Suspensions| {
+            wide(of.omega) || wide(of.zeta) || of.stop.is_some_and(|stop| stop.iter().any(|&of| wide(of)))
+        };
+        wide(self.place) || self.suspension.is_some_and(held)
     }
 
-    /// Returns the place from the center of mass, natural angular frequency and damping ratio of a sample.
+    /// Returns the place from the center of mass and the suspension of a sample.
     #[must_use]
-    pub fn at(&self, sample: &Sample) -> (f64, Option<(f64, f64)>) {
-        let suspension = self.suspension.map(|(omega, zeta)| (between(omega, sample[6]), between(zeta, sample[7])));
+    pub fn at(&self, sample: &Sample) -> (f64, Option<Suspension>) {
+        let suspension = self.suspension.map(|of| of.at(sample[6], sample[7], &sample[9..]));
         (between(self.place, sample[5]), suspension)
     }
 }
@@ -170,12 +205,13 @@ fn part(table: &Table, center: f64) -> Result<Part, String> {
                 Some([low, high]) => [0.5 / high, 0.5 / low],
                 None => range(table, "damping_ratio")?,
             };
-            Some((frequency.map(|f| f * std::f64::consts::TAU), zeta))
+            Some(Suspensions { omega: frequency.map(|f| f * std::f64::consts::TAU), zeta, stop: stops(table)? })
         }
     };
     let kinds = [
         ("acceleration_limit", Kind::Acceleration),
         ("rattle_space", Kind::RattleSpace),
+        ("stop_speed_limit", Kind::StopSpeed),
         ("velocity_change_limit", Kind::VelocityChange),
         ("angular_velocity_change_limit", Kind::AngularVelocityChange),
     ];
@@ -190,6 +226,24 @@ fn part(table: &Table, center: f64) -> Result<Part, String> {
     }
     let name = table.get("name").and_then(Value::as_str).ok_or("a component without a name")?.to_owned();
     Ok(Part { name, place: [from - half - center, to + half - center], suspension, limits })
+}
+
+/// Returns the ranges of the stops of a part: gap, contact time and restitution.
+fn stops(part: &Table) -> Result<Option<[Range; 3]>, String> {
+    let Some(stop) = part.get("stop").and_then(Value::as_table) else { return Ok(None) };
+    Ok(Some([range(stop, "gap")?, range(stop, "contact_time")?, range(stop, "restitution")?]))
+}
+
+/// Returns the ranges of the stops in the text of a part.
+pub(crate) fn stops_of(text: &str) -> Option<[Range; 3]> {
+    stops(&text.parse().ok()?).ok()?
+}
+
+/// Returns the largest gap of the stops of each part of a file, 0 where it has none.
+pub(crate) fn gaps(text: &str) -> Vec<f64> {
+    let file: Table = text.parse().unwrap_or_default();
+    let parts = file.get("component").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_table);
+    parts.map(|part| stops(part).ok().flatten().map_or(0.0, |[gap, ..]| gap[1])).collect()
 }
 
 /// Returns the radius of gyration and the center of mass.

@@ -44,8 +44,8 @@ impl Random {
 }
 
 /// Kinds of random products.
-pub const KINDS: [&str; 10] =
-    ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped", "feet", "own-contacts", "spin"];
+pub const KINDS: [&str; 11] =
+    ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped", "feet", "own-contacts", "spin", "stops"];
 
 /// Returns a value with its unit, or a range about it, with three digits, as one writes them.
 fn spread(random: &mut Random, middle: f64, share: f64, chance: f64, unit: &str) -> String {
@@ -131,8 +131,9 @@ pub fn product(kind: &str, seed: u64) -> Option<String> {
         let [low, high] = [spin.min(other), spin.max(other)].map(|share| digits(share * most));
         let _ = writeln!(text, "spin = [\"{low} rad/s\", \"{high} rad/s\"]");
     }
+    let speed = (2.0 * 9.806_65 * height).sqrt();
     for i in 0..=usize::from(r.chance(0.5)) {
-        text.push_str(&part(r, kind, i, length, contact));
+        text.push_str(&part(r, kind, i, length, contact, speed));
     }
     Some(text)
 }
@@ -150,14 +151,27 @@ pub(crate) fn own_contacts(r: &mut Random, places: &[&str], time: f64) -> String
     places.iter().map(&mut one).collect::<Vec<_>>().join(", ")
 }
 
-fn part(r: &mut Random, kind: &str, i: usize, length: f64, contact: bool) -> String {
+/// Returns stops of a part of so many Hz in a drop of this speed, as a line of a product file: near and far, hard and soft,
+/// dead and lively, their values or ranges of them.
+pub(crate) fn stops(r: &mut Random, frequency: f64, speed: f64) -> String {
+    // A part as slow as the product stops goes this far; a fast one less.
+    let far = speed / (std::f64::consts::TAU * frequency) / (1.0 + frequency / 500.0);
+    let gap = r.log(0.03, 1.2) * far * 1e3;
+    let time = r.log(0.05, 2.0).min(600.0 / frequency);
+    let e = if r.chance(0.15) { r.within(0.0, 0.1) } else { r.within(0.1, 0.75) };
+    let [gap, time] = [spread(r, gap, 0.3, 0.4, "mm"), spread(r, time, 0.4, 0.5, "ms")];
+    let e = spread(r, e, 0.25, 0.4, "").replace(" \"", "").replace('"', "");
+    format!("stop = {{ gap = {gap}, contact_time = {time}, restitution = {e} }}\n")
+}
+
+fn part(r: &mut Random, kind: &str, i: usize, length: f64, contact: bool, speed: f64) -> String {
     let at = r.within(-0.48, 0.48) * length;
     let mut text = format!("[[component]]\nname = \"part {i}\"\nposition = \"{} mm\"\n", digits(at));
     if r.chance(0.3) {
         let room = length / 2.0 - at.abs();
         let _ = writeln!(text, "extent = \"{} mm\"", digits(r.within(0.1, 1.0) * room));
     }
-    if r.chance(0.7) {
+    if r.chance(if kind == "stops" { 0.95 } else { 0.7 }) {
         // Without a contact time clatter refuses parts above 318 Hz.
         let frequency = if contact { r.log(15.0, 4000.0) } else { r.log(8.0, 270.0) };
         let zeta = if kind == "damped" { r.log(0.3, 5.0) } else { r.log(0.005, 0.3) };
@@ -166,6 +180,10 @@ fn part(r: &mut Random, kind: &str, i: usize, length: f64, contact: bool) -> Str
         text.push_str("acceleration_limit = \"9e6 gn\"\n");
         if r.chance(0.5) {
             text.push_str("rattle_space = \"90 m\"\n");
+        }
+        if kind == "stops" && r.chance(0.9) {
+            text.push_str(&stops(r, frequency, speed));
+            text.push_str("stop_speed_limit = \"900 m/s\"\n");
         }
     } else {
         text.push_str("mount = \"hard\"\nvelocity_change_limit = \"900 m/s\"\n");

@@ -334,6 +334,8 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
     let (mut moments, mut order) = (Vec::new(), Vec::new());
     let (mut time, mut gain, mut at_rest) = (0.0, 0.0_f64, false);
     let whole = 0.5 * solid.speed * solid.speed;
+    let longest = solid.own.iter().map(|own| own.time.unwrap_or(solid.contact.1)).fold(0.0, f64::max);
+    let mut moved = 0.0;
     let mut least = body.energy(&s);
     while time < until.time && moments.len() < MOST_STEPS {
         let mut over = [false; 8];
@@ -402,7 +404,12 @@ pub fn follow(solid: &Solid, until: Until) -> Course {
         let (_, w) = body.turning(&s);
         let slides = s[14] * s[14] + s[15] * s[15];
         let still = s[1] * s[1] + slides + dot(w, [s[11], s[12], s[13]]) < slow * slow;
-        if still && body.contacts.iter().filter(|c| c.phase != Phase::Free).count() > 2 {
+        if !still {
+            moved = time;
+        }
+        // At the crest of a flat landing it is still for a moment.
+        let down = body.contacts.iter().filter(|c| c.phase != Phase::Free).count();
+        if time - moved > longest && down > 2 {
             at_rest = true;
             break;
         }

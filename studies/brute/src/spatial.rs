@@ -6,29 +6,31 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use crate::compare::{SLACK, answer, assess, with_room};
+use crate::compare::{SLACK, answer, assess, held, with_room};
 use crate::flight::Until;
 use crate::ground::Law;
 use crate::ground::Own;
 use crate::hunt::values;
 use crate::part::largest;
-use crate::product::Kind;
-use crate::random::Random;
+use crate::product::{Kind, Suspensions, stops_of};
+use crate::random::{self, Random};
 use crate::solid::{Solid, Vector, follow};
 
 /// End of the drops.
 const UNTIL: Until = Until { time: 0.3, quiet: 2e-2 };
-/// Restitution, contact time, speed, tilt, direction, natural frequency, damping, spin, from 0 to 1.
-type Sample = [f64; 9];
+/// Restitution, contact time, speed, tilt, direction, natural frequency, damping, spin, friction, and gap, contact time
+/// and restitution of stops, from 0 to 1.
+type Sample = [f64; 12];
 /// Kinds of products in space.
-pub const KINDS: [&str; 6] = ["plate", "box", "plate-own-contacts", "spin-plate", "spin-box", "box-own-contacts"];
+pub const KINDS: [&str; 8] =
+    ["plate", "box", "plate-own-contacts", "spin-plate", "spin-box", "box-own-contacts", "plate-stops", "box-stops"];
 type Range = [f64; 2];
 
 /// A part: its place from the center of mass, the axis of its motion (any for a hard one), and its suspension.
 struct Part {
     place: Vector,
     axis: Option<usize>,
-    suspension: Option<(Range, Range)>,
+    suspension: Option<Suspensions>,
     kinds: Vec<Kind>,
 }
 
@@ -184,7 +186,8 @@ impl Product {
             let _ = writeln!(text, "spin = [\"{low} rad/s\", \"{high} rad/s\"]");
             spin = [low, high];
         }
-        let parts = (0..2).map(|n| part(r, n, &solid, is_box, &mut text)).collect();
+        let fall = kind.ends_with("-stops").then_some(speed[1]);
+        let parts = (0..2).map(|n| part(r, n, &solid, is_box, fall, &mut text)).collect();
         if !is_box {
             // A plate lands on the corners of its bottom, even in deep dents: those of its top are out of reach.
             solid.sides[2] = length;
@@ -250,7 +253,8 @@ fn across(up: Vector) -> Vector {
     first.map(|x| x / size)
 }
 
-fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String) -> Part {
+/// Returns a part, and writes it; given the speed of the drop it may have stops.
+fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, fall: Option<f64>, text: &mut String) -> Part {
     let [x, y] = [0, 1].map(|i| round(solid.sides[i] * r.within(-0.45, 0.45)));
     let z = if is_box { round(solid.sides[2] * r.within(-0.4, 0.4)) } else { 0.0 };
     let _ = writeln!(text, "[[component]]\nname = \"part {n}\"\nposition = [\"{x} m\", \"{y} m\"]");
@@ -262,7 +266,11 @@ fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String
         kinds: vec![Kind::Acceleration],
     };
     // Only hard parts and their velocity changes depend on the motion of a box across the blow.
-    let is_hard = r.chance(if is_box { 0.5 } else { 0.3 });
+    let is_hard = r.chance(match fall {
+        Some(_) => 0.1,
+        None if is_box => 0.5,
+        None => 0.3,
+    });
     let any = is_box && is_hard && r.chance(0.3);
     if is_box {
         let _ = writeln!(text, "height = \"{z} m\"\naxis = \"{}\"", if any { "any" } else { ["x", "y", "z"][axis] });
@@ -283,7 +291,15 @@ fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String
             frequency[0], frequency[1]
         );
         part.kinds.push(Kind::RattleSpace);
-        part.suspension = Some((frequency.map(|f| f * TAU), [zeta; 2]));
+        let mut held = Suspensions { omega: frequency.map(|f| f * TAU), zeta: [zeta; 2], stop: None };
+        if let Some(fall) = fall.filter(|_| r.chance(0.9)) {
+            let line = random::stops(r, frequency[1], fall);
+            held.stop = stops_of(&line);
+            text.push_str(&line);
+            text.push_str("stop_speed_limit = \"900 m/s\"\n");
+            part.kinds.push(Kind::StopSpeed);
+        }
+        part.suspension = Some(held);
     }
     part
 }
@@ -291,14 +307,19 @@ fn part(r: &mut Random, n: usize, solid: &Solid, is_box: bool, text: &mut String
 /// Returns the largest value of each limit among random drops, half of them close to the worst so far.
 fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f64, Sample)> {
     let limits = product.parts.iter().enumerate().flat_map(|(n, part)| part.kinds.iter().map(move |&kind| (n, kind)));
-    let mut best: Vec<(usize, Kind, f64, Sample)> = limits.map(|(n, kind)| (n, kind, -1.0, [0.5; 9])).collect();
+    let mut best: Vec<(usize, Kind, f64, Sample)> = limits.map(|(n, kind)| (n, kind, -1.0, [0.5; 12])).collect();
     let mut reach = 0.1;
     for k in 0..drops {
         let spins = product.spin[1] > product.spin[0];
-        let mut sample: Sample = std::array::from_fn(|i| match if i != 7 || spins { r.unit() } else { 0.0 } {
-            u if u < 0.15 => 0.0,
-            u if u > 0.85 => 1.0,
-            _ => r.unit(),
+        let stops = product.parts.iter().any(|part| part.suspension.is_some_and(|of| of.stop.is_some()));
+        let varies = |i: usize| (i != 7 || spins) && (i < 9 || stops);
+        let mut sample: Sample = std::array::from_fn(|i| {
+            let end = if i < 9 { 0.15 } else { 0.25 };
+            match if varies(i) { r.unit() } else { 0.0 } {
+                u if u < end => 0.0,
+                u if u > 1.0 - end => 1.0,
+                _ => r.unit(),
+            }
         });
         // The direction is periodic.
         sample[4] = r.unit();
@@ -309,7 +330,7 @@ fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f6
             let (_, _, _, near) = best[k % best.len()];
             let few = r.chance(0.5);
             sample = std::array::from_fn(|i| match near[i] {
-                x if i == 7 && !spins || few && r.chance(0.6) => x,
+                x if !varies(i) || few && r.chance(0.6) => x,
                 x => (x + reach * r.normal()).clamp(0.0, 1.0),
             });
             reach = (reach * 0.995_f64).max(2e-3);
@@ -317,7 +338,7 @@ fn hunt(product: &Product, drops: usize, r: &mut Random) -> Vec<(usize, Kind, f6
         let course = follow(&product.drop(&sample), UNTIL);
         for (n, part) in product.parts.iter().enumerate() {
             let history = course.at(part.place, part.axis);
-            let suspension = part.suspension.map(|(omega, zeta)| (at(omega, sample[5]), at(zeta, sample[6])));
+            let suspension = part.suspension.map(|of| of.at(sample[5], sample[6], &sample[9..]));
             let (shocks, kinds): (Vec<Kind>, Vec<Kind>) =
                 part.kinds.iter().partition(|&&kind| kind == Kind::VelocityChange);
             let shocks = shocks.into_iter().map(|kind| (kind, largest(&course.shocks(part.place, part.axis))));
@@ -360,9 +381,7 @@ fn repeat(product: &Product, part: &Part, sample: &Sample) -> Vec<String> {
         format!("--at-m={}", list(place)),
         format!("--axis={}", part.axis.map_or("any", |axis| ["x", "y", "z"][axis])),
     ];
-    if let Some((omega, zeta)) = part.suspension {
-        args.extend([format!("--omega={}", at(omega, sample[5])), format!("--damping={}", at(zeta, sample[6]))]);
-    }
+    args.extend(part.suspension.iter().flat_map(|of| held(&of.at(sample[5], sample[6], &sample[9..]))));
     for (k, own) in drop.own.iter().enumerate().filter(|(_, own)| **own != Own::default()) {
         let (e, time) = (own.e.unwrap_or(drop.e), own.time.unwrap_or(drop.contact.1));
         args.push(format!("--contact={},{e},{time}", ["a", "b", "c", "d"][k]));

@@ -4,8 +4,8 @@
 
 use std::f64::consts::PI;
 
-use clatter_brute::flight::{Drop, Law, Own, Until, flat, follow};
-use clatter_brute::part::{Motion, largest, largest_acceleration, respond, shocks};
+use clatter_brute::flight::{Drop, Flight, Law, Own, Until, flat, follow};
+use clatter_brute::part::{Motion, Stop, Suspension, largest, largest_acceleration, respond, shocks};
 use clatter_brute::random::Random;
 
 /// Returns a drop of a body too slow to turn, on one end: a lone contact.
@@ -124,7 +124,53 @@ fn a_part_answers_one_shock_as_is_known() {
     let drop = Drop { contact: None, e: 0.0, gravity: 9.8, ..lone(Law::Hysteretic, 0.0) };
     let flight = flat(&drop, Until { time: 1e-4, quiet: 0.0 });
     for (zeta, want) in [(0.0, 1.0), (0.05, 0.931), (5.0, 10.0)] {
-        let got = respond(&flight, 0.0, 1e4, zeta, None).acceleration.value / 3e4;
+        let suspension = Suspension { omega: 1e4, zeta, stop: None };
+        let got = respond(&flight, 0.0, &suspension, None).acceleration.value / 3e4;
         assert!((got - want).abs() < 1e-3, "{zeta}: {got}, not {want}");
+    }
+}
+
+/// A free part flies from stop to stop. Each throws it back with e of its speed, in the contact time, by a force whose largest
+/// value is that of a half-sine, and is pressed in by v/ω₁.
+#[test]
+fn a_free_part_leaves_its_stop_as_is_stated() {
+    let drop = Drop { contact: None, e: 0.0, gravity: 0.0, ..lone(Law::Hysteretic, 0.0) };
+    let flight = flat(&drop, Until { time: 1e-4, quiet: 0.0 });
+    for e in [0.0, 0.02, 0.1, 0.4, 0.8, 1.0] {
+        let (gap, time) = (2e-3, 5e-4);
+        let suspension = Suspension { omega: 1e-3, zeta: 0.0, stop: Some(Stop { gap, time, e }) };
+        let response = respond(&flight, 0.0, &suspension, Some(0.02));
+        let kept = f64::max(e, 0.01);
+        let force = PI / 2.0 * (1.0 + kept) * 3.0 / time;
+        let depth = 3.0 * time / (PI / 2.0 * (1.0 + kept));
+        assert!((response.acceleration.value / force - 1.0).abs() < 1e-5, "{e}: {response:?}");
+        assert!((response.displacement.value / (gap + depth) - 1.0).abs() < 1e-5, "{e}: {response:?}");
+        assert!((response.hardest().value / 3.0 - 1.0).abs() < 1e-9, "{e}: {response:?}");
+        // It leaves the dent from where its surface was left.
+        let way = 2.0 * gap + depth * (1.0 - kept * kept);
+        for pair in response.hits.windows(2).take(1) {
+            assert!((pair[1].value / (kept * pair[0].value) - 1.0).abs() < 1e-5, "{e}: {pair:?}");
+            let took = pair[1].time - pair[0].time;
+            assert!((took / (time + way / (3.0 * kept)) - 1.0).abs() < 1e-5, "{e}: {pair:?}");
+        }
+        assert!(e < 0.1 || response.hits.len() > 1, "{e}: {response:?}");
+    }
+}
+
+/// A part that a lasting push holds at its stop comes to rest there, in its dent, where spring and stop carry the push.
+#[test]
+fn a_part_that_is_held_at_its_stop_comes_to_rest_there() {
+    let flight = Flight { at_rest: true, gravity: 9.806_65, ..Flight::default() };
+    for (e, zeta) in [(0.3, 0.05), (0.3, 0.0), (0.9, 0.02), (0.0, 0.2)] {
+        let stop = Stop { gap: 1e-3, time: 1e-3, e };
+        let response = respond(&flight, 0.0, &Suspension { omega: 30.0, zeta, stop: Some(stop) }, Some(3.0));
+        assert!(!response.hits.is_empty(), "{e}: {response:?}");
+        let speed = response.hits[0].value;
+        // Without damping the fall within the gap keeps its energy.
+        let free: f64 = (2.0 * 9.806_65 * 1e-3 - 900.0 * 1e-6_f64).sqrt();
+        assert!(zeta > 0.0 || (speed / free - 1.0).abs() < 1e-6, "{e}: {speed}, not {free}");
+        assert!(speed <= free * (1.0 + 1e-9), "{e}: {speed} beyond {free}");
+        let hits = &response.hits;
+        assert!(hits.windows(2).all(|pair| pair[1].value < pair[0].value), "{e}: {hits:?}");
     }
 }

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use clatter_brute::flight::{Drop, Law, Own, Until, follow};
-use clatter_brute::part::{Motion, largest, largest_acceleration, respond, shocks};
+use clatter_brute::part::{Motion, Stop, Suspension, largest, largest_acceleration, respond, shocks};
+use clatter_brute::solid::{Solid, Vector};
 use serde_json::Value;
 
 fn cases(text: &str) -> Vec<Value> {
@@ -58,7 +59,8 @@ fn contacts_and_parts_are_those_of_another_integration() {
         }
         let part = &case["part"];
         let omega = number(part, "omega_rad_s");
-        let response = respond(&flight, place(&drop, number(part, "at")), omega, number(part, "damping"), Some(until));
+        let suspension = Suspension { omega, zeta: number(part, "damping"), stop: None };
+        let response = respond(&flight, place(&drop, number(part, "at")), &suspension, Some(until));
         for (got, key) in [
             (response.displacement.value * omega, "omega_peak_displacement"),
             (response.acceleration.value / omega, "peak_acceleration_over_omega"),
@@ -66,6 +68,66 @@ fn contacts_and_parts_are_those_of_another_integration() {
             let off = got / number(part, key) - 1.0;
             assert!((-2e-4..2.5e-3).contains(&off), "case {i}: {key} is off by {off:e}");
         }
+    }
+}
+
+/// Returns the vertical in axes of the body, whose attitude is a quaternion.
+fn upward(q: &[f64]) -> Vector {
+    let [w, x, y, z] = [q[0], q[1], q[2], q[3]];
+    [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)]
+}
+
+/// Boxes without friction, whose parts hit stops: peaks until a time, and every hit that is no micro-touch.
+#[test]
+fn parts_between_stops_are_those_of_another_integration() {
+    let cases = cases(include_str!("../../../crates/clatter-assess/tests/data/stop.json"));
+    assert_eq!(cases.len(), 24);
+    for (i, case) in cases.iter().enumerate() {
+        let list = |case: &Value, key: &str| -> Vec<f64> {
+            case[key].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+        };
+        let vector = |case: &Value, key: &str| -> Vector { list(case, key).try_into().unwrap() };
+        let solid = Solid {
+            sides: vector(case, "half_m").map(|half| 2.0 * half),
+            center: vector(case, "center_of_mass_m"),
+            radii: vector(case, "gyration_m"),
+            askew: 0.0,
+            e: number(case, "e"),
+            contact: (Law::Hysteretic, number(case, "contact_time_s")),
+            own: [Own::default(); 4],
+            speed: number(case, "speed_m_s"),
+            spin: vector(case, "spin_rad_s"),
+            upward: upward(&list(case, "quaternion")),
+            gravity: number(case, "gravity_m_s2"),
+            friction: 0.0,
+        };
+        let until = number(case, "until_s");
+        let course = clatter_brute::solid::follow(&solid, Until { time: until, quiet: 0.0 });
+        let (part, stop) = (&case["part"], &case["part"]["stop"]);
+        let at = vector(part, "at_m");
+        let suspension = Suspension {
+            omega: number(part, "omega_rad_s"),
+            zeta: number(part, "damping"),
+            stop: Some(Stop {
+                gap: number(stop, "gap_m"),
+                time: number(stop, "contact_time_s"),
+                e: number(stop, "restitution"),
+            }),
+        };
+        let axis = ["x", "y", "z"].iter().position(|axis| part["axis"] == *axis);
+        let history = course.at(std::array::from_fn(|i| at[i] - solid.center[i]), axis);
+        let response = respond(&history, 0.0, &suspension, Some(until));
+        for (got, key) in [
+            (response.displacement.value, "peak_displacement_m"),
+            (response.acceleration.value, "peak_acceleration_m_s2"),
+            (response.hardest().value, "largest_hit_m_s"),
+        ] {
+            let off = got / number(part, key) - 1.0;
+            // The oracle says how far its own two integrations are apart.
+            let most = f64::max(1e-3, 2.0 * number(case, "accuracy"));
+            assert!(off.abs() < most, "case {i}: {key} is off by {off:e}");
+        }
+        assert_eq!(u64::try_from(response.hits.len()).ok(), part["hits"].as_u64(), "case {i}: {:?}", response.hits);
     }
 }
 
