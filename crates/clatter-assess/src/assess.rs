@@ -637,6 +637,9 @@ fn tell_stop(limit: &mut LimitAssessment, component: &Component, searched: &[Vec
     limit.notes.extend(limit.at_stop.map(Note::AtStop));
 }
 
+/// Margins beyond ten times what is asked say nothing.
+const TOLD_MARGIN: f64 = 10.0;
+
 /// A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration where the file has none. Where none of the drops that
 /// were found reaches it, one of them that exceeds another limit does so all the same.
 pub(crate) fn stopped(component: &Component, limits: &mut [&mut LimitAssessment]) {
@@ -654,7 +657,7 @@ pub(crate) fn stopped(component: &Component, limits: &mut [&mut LimitAssessment]
     let may_change =
         |l: &LimitAssessment| l.limit.is_changed_by_stop() && !(none_reaches && l.verdict == Verdict::Unsafe);
     for limit in limits.iter_mut().filter(|l| may_change(l)) {
-        let margin = margin.filter(|margin| margin.is_finite());
+        let margin = margin.filter(|margin| margin.abs() < TOLD_MARGIN);
         (limit.verdict, limit.reliability) = (Verdict::Undecided, None);
         limit.undecided = vec![Doubt::Stop { hits: verdict == Verdict::Unsafe, margin }];
     }

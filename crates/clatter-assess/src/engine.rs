@@ -10,13 +10,14 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use clatter::{Bar, End, EndPeaks, Excitation, Start};
 use clatter_flight::{Drop, Followed, PRECISION, Place, Until};
-use clatter_shock::{Hit, Moment, Peaked, Pulses, Response, State, Stop, Suspension};
+use clatter_shock::{Extreme, Hit, Moment, Peaked, Pulses, Response, State, Stop, Suspension};
 
 use crate::AtStop;
 use crate::history::{SHORT, pulses};
 use crate::model::{check_drop, follow};
 use crate::shock::{Shock, largest, largest_turn, samples, shocks_at};
 use clatter_product::{DataFault, Error, Limit, Model, ResponsePeak, Source, Unit};
+pub(crate) use later::in_swings;
 
 /// A part at one place of the product.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -418,12 +419,14 @@ impl<'a> PlaceHistory<'a> {
         // The motion after one that was left early is no ring-down.
         let (peak, end) = self.pulses.peak_and_end(part, peaked, above / unit, !self.followed.is_early());
         self.ends().push((*part, end));
-        let peak = peak?;
+        // No touch of a stop is a speed of nothing.
+        let none = Extreme { value: 0.0, time: 0.0, interval: 0 };
+        let peak = peak.or((peaked == Peaked::StopSpeed && above < 0.0).then_some(none))?;
         let velocity = peak.value.abs();
         // The vibration that rings on as the motion is left, and the later shocks, are taken as if all came at its crest.
         let doubt = if self.followed.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
             let most = later::swing(part, end) + self.later().shock_of(part);
-            most * of.in_swing(part) - velocity
+            of.in_swing(part, most) - velocity
         } else {
             0.0
         };
@@ -431,6 +434,12 @@ impl<'a> PlaceHistory<'a> {
         let follows = (omega / self.peak_per_change()).max(1.0);
         let off = kept_arms(self.followed) * self.followed.largest_m_s / follows;
         Some((unit * velocity, peak.time, unit * (off + doubt.max(0.0))))
+    }
+
+    /// Returns the amplitude to which a part without stops swings in all, as a velocity: that of one shock with its largest displacement.
+    pub(crate) fn amplitude(&self, part: &Suspension) -> f64 {
+        let most = self.pulses.peak_within(part, Peaked::PseudoVelocity, 0.0).map_or(0.0, |peak| peak.value.abs());
+        most / part.damping().impulse_factors().displacement
     }
 
     /// Returns how a part moves as the history ends.

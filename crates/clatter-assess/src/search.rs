@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
-use crate::engine::{Part, PlaceHistory, once};
+use crate::engine::{Part, PlaceHistory, in_swings, once};
 use crate::model::follow;
 use budgets::{
     CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, LATER_DECIDES, NEAR, REBOUNDS, SAMPLE, SAMPLE_OF_BOX,
@@ -142,12 +142,8 @@ impl Ranges<'_> {
         }
         // The demand of rebounds is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
-        if self.base.is_some() && all.energy_m2_s2 > 0.0 {
-            match self.later_landings(landings, tasks, all.energy_m2_s2, &work) {
-                Ok(landings) => all.land_again(&landings),
-                // The search was stopped.
-                Err(_) => all.later.fill(f64::INFINITY),
-            }
+        if self.base.is_some() {
+            self.land_again(&mut all, landings, tasks, &work);
         }
         // A box is followed that far only where that may decide.
         let least = if self.base.is_some() { LATER_DECIDES } else { 0.0 };
@@ -204,6 +200,24 @@ impl Ranges<'_> {
             worst.stopped = stopped;
         }
         Ok(all)
+    }
+
+    /// Adds to what the parts of a box ring with as it lands again what it may ask for then.
+    fn land_again(&self, all: &mut Candidates, landings: &LaterLandings, tasks: &[Task<'_>], work: &Work<'_>) {
+        let asked = if all.energy_m2_s2 > 0.0 {
+            self.later_landings(landings, tasks, all.energy_m2_s2, work)
+        } else {
+            Ok(vec![0.0; tasks.len()])
+        };
+        let of_sum = |n: usize, sum: f64| {
+            let parts = Self::softest_and_stiffest(&tasks[n], &self.middle(tasks[n].component)).unwrap_or_default();
+            in_swings(&tasks[n].limit, &parts, sum)
+        };
+        match asked {
+            Ok(landings) => all.land_again(&landings, of_sum),
+            // The search was stopped.
+            Err(_) => all.later.fill(f64::INFINITY),
+        }
     }
 
     /// Returns how many drops are followed besides those of the grid where rebounds count.
@@ -410,6 +424,9 @@ impl Ranges<'_> {
             worst = Self::in_drop(task, place, felt, above)?.or(worst);
             Ok(())
         };
+        for far in STOPS.into_iter().filter(|axis| free[*axis]) {
+            ask(&place.with(FREQUENCY, end).with(far, 1.0 - place.shares[far]))?;
+        }
         for n in 0..if free[FREQUENCY] || stops_vary { others } else { 0 } {
             let number = k * others + n;
             let mut place =
@@ -457,6 +474,8 @@ const DAMPED: f64 = 0.1;
 pub(crate) fn rough_to_rad_s(component: &Component) -> f64 {
     match component.mount {
         Mount::Suspended { damping, .. } if damping.ratios()[1] > DAMPED => f64::INFINITY,
+        // A part may reach its stop while it is pushed.
+        _ if component.stops.is_some() => f64::INFINITY,
         _ => fastest_rad_s(component),
     }
 }

@@ -114,16 +114,27 @@ impl ResponsePeak {
     pub fn grows_with_frequency(self) -> bool {
         self.power > 0
     }
-    /// Returns the largest peak of a part after a velocity shock of 1, from rest; where it has stops, at most.
-    #[must_use]
-    pub fn after_shock(self, part: &Suspension) -> f64 {
-        let free = self.after_impulse(part.damping());
-        libm::hypot(free, self.of_stop(part))
+    /// Returns the most, as a velocity, of a part with stops in a swing whose energy is that of this speed v. Beyond the gap g it is shared
+    /// with a stop: ω² (g + d)² + ω₁² d² = v², d the depth.
+    fn on_stop(self, part: &Suspension, stop: &Stop, speed: f64) -> f64 {
+        let (omega, reach) = (part.omega(), part.omega() * stop.gap());
+        let of_damper = 2.0 * part.damping().get() * speed;
+        let arrives = if speed > reach { ((speed - reach) * (speed + reach)).sqrt() } else { 0.0 };
+        // In units of ω: the stiffness of the stop, and its depth.
+        let stiff = FRAC_PI_2 * (1.0 + stop.restitution()) / stop.contact_time() / omega;
+        let all = 1.0 + stiff * stiff;
+        let depth = arrives * arrives / (reach + (reach * reach + all * arrives * arrives).sqrt());
+        let swings = if arrives > 0.0 { reach + depth } else { speed };
+        match self.peaked {
+            Peaked::AccelerationOverOmega => libm::hypot(swings + stiff * stiff * depth, of_damper),
+            Peaked::PseudoVelocity => swings,
+            Peaked::StopSpeed => arrives,
+        }
     }
-    /// Returns what a stop adds: its stiffness holds the energy of a swing with the force ω₁ v of a speed v.
-    fn of_stop(self, part: &Suspension) -> f64 {
-        let rate = |stop: Stop| FRAC_PI_2 * (1.0 + stop.restitution()) / stop.contact_time() / part.omega();
-        if self.peaked == Peaked::AccelerationOverOmega { part.stop().map_or(0.0, rate) } else { 0.0 }
+    /// Returns the largest peak after a velocity shock, as a velocity, from rest; of a part with stops at most.
+    #[must_use]
+    pub fn after_shock(self, part: &Suspension, shock: f64) -> f64 {
+        part.stop().map_or_else(|| self.after_impulse(part.damping()) * shock, |stop| self.on_stop(part, &stop, shock))
     }
     /// Returns the peak after a velocity shock of 1, from rest, of a part without stops.
     #[must_use]
@@ -132,18 +143,17 @@ impl ResponsePeak {
         match self.peaked {
             Peaked::AccelerationOverOmega => factors.acceleration,
             Peaked::PseudoVelocity => factors.displacement,
-            // It has all of it at once.
-            Peaked::StopSpeed => 1.0,
+            // Without stops it reaches none.
+            Peaked::StopSpeed => 0.0,
         }
     }
-    /// Returns the most of the quantity in a swing of amplitude 1, as a velocity: of an acceleration with the forces of damper and stop.
+    /// Returns the most of the quantity, as a velocity, in a swing of this amplitude: of an acceleration with the forces of damper and stop.
     #[must_use]
-    pub fn in_swing(self, part: &Suspension) -> f64 {
-        match self.peaked {
-            Peaked::AccelerationOverOmega => {
-                libm::hypot(libm::hypot(2.0 * part.damping().get(), 1.0), self.of_stop(part))
-            }
-            Peaked::PseudoVelocity | Peaked::StopSpeed => 1.0,
+    pub fn in_swing(self, part: &Suspension, amplitude: f64) -> f64 {
+        match (part.stop(), self.peaked) {
+            (Some(stop), _) => self.on_stop(part, &stop, amplitude),
+            (None, Peaked::AccelerationOverOmega) => amplitude * libm::hypot(2.0 * part.damping().get(), 1.0),
+            (None, Peaked::PseudoVelocity | Peaked::StopSpeed) => amplitude,
         }
     }
 }

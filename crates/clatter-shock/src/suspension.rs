@@ -133,7 +133,8 @@ impl Suspension {
         self.stop
     }
     /// Returns the same suspension without a stop.
-    pub(crate) fn without_stop(self) -> Self {
+    #[must_use]
+    pub fn without_stop(self) -> Self {
         Self { stop: None, ..self }
     }
     /// Returns an error that names `what` if there is a stop.

@@ -7,7 +7,7 @@ use clatter_shock::{State, Stop, Suspension};
 
 use super::{PlaceHistory, kept_arms};
 use crate::bound::box_acceleration;
-use clatter_product::{Limit, Source};
+use clatter_product::{Limit, ResponsePeak, Source};
 
 /// The bounds on strikes at a place after a motion was left, by the energy left.
 pub(super) struct Later {
@@ -63,6 +63,16 @@ pub(super) fn swing(part: &Suspension, state: State) -> f64 {
     libm::hypot(free, part.stop().map_or(0.0, pressed))
 }
 
+/// Returns the utilization that swings of parts have together: a sum that is one already, or, of parts with stops, of amplitudes.
+pub(crate) fn in_swings<'p>(limit: &Limit, parts: impl IntoIterator<Item = &'p Suspension>, sum: f64) -> f64 {
+    let Source::Response(peak) = limit.kind.source() else { return sum };
+    let of = |part: &Suspension| {
+        let at_stop = || peak.of_velocity(peak.in_swing(part, sum), part.omega()) / limit.allowed;
+        part.stop().map_or(sum, |_| at_stop())
+    };
+    parts.into_iter().map(of).reduce(f64::max).unwrap_or(sum)
+}
+
 /// Returns the rate at which the free motion of a part decays, over ω.
 pub(super) fn slowest(part: &Suspension) -> f64 {
     let zeta = part.damping().get();
@@ -88,10 +98,7 @@ impl PlaceHistory<'_> {
         let later = self.later();
         let most = match limit.kind.source() {
             Source::Response(peak) => {
-                let of = |part: &Suspension| {
-                    let unit = peak.of_velocity(peak.after_shock(part), part.omega());
-                    self.rings_most(unit / limit.allowed, part, later.shock_of(part), above)
-                };
+                let of = |part: &Suspension| self.rings_most(peak, limit.allowed, part, later.shock_of(part), above);
                 let most = parts.into_iter().map(of).reduce(f64::max);
                 most.unwrap_or(later.acceleration_m_s2 / limit.allowed)
             }
@@ -105,15 +112,18 @@ impl PlaceHistory<'_> {
         };
         if most > above { most } else { 0.0 }
     }
-    /// Returns the utilization to which parts still ring as the motion is left, with the weight that is to come in the end; 0 of a limit that
-    /// is no response.
+    /// Returns the utilization to which parts still ring as the motion is left, with the weight that is to come in the end; of parts with stops
+    /// the amplitude as a velocity, to be added to [others](in_swings); 0 of a limit that is no response.
     pub(crate) fn rings<'p>(&self, limit: &Limit, parts: impl IntoIterator<Item = &'p Suspension>) -> f64 {
         let Source::Response(peak) = limit.kind.source() else { return 0.0 };
         let of = |part: &Suspension| {
             let (omega, rest) = (part.omega(), self.end_of(part));
-            let per_velocity = peak.of_velocity(peak.after_shock(part), omega) / limit.allowed;
-            let rings = swing(part, rest);
-            per_velocity * (rings + 2.0 * self.followed.weight_to_come_m_s2() / omega)
+            let rings = swing(part, rest) + 2.0 * self.followed.weight_to_come_m_s2() / omega;
+            if part.stop().is_some() {
+                return rings;
+            }
+            let per_velocity = peak.of_velocity(peak.after_impulse(part.damping()), omega) / limit.allowed;
+            per_velocity * rings
         };
         parts.into_iter().map(of).fold(0.0, f64::max)
     }
@@ -160,8 +170,14 @@ impl PlaceHistory<'_> {
     }
     /// Returns the utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
     /// `above` as the last contact ended, has decayed since, and stays below.
-    fn rings_most(&self, per_velocity: f64, part: &Suspension, shock: f64, above: f64) -> f64 {
+    fn rings_most(&self, peak: ResponsePeak, allowed: f64, part: &Suspension, shock: f64, above: f64) -> f64 {
         let omega = part.omega();
+        if part.stop().is_some() {
+            // What reaches a stop is not in proportion.
+            let most = peak.after_shock(part, swing(part, self.end_of(part)) + shock);
+            return peak.of_velocity(most, omega) / allowed;
+        }
+        let per_velocity = peak.of_velocity(peak.after_impulse(part.damping()), omega) / allowed;
         if shock * per_velocity <= above * -libm::expm1(-slowest(part) * omega * self.followed.quiet_s()) {
             return 0.0;
         }
@@ -190,10 +206,7 @@ impl PlaceHistory<'_> {
         match (limit.kind.source(), suspension) {
             (Source::Turn, _) => later.turn_rad_s,
             (Source::Shock | Source::Boundary, _) => later.turned_m_s,
-            (Source::Response(peak), Some(part)) => {
-                let unit = peak.of_velocity(peak.after_shock(part), part.omega());
-                self.rings_most(unit, part, later.shock_of(part), 0.0)
-            }
+            (Source::Response(peak), Some(part)) => self.rings_most(peak, 1.0, part, later.shock_of(part), 0.0),
             (Source::Response(_), None) => later.acceleration_m_s2,
         }
     }

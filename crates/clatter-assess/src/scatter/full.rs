@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::SampleDemand;
 use super::sample::PartSample;
-use crate::engine::PlaceHistory;
+use crate::engine::{PlaceHistory, in_swings};
 use crate::model::follow;
 use crate::search::Landings;
 use clatter_flight::{Followed, Until};
@@ -204,7 +204,10 @@ fn of_part_of_box(followed: &Followed, part: &PartSample, landings: Option<&[f64
             let used = answer.utilization();
             // A boundary is passed by both of its quantities, and what is off nothing has no share.
             let later = if let Some(landings) = landings {
-                landings[part.skipped + k] + felt.rings(limit, part.suspension.as_slice())
+                {
+                    let parts = part.suspension.as_slice();
+                    in_swings(limit, parts, landings[part.skipped + k] + felt.rings(limit, parts))
+                }
             } else if used > 0.0 && limit.kind.source() != Source::Boundary {
                 used + answer.off_by / answer.allowed
             } else {

@@ -49,8 +49,8 @@ impl Ranges<'_> {
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
         for _ in 0..CLIMB_HALVINGS {
-            if free[FREQUENCY] {
-                best = Self::at_ends_of_frequency(task, best, &here, fastest);
+            for axis in [FREQUENCY].into_iter().chain(STOPS).filter(|axis| free[*axis]) {
+                best = Self::at_ends(task, axis, best, &here, fastest);
             }
             for axis in (0..AXES).filter(|&axis| free[axis]) {
                 if work.go_on(0).is_err() {
@@ -87,12 +87,12 @@ impl Ranges<'_> {
         libm::pow(self.turn_in_contact(place) / DIRECTION_STEP, f64::from(CLIMB_HALVINGS - 1).recip()).clamp(0.25, 0.5)
     }
 
-    /// Returns the part at both ends of its natural frequencies in the same drop, where its demand is larger: strikes that come in step
-    /// with it have their crests far from one another, which no step of a climb goes over.
-    fn at_ends_of_frequency(task: &Task<'_>, best: Candidate, here: &Followed, fastest_rad_s: f64) -> Candidate {
+    /// Returns the part at both ends of a range of its own in the same drop, where its demand is larger: strikes that come in step with it,
+    /// or just before it reaches its stop, have their crests far from one another, which no step of a climb goes over.
+    fn at_ends(task: &Task<'_>, axis: usize, best: Candidate, here: &Followed, fastest_rad_s: f64) -> Candidate {
         let Ok(felt) = PlaceHistory::rough(here, task.place(best.place.at_m), fastest_rad_s) else { return best };
         [0.0, 1.0].into_iter().fold(best, |best, share| {
-            let place = best.place.with(FREQUENCY, share);
+            let place = best.place.with(axis, share);
             let next = Self::in_drop(task, &place, &felt, best.answer.utilization());
             next.ok().flatten().map_or(best, |next| Candidate { late: best.late, ..next })
         })

@@ -87,11 +87,12 @@ impl Candidates {
             leaning: None,
         }
     }
-    /// Adds to what the parts of a box still ring with as it lands again what such landings may do; 0 where that is no more than the worst.
-    pub(super) fn land_again(&mut self, landings: &[f64]) {
+    /// Adds to what the parts of a box still ring with as it lands again what such landings may do, `of_sum` being the
+    /// utilization of both; 0 where that is no more than the worst.
+    pub(super) fn land_again(&mut self, landings: &[f64], of_sum: impl Fn(usize, f64) -> f64) {
         let best = self.best();
-        for ((later, landing), best) in self.later.iter_mut().zip(landings).zip(best) {
-            *later += landing;
+        for (n, ((later, landing), best)) in self.later.iter_mut().zip(landings).zip(best).enumerate() {
+            *later = of_sum(n, *later + landing);
             if *later <= best {
                 *later = 0.0;
             }

@@ -10,8 +10,8 @@ use std::sync::atomic::AtomicUsize;
 
 use super::budgets::{CLOSER, LANDING_REACH, LANDING_TRIES, LANDINGS};
 use super::grid::halton;
-use super::ranges::{AXES, CONTACT, Coordinates, Ranges};
-use super::{Task, Work, rough_to_rad_s};
+use super::ranges::{AXES, CONTACT, Coordinates, DAMPING, FREQUENCY, Ranges};
+use super::{GOLDEN, Task, Work, rough_to_rad_s};
 use crate::Accuracy;
 use crate::assess::ranges_of;
 use crate::engine::PlaceHistory;
@@ -19,6 +19,7 @@ use crate::model::follow;
 use clatter::End;
 use clatter_flight::{Drop, Followed, Until};
 use clatter_product::{Error, Limit, Listed, ProductFile};
+use clatter_shock::Suspension;
 
 /// Numbers from 0 to 1 that say how a box lands again: two of its posture, two of the axis of its spin, and how its energy is shared.
 const POSTURE: usize = 6;
@@ -193,12 +194,21 @@ impl Ranges<'_> {
         }
     }
 
-    /// Returns the utilization of a task in a landing, wherever its part may be.
+    /// Returns the utilization of a task in a landing, wherever its part may be; of a part with stops the amplitude of its swing.
     fn in_landing(&self, task: &Task<'_>, (_, shares): &Landing, followed: &Followed, k: u32) -> Result<f64, Error> {
         let mut most = 0.0_f64;
         for at_m in task.component.places_m() {
             let place = Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m, shares: *shares };
             let felt = PlaceHistory::rough(followed, task.place(at_m), rough_to_rad_s(task.component))?;
+            if task.hits_stops() {
+                // How far the part swings; its stops change that together with what it rings with before.
+                for share in [0.0, 1.0, (GOLDEN * f64::from(k)).fract()] {
+                    let at = place.with(FREQUENCY, share).with(DAMPING, 0.0);
+                    let part = Self::part(task, &at)?.map(Suspension::without_stop);
+                    most = part.map_or(most, |part| most.max(felt.amplitude(&part)));
+                }
+                continue;
+            }
             let asked = self.most(task, &place, &felt, k, Self::frequencies(task, &followed.drop), most)?;
             most = asked.map_or(most, |asked| asked.answer.utilization());
         }
