@@ -189,8 +189,8 @@ fn a_part_without_a_stop_tells_how_fast_it_arrives() {
     for (time, told) in [("1 ms", soft), ("0.2 ms", hard)] {
         let stop = format!("stop = {{ gap = \"1 mm\", contact_time = \"{time}\", restitution = 0.5 }}\n");
         let asked = limits(&format!("{stop}acceleration_limit = \"3000 gn\""))[0].demand.unwrap();
-        // Found in 256 drops, not by a search.
-        assert!(asked >= told * (1.0 - 1e-6) && asked < 1.3 * told, "{asked} with {time}, {told} told");
+        // Found in 256 drops that are followed to 2 %, not by a search.
+        assert!(asked >= 0.98 * told && asked < 1.3 * told, "{asked} with {time}, {told} told");
     }
     let roomy = limits("acceleration_limit = \"3000 gn\"\nrattle_space = \"90 mm\"");
     assert!(roomy.iter().all(|limit| limit.at_stop.is_none() && limit.verdict == Verdict::Safe), "{roomy:?}");

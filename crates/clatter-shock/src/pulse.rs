@@ -12,7 +12,7 @@ use num_complex::Complex64;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 pub use stopped::Moment;
-use stopped::{MOST_HITS, Stopped, Systems, Wanted};
+use stopped::{Stopped, Systems, Wanted, most_hits};
 
 /// The classical pulse shapes, of amplitude a and duration D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -331,8 +331,8 @@ impl Pulses {
     ///
     /// With a [`Stop`] the response is that between the stops, phase by phase in closed form; the acceleration is that
     /// of spring, damper and stop. The ring-down is followed until no stop can be reached, or until seven touches in
-    /// a row are no faster than one before them: none later is. A component that touches its stops more than 100 000
-    /// times is not followed further: its peaks are then infinite, and [`hits`](Self::hits) returns [`Error::Hits`].
+    /// a row are no faster than one before them: none later is. A component that touches its stops more than 4096
+    /// times, or more often than the history has sections, is not followed further: its peaks are then infinite, and [`hits`](Self::hits) returns [`Error::Hits`].
     ///
     /// # Accuracy
     ///
@@ -442,7 +442,7 @@ impl Pulses {
     ///
     /// # Errors
     ///
-    /// [`Error::Hits`] beyond 100 000 touches.
+    /// [`Error::Hits`] beyond 4096 touches and one for each section.
     ///
     /// # Examples
     ///
@@ -466,7 +466,7 @@ impl Pulses {
         part.ring_down();
         match part.gave_up() {
             None => Ok(part.touches.iter().map(|touch| touch.hit).collect()),
-            Some(_) => Err(Error::Hits(MOST_HITS)),
+            Some(_) => Err(Error::Hits(most_hits(self))),
         }
     }
     /// Returns the motion of a component with a stop until the end of the history, at times no further apart than `step`, for a picture:
@@ -474,7 +474,7 @@ impl Pulses {
     ///
     /// # Errors
     ///
-    /// [`Error::Quantity`] unless the step is positive and finite, [`Error::Hits`] beyond 100 000 touches.
+    /// [`Error::Quantity`] unless the step is positive and finite, [`Error::Hits`] beyond 4096 touches and one for each section.
     ///
     /// # Examples
     ///
@@ -496,7 +496,7 @@ impl Pulses {
         part.curve = Some((step, Vec::new()));
         part.drive();
         if part.gave_up().is_some() {
-            return Err(Error::Hits(MOST_HITS));
+            return Err(Error::Hits(most_hits(self)));
         }
         Ok(part.curve.map_or_else(Vec::new, |(_, curve)| curve))
     }
@@ -556,7 +556,7 @@ impl Pulses {
         self.pieces.get(i).map_or(self.end.hi, |p| p.start.hi)
     }
     /// Returns the motion relative to the base at the end of the last pulse. It tells z and z′ alone, not what a component
-    /// then presses; both are infinite for one that touches its stops more than 100 000 times.
+    /// then presses; both are infinite for one that touches its stops that often.
     #[must_use]
     pub fn state_at_end(&self, suspension: &Suspension) -> State {
         if let Some(stop) = suspension.stop() {

@@ -18,18 +18,23 @@ use crate::suspension::{Modes, Motion, Phase};
 use crate::{DampingRatio, State, Suspension};
 use num_complex::Complex64;
 
-/// The most touches that are followed.
-pub(crate) const MOST_HITS: usize = 100_000;
-/// The most ends of phases: each touch has its crest and its parting, and at times a dent that is left.
-const MOST_EVENTS: usize = 4 * MOST_HITS;
-/// The most panels that the search for the ends of phases looks at, some twenty a touch, and for one end. Ordinary
+/// The most touches that are followed in a history of few sections; of one with more, one for each.
+const MOST_HITS: usize = 4096;
+/// The most ends of phases for each of them: a touch has its crest and its parting, and at times a dent that is left.
+const EVENTS: usize = 4;
+/// The most panels that the search for the ends of phases looks at, for each of the most touches and for one end. Ordinary
 /// histories take a few for each section.
-const MOST_PANELS: u32 = 1 << 21;
+const PANELS: usize = 64;
 const MOST_PANELS_OF_ONE: u32 = 1 << 14;
 /// Touches in the ring-down that follow the hardest one.
 const TOUCHES_AFTER: usize = 7;
 /// Share by which a touch is faster than another, more than its roundings.
 const FASTER: f64 = 1.0 + 1e-12;
+
+/// Returns the most touches that are followed in a history.
+pub(crate) fn most_hits(pulses: &Pulses) -> usize {
+    MOST_HITS.max(pulses.pieces.len())
+}
 
 /// What the component touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -146,7 +151,7 @@ impl<'a, 'r> Stopped<'a, 'r> {
             deepest: 0.0,
             touches: Vec::new(),
             events: 0,
-            panels: MOST_PANELS,
+            panels: u32::try_from(PANELS * most_hits(pulses)).unwrap_or(u32::MAX),
             gave_up: None,
             curve: None,
         }
@@ -344,7 +349,7 @@ impl<'a, 'r> Stopped<'a, 'r> {
     /// Goes over to the next contact.
     fn turn(&mut self, exit: Exit, when: When) {
         self.events += 1;
-        if self.events > MOST_EVENTS || self.touches.len() > MOST_HITS {
+        if self.events > EVENTS * most_hits(self.pulses) || self.touches.len() > most_hits(self.pulses) {
             self.gave_up = Some(when);
             return;
         }
