@@ -44,7 +44,7 @@ const NOT_COVERED: [[&str; 2]; 10] = [
     ],
     [
         "Stops",
-        "A suspension is linear up to its rattle space. What happens beyond is not followed: the acceleration of a part that may strike its stop is left undecided.",
+        "A suspension is linear, also where it presses a stop that the file gives. Where it gives none, the acceleration of a part that may strike its stop is left undecided.",
     ],
     [
         "Drops between those followed",

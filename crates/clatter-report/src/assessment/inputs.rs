@@ -262,8 +262,8 @@ fn mount(component: &Component) -> String {
                 let [gap, time, e] = stops.ranges();
                 format!(
                     " It has stops at {}, with contacts of {} and a restitution of {}.",
-                    range(gap, 1e3, "mm"),
-                    range(time, 1e3, "ms"),
+                    range(gap, 1e-3, "mm"),
+                    range(time, 1e-3, "ms"),
                     range(e, 1.0, "")
                 )
             });
@@ -311,6 +311,13 @@ mod tests {
         let parts: Vec<String> = file.components.iter().map(|component| held(component, &file)).collect();
         assert!(parts[0].ends_with("and is 80 mm long. Its natural frequency is 220 Hz, with a quality factor of 12."));
         assert_eq!(parts[2], "It sits 20 mm from the middle, towards end a. It is mounted rigidly.");
+        let stop = "quality_factor = 12\nstop = { gap = \"1 mm\", contact_time = [\"0.3 ms\", \"0.8 ms\"], restitution = 0.4 }";
+        let file = ProductFile::read(&EXAMPLE.replace("quality_factor = 12", stop), "stop.toml").unwrap();
+        let told = held(&file.components[0], &file);
+        assert!(
+            told.ends_with("It has stops at 1 mm, with contacts of 0.3 to 0.8 ms and a restitution of 0.4."),
+            "{told}"
+        );
     }
 
     /// Four masses at the corners of 60 mm × 20 mm, three times as heavy on one diagonal: Σ m x y/Σ m = ½ · 30 mm · 10 mm. From 0.5 m and 1 m
