@@ -140,7 +140,7 @@ REFUSED = {
     "it is that of a box: parts of bars and plates": lambda: clatter.respond(**DROP, at=0, axis="x"),
     "axis goes with length_m alone": lambda: clatter.respond(pulses=PULSE, omega=1, axis="x"),
     "omega and frequency_hz say both how the part swings": lambda: clatter.respond(**DROP, at=0, omega=1, frequency_hz=1),
-    "damping and q_factor go with omega or frequency_hz": lambda: clatter.respond(**DROP, at=0, damping=0.1),
+    "damping, q_factor and stop go with omega or frequency_hz": lambda: clatter.respond(**DROP, at=0, damping=0.1),
     "one of omega and frequency_hz says how the part swings": lambda: clatter.respond(pulses=PULSE),
     "pulses, shocks, or e and at of a bar say what shakes the part": lambda: clatter.respond(omega=1),
     "flat goes with instant impacts": lambda: clatter.respond(**{**DROP, "model": "compliant"}, at=0, flat=True),
