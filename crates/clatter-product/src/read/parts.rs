@@ -39,10 +39,9 @@ impl Reader {
             self.data(height.map_or(position.span, toml::Spanned::span), &fault, "this position");
             return None;
         }
-        let is_read = component.stops.is_some() || !section.table.contains_key("stop");
-        if let Err(fault) = component.check_stops()
-            && is_read
-        {
+        // What is wrong in the table, or beside mount = "hard", is told already.
+        let is_told = component.mount == Mount::Hard || component.stops.is_none() && section.table.contains_key("stop");
+        if let (Err(fault), false) = (component.check_stops(), is_told) {
             let value = section.table.get("stop").or(section.table.get("stop_speed_limit"));
             self.data(value.map_or(section.span.clone(), toml::Spanned::span), &fault, "here");
         }
