@@ -346,6 +346,7 @@ def spectrum(
     per_octave_hz: tuple[float, float, float] | None = None,
     damping: float | None = None,
     q_factor: float | Sequence[float] | None = None,
+    stop: tuple[float, float, float] | None = None,
     quantity: Of = "acceleration",
     interpolation: Between = "band-limited",
     limit: Limit | None = None,
@@ -373,6 +374,9 @@ def spectrum(
         Or from lo to hi with n to the octave; (10, 10000, 12) unless given, of records up to a third of the sampling rate.
     damping, q_factor : float
         Damping ratio, or 1/(2 damping), of which several make several spectra; Q = 10 unless given.
+    stop : (float, float, float), optional
+        Stops on either side of every part: the gap [m], how long it presses one alone [s], and the restitution there. Records
+        are then straight lines between their samples.
     quantity : str
         acceleration [m/s²], relative-displacement [m], relative-velocity, pseudo-velocity [m/s],
         equivalent-static-acceleration [m/s²].

@@ -1,8 +1,8 @@
 //! This module makes bars, plates and their starts from the arguments of Python.
 
 use clatter::{Bar, End, Mass, Plate, PlateStart, Start};
-use clatter_product::{ContactLaw, Model};
-use clatter_shock::DampingRatio;
+use clatter_product::{ContactLaw, Model, Stops};
+use clatter_shock::{DampingRatio, Stop};
 use pyo3::prelude::*;
 
 use crate::given::{Given, Value, is_text, numbers, one_of, rows, several};
@@ -167,6 +167,11 @@ impl Value for End {
             other => Err(refused(format!("first = '{other}' is not an end, 'a' or 'b'"))),
         }
     }
+}
+
+/// Returns the stops of the part.
+pub(crate) fn stop(given: &Given<'_>) -> PyResult<Option<Stop>> {
+    given.read::<Option<[f64; 3]>>("stop")?.map(Stops::of).transpose().map_err(refused)
 }
 
 /// Returns the damping of a part; Q = 10, as is usual in the field, where none is given.

@@ -267,6 +267,7 @@ pub(crate) fn spectrum(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
     let dampings = dampings(&given)?;
     let mut question = spectrum_of::Question::new(excitation(&given)?, dampings[0]);
     question.dampings = dampings;
+    question.stop = bodies::stop(&given)?;
     question.frequencies = frequencies(&given)?;
     (question.quantity, question.between) = (given.read("quantity")?, given.read("interpolation")?);
     (question.limit, question.required) = (given.read("limit")?, required(&given)?);

@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use clatter_answer::respond::{self as respond_of, Excitation, drop as drop_of};
 use clatter_answer::{DropInputs, shape_name};
-use clatter_product::{Axis, Model, Stops};
-use clatter_shock::{Pulses, Shape, Stop, Suspension, VelocityShock, VelocityShocks};
+use clatter_product::{Axis, Model};
+use clatter_shock::{Pulses, Shape, Suspension, VelocityShock, VelocityShocks};
 use pyo3::prelude::*;
 
 use crate::answered::{Answered, json, without_picture};
-use crate::bodies::{Body, Fall, damping};
+use crate::bodies::{Body, Fall, damping, stop};
 use crate::given::{Given, Value, several, wrong};
 use crate::{drops, refused, words};
 
@@ -170,11 +170,6 @@ fn of_drop(given: &Given<'_>, inputs: &DropInputs) -> PyResult<drop_of::Question
     question.suspension = hz.map(swings).transpose()?;
     question.tolerance = given.read("tolerance")?;
     Ok(question)
-}
-
-/// Returns the stops of the part.
-fn stop(given: &Given<'_>) -> PyResult<Option<Stop>> {
-    given.read::<Option<[f64; 3]>>("stop")?.map(Stops::of).transpose().map_err(refused)
 }
 
 /// Refuses arguments that another question takes.

@@ -68,6 +68,9 @@ QUESTIONS = {
     f"respond --model=compliant {DROP} --contact-time-s=4e-4 --at=0.4 --frequency=60Hz --stop=1mm,0.5ms,0.4": lambda: clatter.respond(
         model="compliant", **DROP_OF, contact_time_s=4e-4, at=0.4, frequency_hz=60, stop=(1e-3, 0.5e-3, 0.4)
     ),
+    "spectrum --pulse=half-sine,5000,0.0005,0.001 --frequency=60,180 --stop=1mm,0.5ms,0.4": lambda: clatter.spectrum(
+        PULSE, frequency_hz=[60, 180], stop=(1e-3, 0.5e-3, 0.4)
+    ),
     f"respond --model=finite-tilt {DROP} --at=0.4 --omega=900 --q-factor=25 --first=b": lambda: clatter.respond(
         model="finite-tilt", **DROP_OF, at=0.4, omega=900, q_factor=25, first="b"
     ),

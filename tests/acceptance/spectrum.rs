@@ -63,6 +63,45 @@ fn spectra_are_those_of_an_integrator() {
     }
 }
 
+/// A part of 60 Hz that reaches its stop: pulses, a record of the same straight lines and `respond` say the same. A stiff part does not
+/// reach it.
+#[test]
+fn parts_with_stops_have_spectra() {
+    let dir = tempfile::tempdir().unwrap();
+    let record = dir.path().join("triangle.csv");
+    let mut text = String::from("time_s,acceleration_m_s2\n");
+    for k in 0..=20 {
+        let up = if k <= 10 { f64::from(k) } else { f64::from(20 - k) };
+        let _ = writeln!(text, "{:?},{:?}", 1e-4 * f64::from(k), 500.0 * up);
+    }
+    fs::write(&record, text).unwrap();
+    let pulses = dir.path().join("pulses.csv");
+    fs::write(&pulses, "shape,amplitude_m_s2,duration_s,start_s\ntriangle,5000,0.002,0\n").unwrap();
+    let (record, pulses) = (record.to_str().unwrap(), pulses.to_str().unwrap());
+    let stop = "--stop=1mm,0.5ms,0.4";
+    let of = |first: &str, with: Option<&str>| {
+        let all = ["spectrum", first, "--frequency=60,900", "--damping=0.1"].into_iter().chain(with);
+        numbers(&answer(all)["maximax"])
+    };
+    let pulse = "--pulse=triangle,5000,0.002";
+    let (free, stopped, measured) = (of(pulse, None), of(pulse, Some(stop)), of(record, Some(stop)));
+    assert!(stopped[0] > 5.0 * free[0] && close(stopped[1], free[1], 1e-12), "{stopped:?}, {free:?}");
+    assert!(stopped.iter().zip(&measured).all(|(a, b)| close(*a, *b, 1e-9)), "{stopped:?}, {measured:?}");
+    let omega = std::f64::consts::TAU * 60.0;
+    let file = format!("--pulses-file={pulses}");
+    let part = answer(["respond", &file, &format!("--omega={omega:?}"), "--damping=0.1", stop]);
+    assert!(
+        close(part["peak_absolute_acceleration_over_omega"].as_f64().unwrap() * omega, stopped[0], 1e-12),
+        "{part}"
+    );
+    // It arrives with nearly all that the pulse gave it, 5 m/s.
+    let hits = part["at_stop"]["hits"].as_array().unwrap();
+    let hardest = part["at_stop"]["largest_hit_m_s"].as_f64().unwrap();
+    assert!(hits.len() > 2 && (4.0..5.0).contains(&hardest), "{part}");
+    let table = clatter(["spectrum", pulse, "--frequency=60", stop]).stdout;
+    assert!(table.contains("stops at 1.00000 mm with contacts of 0.500000 ms, e = 0.4"), "{table}");
+}
+
 #[test]
 fn spectrum_explains_itself() {
     // An undamped component swings for ever with what a shock gave it: 2 m/s, against a limit of twice that.

@@ -198,9 +198,11 @@ fn felt(excitation: &Excitation, suspension: &Suspension) -> Result<(Response, V
         Excitation::Bar { bar, start, at } => {
             on_body([*at])?;
             let train = clatter_shock::respond(bar, start, *at, suspension)?;
-            Ok((train.response, train.shocks.hits(suspension)?, train.shocks, train.omitted))
+            Ok((train.response, train.shocks.pulses().hits(suspension)?, train.shocks, train.omitted))
         }
-        Excitation::Shocks(shocks) => Ok((shocks.respond(suspension), shocks.hits(suspension)?, shocks.clone(), 0.0)),
+        Excitation::Shocks(shocks) => {
+            Ok((shocks.respond(suspension), shocks.pulses().hits(suspension)?, shocks.clone(), 0.0))
+        }
         Excitation::Pulses(pulses) => {
             let omega = suspension.omega();
             if !SWINGS.contains(&omega) {

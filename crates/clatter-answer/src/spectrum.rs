@@ -279,7 +279,7 @@ pub fn counted(question: &Question, mut progress: impl FnMut(u64)) -> Result<Ans
     let spectra: Vec<(Option<String>, Spectrum)> = match &question.excitation {
         Excitation::Records(records) => of_records(question, records, &list, &mut progress)?,
         Excitation::Shocks(shocks) => alone(&|damping| match question.stop {
-            Some(stop) => shocks.spectrum_with_stop(&list, damping, *quantity, stop),
+            Some(stop) => shocks.pulses().spectrum_with_stop(&list, damping, *quantity, stop),
             None => shocks.spectrum(&list, damping, *quantity),
         }),
         Excitation::Pulses(pulses) => {

@@ -324,16 +324,18 @@ impl<'a> PlaceHistory<'a> {
                 )
             }
             (Source::Shock, _) => {
-                let Shock { change, time_s, .. } = largest(self.shocks());
-                (change, time_s, self.off_by(change, |later| later.turned_m_s))
+                let Shock { change, time_s, span_s, .. } = largest(self.shocks());
+                (change, time_s, self.off_by(change, |later| later.turned_m_s) + self.stopped_m_s(span_s))
             }
             (Source::Turn, _) => {
-                let Some(Shock { change, time_s, .. }) = largest_turn(self.followed, above * limit.allowed) else {
+                let Some(Shock { change, time_s, span_s, .. }) = largest_turn(self.followed, above * limit.allowed)
+                else {
                     return Ok(None);
                 };
                 let drop = &self.followed.drop;
                 let arm = if drop.body.is_wide() { drop.least_gyration_m() } else { 0.5 * drop.body.length_m() };
-                (change, time_s, self.off_by(change * arm, |later| later.turn_rad_s * arm) / arm)
+                let off = self.off_by(change * arm, |later| later.turn_rad_s * arm) + self.stopped_m_s(span_s);
+                (change, time_s, off / arm)
             }
             (Source::Boundary, _) => return Ok(self.boundary(limit, above)),
         };
@@ -477,12 +479,12 @@ impl<'a> PlaceHistory<'a> {
     fn boundary(&self, limit: &Limit, above: f64) -> Option<Answer> {
         let contact_s = self.followed.drop.contact_time_s;
         let mut worst: Option<Answer> = None;
-        for &Shock { change, peak, time_s, .. } in self.shocks() {
+        for &Shock { change, peak, time_s, span_s } in self.shocks() {
             if change / limit.allowed <= worst.map_or(above, |worst| worst.utilization()) {
                 continue;
             }
             let impact = self.followed.impact_at(time_s);
-            let off_by = self.off_by(change, |later| later.turned_m_s);
+            let off_by = self.off_by(change, |later| later.turned_m_s) + self.stopped_m_s(span_s);
             let (unit, allowed) = (Unit::MeterPerSecond, limit.allowed);
             let mut answer = Answer { value: change, allowed, unit, time_s, impact, off_by };
             if let Some(contact_s) = contact_s {

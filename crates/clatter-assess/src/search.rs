@@ -73,6 +73,10 @@ pub(crate) struct Task<'a> {
 }
 
 impl Task<'_> {
+    /// Returns whether the worst place of an extended part may lie between its ends.
+    pub(crate) fn is_largest_between(&self) -> bool {
+        self.limit.kind.is_largest_between() || self.hits_stops()
+    }
     /// Returns whether the limit is on the response of a part with stops.
     pub(crate) fn hits_stops(&self) -> bool {
         self.component.stops.is_some() && self.limit.is_response()
@@ -281,8 +285,8 @@ impl Ranges<'_> {
                 for (own_number, (task, number)) in of_one.iter().zip(numbers.clone()).enumerate() {
                     // Turns are the same everywhere.
                     let again = n > 0 && task.limit.kind.source() == Source::Turn;
-                    let not_there =
-                        is_between && (!task.limit.kind.is_largest_between() || is_plate && !near_at_ends[own_number]);
+                    let far_from_worst = is_plate && !near_at_ends[own_number] && !task.hits_stops();
+                    let not_there = is_between && (!task.is_largest_between() || far_from_worst);
                     if again || not_there || only.is_some_and(|only| !only[number]) {
                         continue;
                     }
@@ -384,11 +388,16 @@ impl Ranges<'_> {
         Ok(Some(free.with_stop(stops.at(STOPS.map(|axis| place.shares[axis]))?)))
     }
 
-    /// Returns the part with least damping and the hardest stops at both ends of the range of its frequencies.
+    /// Returns the part with least damping at both ends of the range of its frequencies, with stops at all ends of theirs.
     fn softest_and_stiffest(task: &Task<'_>, place: &Coordinates) -> Result<Vec<Suspension>, Error> {
-        let place = place.at_hardest_stops();
-        let at = |frequency: f64| Self::part(task, &place.with(FREQUENCY, frequency).with(DAMPING, 0.0)).transpose();
-        [0.0, 1.0].into_iter().filter_map(at).collect()
+        let mut places: Vec<Coordinates> =
+            [0.0, 1.0].map(|frequency| place.with(FREQUENCY, frequency).with(DAMPING, 0.0)).to_vec();
+        if task.hits_stops() {
+            for axis in STOPS {
+                places = places.iter().flat_map(|at| [0.0, 1.0].map(|share| at.with(axis, share))).collect();
+            }
+        }
+        places.iter().filter_map(|at| Self::part(task, at).transpose()).collect()
     }
 
     /// Returns the demand of a part on which this drop acts, where it passes `above`.
@@ -424,8 +433,15 @@ impl Ranges<'_> {
             worst = Self::in_drop(task, place, felt, above)?.or(worst);
             Ok(())
         };
-        for far in STOPS.into_iter().filter(|axis| free[*axis]) {
-            ask(&place.with(FREQUENCY, end).with(far, 1.0 - place.shares[far]))?;
+        if stops_vary {
+            // The other end of each, and of all: far stops that give are reached fast, and let the part go far.
+            let others = |at: &Coordinates, axes: &[usize]| {
+                axes.iter().fold(*at, |at, far| at.with(*far, 1.0 - at.shares[*far]))
+            };
+            for far in STOPS.iter().filter(|axis| free[**axis]) {
+                ask(&others(place, &[*far]).with(FREQUENCY, end))?;
+            }
+            ask(&others(place, &STOPS).with(FREQUENCY, end))?;
         }
         for n in 0..if free[FREQUENCY] || stops_vary { others } else { 0 } {
             let number = k * others + n;

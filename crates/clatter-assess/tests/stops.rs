@@ -250,3 +250,62 @@ fn a_speed_at_the_stop_is_that_of_its_hits() {
     let hardest = hits.iter().map(|hit| hit.speed).fold(0.0, f64::max);
     assert!((hardest / limit.demand.unwrap() - 1.0).abs() < 1e-9, "{hardest}, {limit:?}");
 }
+
+/// The picture of a part with stops reaches what the limit is asked for, and no more.
+#[test]
+fn the_curve_of_a_part_with_stops_has_its_demand() {
+    let file = phone(
+        "stop = { gap = \"1 mm\", contact_time = \"0.5 ms\", restitution = 0.4 }\nacceleration_limit = \"2500 gn\"",
+    );
+    let assessment = assess(&file).unwrap();
+    let portrait = &clatter_assess::portraits(&file, &assessment)[0];
+    let most = portrait.history.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
+    let demand = assessment.components[0].limits[0].demand.unwrap();
+    assert!((most / demand - 1.0).abs() < 0.01, "{most}, not {demand}");
+}
+
+/// How often a part hits its stop differs from place to place: of an extended one the worst place may lie between its ends, which single
+/// parts along it show.
+#[test]
+fn the_worst_place_of_a_part_with_stops_may_lie_between_its_ends() {
+    let camera =
+        "stop = { gap = \"1 mm\", contact_time = \"0.5 ms\", restitution = 0.4 }\nstop_speed_limit = \"90 m/s\"";
+    let at = |position: &str| {
+        let text = format!(
+            "[product]\nname = \"Phone\"\nlength = \"150 mm\"\nradius_of_gyration = \"41 mm\"\nrestitution = 0.3\n\
+             contact_time = \"0.4 ms\"\ncontact_law = \"hysteretic\"\n[drop]\nheight = \"1.2 m\"\ntilt = \"4 deg\"\nfirst = \"a\"\n\
+             [[component]]\nname = \"camera\"\nposition = {position}\nnatural_frequency = \"60 Hz\"\ndamping_ratio = 0.1\n{camera}\n"
+        );
+        let file = ProductFile::read(&text, "phone.toml").unwrap_or_else(|faults| panic!("{faults}\n{text}"));
+        assess(&file).unwrap().components.remove(0).limits.remove(0)
+    };
+    let (mut between, mut ends) = (0.0_f64, 0.0_f64);
+    for k in 0..=56 {
+        let x = -70.0 + 2.5 * f64::from(k);
+        let asked = at(&format!("\"{x} mm\"")).demand.unwrap();
+        let most = if (x.abs() - 70.0).abs() < 1e-9 { &mut ends } else { &mut between };
+        *most = most.max(asked);
+    }
+    let whole = at("[\"-70 mm\", \"70 mm\"]");
+    let told = whole.demand.unwrap() * (1.0 + whole.uncertainty);
+    assert!(told >= between.max(ends), "{told} of {between} between and {ends} at the ends");
+}
+
+/// What later landings may ask of the rattle space is that of the farthest stop of a range.
+#[test]
+fn later_landings_count_with_the_farthest_stop() {
+    let most = |gap: &str| {
+        let text = format!(
+            "[product]\nname = \"Box\"\nlength = \"150 mm\"\nwidth = \"70 mm\"\nthickness = \"30 mm\"\n\
+             radius_of_gyration = [\"43 mm\", \"20 mm\"]\nrestitution = 0.3\ncontact_time = \"0.4 ms\"\ncontact_law = \"hysteretic\"\n\
+             friction = 0\n[[drop]]\nheight = \"0.3 m\"\nface = \"end-a\"\n[[component]]\nname = \"part\"\nposition = [\"10 mm\", \"0 mm\"]\n\
+             natural_frequency = \"40 Hz\"\ndamping_ratio = 0.05\nrattle_space = \"100 mm\"\n\
+             stop = {{ gap = {gap}, contact_time = \"1 ms\", restitution = 0.4 }}\n"
+        );
+        let file = ProductFile::read(&text, "box.toml").unwrap_or_else(|faults| panic!("{faults}\n{text}"));
+        let limit = assess(&file).unwrap().components.remove(0).limits.remove(0);
+        limit.demand.unwrap() * (1.0 + limit.uncertainty)
+    };
+    let (far, range) = (most("\"3 mm\""), most("[\"0.2 mm\", \"3 mm\"]"));
+    assert!(range >= far * (1.0 - 1e-9), "{range} over the range, {far} at its end");
+}

@@ -217,7 +217,7 @@ impl DampingArgs {
 #[derive(Debug, clap::Args)]
 pub(crate) struct StopArgs {
     /// Stops on either side of the component: the gap to each, how long it presses one alone, and the restitution there, such as
-    /// 1mm,0.5ms,0.4; without units in m and s
+    /// 1mm,0.5ms,0.4; without units in m and s. Records are then straight lines between their samples
     #[arg(long, value_name = "GAP,TIME,E", allow_hyphen_values = true, value_parser = quantities::stop, conflicts_with_all = ["stop_gap_m", "stop_contact_time_s", "stop_restitution"])]
     stop: Option<[f64; 3]>,
     /// Gap of --stop in m
@@ -235,7 +235,15 @@ impl StopArgs {
     /// Returns the stop that was given; none where none was.
     pub(crate) fn given(&self) -> Result<Option<Stop>, Failure> {
         let in_si = || Some([self.stop_gap_m?, self.stop_contact_time_s?, self.stop_restitution?]);
-        Ok(self.stop.or_else(in_si).map(Stops::of).transpose()?)
+        let Some(numbers) = self.stop.or_else(in_si) else { return Ok(None) };
+        let ranges = [("gap in m", 1e-12..=1e3), ("contact time in s", 1e-12..=1e3), ("restitution", 0.0..=1.0)];
+        for (value, (name, range)) in numbers.into_iter().zip(ranges) {
+            if !range.contains(&value) {
+                let (least, most) = (range.start(), range.end());
+                return Err(Failure::Wrong(format!("--stop: {name} = {value:?}; allowed: from {least:?} to {most:?}")));
+            }
+        }
+        Ok(Some(Stops::of(numbers)?))
     }
 }
 

@@ -250,24 +250,28 @@ impl Component {
     /// Returns the ends of where the part may be, \[x, y\]: one where it is a point, both ends along a bar, the corners of a rectangle on a
     /// plate.
     ///
-    /// The worst place is one of them for all but changes of velocity, see [`places_m`](Self::places_m): for one drop the motion of the
-    /// body is linear in the position, so is the response to it, and the largest absolute value of linear functions is convex, which
-    /// has its maximum at a corner of the region.
+    /// The worst place is one of them for all but changes of velocity and parts with stops, see [`places_m`](Self::places_m): for one drop
+    /// the motion of the body is linear in the position, so is the response to it, and the largest absolute value of linear functions is
+    /// convex, which has its maximum at a corner of the region.
     #[must_use]
     pub fn ends_m(&self) -> Vec<[f64; 2]> {
         let [along, across] = self.reaches_m();
         corners(along, across)
     }
-    /// Places at which a drop is answered: the ends first and, where a change of velocity limits the part, some between. Whether contacts
-    /// that overlap are one shock differs from place to place, so that the largest change of velocity may lie between the ends.
+    /// Places at which a drop is answered: the ends first and, where a change of velocity limits the part or it has stops, some between.
+    /// Whether contacts that overlap are one shock differs from place to place, and so does how often the part hits its stop, so that the
+    /// largest demand may lie between the ends.
     #[must_use]
     pub fn places_m(&self) -> Vec<[f64; 2]> {
-        places(self.reaches_m(), self.limits.kinds())
+        places(self.reaches_m(), self.is_largest_between())
     }
     /// Returns the same of a part whose middle is at one place of its ranges.
     #[must_use]
     pub fn places_at_m(&self, at_m: [f64; 2]) -> Vec<[f64; 2]> {
-        places(self.reaches_from_m(at_m.map(Spread::finite)), self.limits.kinds())
+        places(self.reaches_from_m(at_m.map(Spread::finite)), self.is_largest_between())
+    }
+    fn is_largest_between(&self) -> bool {
+        self.stops.is_some() || self.limits.kinds().into_iter().any(LimitKind::is_largest_between)
     }
     /// Returns the range of places where the part may be, along the length and across it.
     #[must_use]
@@ -285,11 +289,12 @@ impl Component {
     }
 }
 
-/// Returns the ends of where a part reaches and, where a limit of these kinds needs it, places between.
-pub fn places(reaches: [[f64; 2]; 2], kinds: impl IntoIterator<Item = LimitKind>) -> Vec<[f64; 2]> {
+/// Returns the ends of where a part reaches and, where its demand may be largest there, places between.
+#[must_use]
+pub fn places(reaches: [[f64; 2]; 2], is_largest_between: bool) -> Vec<[f64; 2]> {
     let [along, across] = reaches;
     let mut places = corners(along, across);
-    if kinds.into_iter().any(LimitKind::is_largest_between) {
+    if is_largest_between {
         let count = between(reaches);
         let all = [along, across].map(|reach| with_between(reach, count));
         let rest = all[1].iter().flat_map(|&y| all[0].iter().map(move |&x| [x, y]));

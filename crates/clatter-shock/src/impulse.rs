@@ -4,7 +4,7 @@ use crate::eight::{LARGEST_ANGLE, WIDTH};
 use crate::peaks::{Extreme, Peaks, Range, Response};
 use crate::side_by_side::SideBySide;
 use crate::suspension::{Modes, Motion, Phase};
-use crate::{Error, Hit, Peaked, Pulses, Suspension};
+use crate::{Error, Peaked, Pulses, Suspension};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -121,7 +121,7 @@ impl VelocityShocks {
             if linear.relative_displacement.magnitude() < stop.gap() {
                 return linear;
             }
-            return Pulses::of_shocks(&self.shocks).respond(suspension).last_interval(self.shocks.len() - 1);
+            return self.pulses().respond(suspension).last_interval(self.shocks.len() - 1);
         }
         let mut run = Run::new(suspension);
         for shock in &self.shocks {
@@ -129,12 +129,10 @@ impl VelocityShocks {
         }
         run.finish(|i| self.shocks[i].time)
     }
-    /// Returns every touch of a stop, as [`Pulses::hits`].
-    ///
-    /// # Errors
-    /// As there.
-    pub fn hits(&self, suspension: &Suspension) -> Result<Vec<Hit>, Error> {
-        Pulses::of_shocks(&self.shocks).hits(suspension)
+    /// Returns the same history as sections, an interval for each shock.
+    #[must_use]
+    pub fn pulses(&self) -> Pulses {
+        Pulses::of_shocks(&self.shocks)
     }
     /// Returns the peak of one quantity, ωz or A/ω with its sign or the speed at a stop, if it passes `above` ≥ 0 either
     /// way, as [`Pulses::peak_above`](crate::Pulses::peak_above).
@@ -155,7 +153,7 @@ impl VelocityShocks {
             if self.peak_above(&linear, Peaked::PseudoVelocity, linear.omega() * stop.gap()).is_none() {
                 return self.peak_above(&linear, peaked, above);
             }
-            let peak = Pulses::of_shocks(&self.shocks).peak_above(suspension, peaked, above)?;
+            let peak = self.pulses().peak_above(suspension, peaked, above)?;
             return Some(Extreme { interval: peak.interval.min(self.shocks.len() - 1), ..peak });
         }
         let row = peaked.row()?;

@@ -276,20 +276,6 @@ impl VelocityShocks {
     }
 }
 
-impl VelocityShocks {
-    /// Returns the same of components with stops, as [`Pulses::spectrum_with_stop`].
-    #[must_use]
-    pub fn spectrum_with_stop(
-        &self,
-        frequencies: &Frequencies,
-        damping: DampingRatio,
-        quantity: Quantity,
-        stop: Stop,
-    ) -> Spectrum {
-        Pulses::of_shocks(self.as_slice()).spectrum_with_stop(frequencies, damping, quantity, stop)
-    }
-}
-
 impl Pulses {
     /// Returns the spectrum of components that all have the same stops: of the acceleration that of spring, damper and stop.
     ///

@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use clatter_flight::Followed;
-use clatter_shock::{State, Stop, Suspension};
+use clatter_flight::{Followed, Stop};
+use clatter_shock::{State, Suspension};
 
 use super::{PlaceHistory, kept_arms};
 use crate::bound::box_acceleration;
@@ -56,7 +56,7 @@ impl GivenUp {
 /// Returns the amplitude of a part in this state as a velocity, with what its stop holds: at most ½ k₁ d² at a depth d.
 pub(super) fn swing(part: &Suspension, state: State) -> f64 {
     let free = libm::hypot(part.omega() * state.displacement, state.velocity);
-    let pressed = |stop: Stop| {
+    let pressed = |stop: clatter_shock::Stop| {
         let rate = FRAC_PI_2 * (1.0 + stop.restitution()) / stop.contact_time();
         rate * (state.displacement.abs() - stop.gap()).max(0.0)
     };
@@ -196,6 +196,13 @@ impl PlaceHistory<'_> {
             self.followed.later_m_s()
         };
         kept_arms(self.followed) * largest_m_s + (later - value).max(0.0)
+    }
+    /// Returns what a shock may be off by that lasts until the body is said to lie: it is stopped at once, where it would ring by its weight.
+    pub(super) fn stopped_m_s(&self, [_, end_s]: [f64; 2]) -> f64 {
+        match self.followed.stop() {
+            Stop::AtRest { time_s, .. } if end_s >= time_s && !self.followed.is_early() => self.followed.later_m_s(),
+            _ => 0.0,
+        }
     }
     fn is_box(&self) -> bool {
         self.followed.drop.is_solid()

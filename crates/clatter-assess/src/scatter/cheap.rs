@@ -39,9 +39,11 @@ fn strikes(drop: &Drop) -> Result<Vec<Impact>, Error> {
 
 fn of_part(drop: &Drop, train: &[Impact], part: &PartSample) -> Result<f64, Error> {
     let mut asked = 0.0_f64;
-    // For instant impacts all is linear in the place.
-    for place in part.ends() {
-        let s = drop.relative(*place);
+    // For instant impacts all is linear in the place, but for what stops do.
+    let stops = part.suspension.is_some_and(|part| part.stop().is_some());
+    let spots = || part.spots().iter().map(|spot| spot.at_m[0]).collect();
+    for place in if stops { spots() } else { part.ends().to_vec() } {
+        let s = drop.relative(place);
         let shock = |strike: &Impact| VelocityShock { time: strike.time, delta_v: strike.delta_v_at(s) };
         let shocks = VelocityShocks::new(train.iter().map(shock).collect())?;
         let half_sine = shocks.largest() * FRAC_PI_2 / drop.contact_time_s.unwrap_or(f64::INFINITY);
@@ -52,7 +54,12 @@ fn of_part(drop: &Drop, train: &[Impact], part: &PartSample) -> Result<f64, Erro
                 (Source::Response(of), Some(part)) => {
                     let unit = of.of_velocity(1.0, part.omega());
                     let peak = shocks.peak_above(part, of.peaked, above / unit);
-                    unit * peak.map_or(0.0, |peak| peak.value.abs())
+                    let value = unit * peak.map_or(0.0, |peak| peak.value.abs());
+                    if value.is_infinite() {
+                        // It hits its stops for ever.
+                        shocks.pulses().hits(part)?;
+                    }
+                    value
                 }
                 (Source::Response(_), None) => half_sine,
                 (Source::Turn, _) => {

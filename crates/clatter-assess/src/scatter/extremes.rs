@@ -131,8 +131,14 @@ fn variants(component: &Component) -> Result<Vec<PartSample>, Error> {
         for ratio in std::iter::once(least).chain((most > least).then_some(most)) {
             for hz in three(frequency_hz) {
                 let free = Suspension::from_hz(hz, DampingRatio::new(ratio)?)?;
-                let stop = component.stops.as_ref().map(Stops::hardest).transpose()?;
-                suspensions.push(Some(stop.map_or(free, |stop| free.with_stop(stop))));
+                match &component.stops {
+                    Some(stops) => {
+                        for shares in [Stops::HARDEST, Stops::HARDEST.map(|share| 1.0 - share)] {
+                            suspensions.push(Some(free.with_stop(stops.at(shares)?)));
+                        }
+                    }
+                    None => suspensions.push(Some(free)),
+                }
             }
         }
     }

@@ -221,7 +221,8 @@ impl PartSample {
     }
     /// Places at which a drop with contacts is answered, as [`Component::places_m`](clatter_product::Component::places_m).
     pub(super) fn spots(&self) -> Vec<Place> {
-        let places = places(self.reaches_m, self.limits.iter().map(|limit| limit.kind));
+        let stops = self.suspension.is_some_and(|part| part.stop().is_some());
+        let places = places(self.reaches_m, stops || self.limits.iter().any(|limit| limit.kind.is_largest_between()));
         places.into_iter().map(|at_m| self.inside.place(at_m)).collect()
     }
 }

@@ -70,7 +70,7 @@ pub(super) const SAMPLE_OF_BOX: [usize; 2] = [192, 16];
 // Later landings of a box.
 
 /// Landings with the energy left, in any posture.
-pub(super) const LANDINGS: u32 = 360;
+pub(super) const LANDINGS: u32 = 408;
 /// Range of the tries of a climb from the worst of them.
 pub(super) const LANDING_REACH: f64 = 0.15;
 /// Tries of such a climb.

@@ -25,8 +25,9 @@ use clatter_shock::Suspension;
 const POSTURE: usize = 6;
 /// The axes of Halton's sequence that these take, which no input of the ranges has here.
 const OF_POSTURE: [usize; POSTURE] = [0, 1, 4, 7, 8, 10];
-/// Landings flat on a face.
+/// Landings flat on a face, and then those on a face of which one edge rests and the other slaps down, as of a box that topples.
 const FLAT: u32 = 60;
+const ON_FACES: u32 = FLAT + 48;
 /// A landing: its posture, and the shares along the axes of the ranges.
 type Landing = ([f64; POSTURE], [f64; AXES]);
 
@@ -38,13 +39,26 @@ fn direction([z, turn]: [f64; 2]) -> [f64; 3] {
 }
 
 /// Returns landing k: flat on each face first, without and with a slide in four directions, as lively as may be with the shortest and the
-/// longest contact; then anywhere.
+/// longest contact; then turning about each edge of each face; then anywhere.
 fn landing(k: u32) -> Landing {
     if k < FLAT {
         let mut shares = [1.0; AXES];
         shares[CONTACT] = f64::from(k / 30);
         let slide = k / 6 % 5;
         return ([0.0, 0.0, 0.5, 0.25 * f64::from(slide), 0.0, if slide > 0 { 0.5 } else { 0.0 }], shares);
+    }
+    if k < ON_FACES {
+        let n = k - FLAT;
+        let (axis, back) = ((k / 2 + 1 + n / 6 % 2) % 3, f64::from(n / 12 % 2));
+        let [z, turn] = match axis {
+            0 => [0.5, 0.5 * back],
+            1 => [0.5, 0.25 + 0.5 * back],
+            _ => [1.0 - back, 0.0],
+        };
+        let mut shares = [1.0; AXES];
+        shares[CONTACT] = f64::from(n / 24);
+        // A thin body that turns about one of its edges has a quarter of its energy in its spin.
+        return ([0.0, 0.0, z, turn, 0.5, 0.0], shares);
     }
     let at = |n: usize| halton(n, k + 1);
     let share = |axis: usize| (2.0 * halton(axis, k + 1) - 0.5).clamp(0.0, 1.0);
@@ -118,9 +132,9 @@ impl Ranges<'_> {
     fn lands_again(&self, k: u32, (posture, shares): &Landing, energy_m2_s2: f64) -> Option<Drop> {
         let place = Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares: *shares };
         let [z, turn, axis_z, axis_turn, spin, slide] = *posture;
-        let up = if k < FLAT || k.is_multiple_of(2) {
+        let up = if k < ON_FACES || k.is_multiple_of(2) {
             // Off a face, most of them by little.
-            let (number, side) = if k < FLAT { (k / 2, k) } else { (k / 2, k / 18) };
+            let (number, side) = if k < ON_FACES { (k / 2, k) } else { (k / 2, k / 18) };
             let (face, side) = ((number % 3) as usize, if side.is_multiple_of(2) { 1.0 } else { -1.0 });
             let off = OFF_FACE * z * z;
             let ((sin, cos), (s, c)) = (libm::sincos(off), libm::sincos(TAU * turn));

@@ -85,7 +85,7 @@ impl Ranges<'_> {
             Ok::<_, Error>(Candidate { answer, ..there })
         };
         let mut worst = at(found.place.at_m)?;
-        if !task.limit.kind.is_largest_between() {
+        if !task.is_largest_between() {
             return Ok(worst);
         }
         // Where two shocks become one lies anywhere between two places.
