@@ -23,8 +23,8 @@ pub(crate) const COVERAGE: f64 = 0.02;
 /// The same of a box, of which fewer drops are followed, and of the demand of any product after rebounds, which depends on every input:
 /// single drops of 200 limits of boxes passed what was found by 5 % at most, and climbs from thousands of drops of 240 limits of lively
 /// bars by 10 % in 4, in which energy allowed more. And that of a part with stops, which grows by steps where a touch is gained: of 282 limits
-/// of bars single drops passed two by 5 to 11 %.
-const COVERAGE_WHERE_ROUGH: f64 = 0.1;
+/// of bars single drops passed two by 5 to 11 %; where such a part just reaches its stop it is how far it swings that is covered.
+pub(crate) const COVERAGE_WHERE_ROUGH: f64 = 0.1;
 
 /// A drop with a larger demand than is of use.
 #[derive(Debug, Clone, Copy)]
@@ -156,7 +156,7 @@ pub(crate) fn assess_these(
         numbered.flat_map(|(listed, laws)| (0..laws).map(move |n| (listed, n))).collect();
     let mut worst: Vec<Vec<Vec<Worst>>> = searched.iter().map(|_| Vec::new()).collect();
     let progress = SideBySide { done: AtomicUsize::new(0), told: AtomicUsize::new(0), count: searches.len(), watch };
-    // What a box does as it lands again depends on the law and on gravity, and on nothing else of the drop.
+    // What a product does as it lands again depends on the law and on gravity, and on nothing else of the drop.
     let landings: Vec<[LaterLandings; 2]> = listed.iter().map(|_| <[LaterLandings; 2]>::default()).collect();
     let alike: Vec<usize> = listed.iter().map(|one| with_gravity(&listed, one.drop.gravity_m_s2)).collect();
     for some in searches.chunks(SIDE_BY_SIDE) {
@@ -272,9 +272,13 @@ fn judge(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst
     } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
         of.notes.push(Note::Error(found.error()));
     }
-    let later = if ranges.base.is_some() { worst.later * (1.0 + COVERAGE_WHERE_ROUGH) } else { worst.later };
-    if later > of.most {
-        of.most = later;
+    // What a stop asks for begins steeply where the part just reaches it: how far it swings is covered, and not what it is asked for alone.
+    if task.hits_stops() {
+        let [here, covered] = [1.0, 1.0 + COVERAGE_WHERE_ROUGH].map(|share| ranges.in_swing(task, share * worst.swing));
+        of.most = of.most.max(utilization + covered - here);
+    }
+    if worst.later > of.most {
+        of.most = worst.later;
         of.notes.push(Note::Rebounds(of.most));
     }
     // With contacts the edges beyond feet are followed.

@@ -15,7 +15,7 @@ use clatter_shock::{Extreme, Hit, Moment, Peaked, Pulses, Response, State, Stop,
 use crate::AtStop;
 use crate::history::{SHORT, pulses};
 use crate::model::{check_drop, follow};
-use crate::shock::{Shock, largest, largest_turn, samples, shocks_at};
+use crate::shock::{Shock, crest_at, largest_at, largest_turn, samples, shocks_at};
 use clatter_product::{DataFault, Error, Limit, Model, ResponsePeak, Source, Unit};
 pub(crate) use later::in_swings;
 
@@ -266,10 +266,15 @@ pub(crate) struct PlaceHistory<'a> {
     fastest_rad_s: f64,
     /// Its velocity shocks, made when they are first requested.
     shocks: OnceLock<Vec<Shock>>,
+    /// The largest of them, and the largest acceleration in any, made when they are first requested.
+    largest: OnceLock<Shock>,
+    crest: OnceLock<Option<(f64, f64)>>,
     /// The motion of parts as it ends, of those that were requested.
     ends: Mutex<Vec<(Suspension, State)>>,
     /// The same until earlier, of which all answers are known.
     known: Option<&'a PlaceHistory<'a>>,
+    /// Whether what may come after the motion was left is told apart from its answers.
+    leaves_later: bool,
 }
 
 impl<'a> PlaceHistory<'a> {
@@ -285,8 +290,14 @@ impl<'a> PlaceHistory<'a> {
         }
         let history = followed.felt(&place);
         let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2(&place))?;
-        let (shocks, ends) = (OnceLock::new(), Mutex::default());
-        Ok(Self { followed, history, pulses, place, fastest_rad_s, shocks, ends, known: None })
+        let (shocks, largest, crest, ends) = (OnceLock::new(), OnceLock::new(), OnceLock::new(), Mutex::default());
+        let (known, leaves_later) = (None, false);
+        Ok(Self { followed, history, pulses, place, fastest_rad_s, shocks, largest, crest, ends, known, leaves_later })
+    }
+
+    /// Returns the same whose answers leave out what may come after the motion was left, where that is one landing after the other.
+    pub(crate) fn leaving_later(self) -> Self {
+        Self { leaves_later: self.followed.is_early() && !self.followed.is_given_up(), ..self }
     }
 
     /// Returns the same place in the same drop, followed for longer.
@@ -324,7 +335,8 @@ impl<'a> PlaceHistory<'a> {
                 )
             }
             (Source::Shock, _) => {
-                let Shock { change, time_s, span_s, .. } = largest(self.shocks());
+                let Shock { change, time_s, span_s, .. } =
+                    *self.largest.get_or_init(|| largest_at(self.followed, &self.place, &self.history));
                 (change, time_s, self.off_by(change, |later| later.turned_m_s) + self.stopped_m_s(span_s))
             }
             (Source::Turn, _) => {
@@ -360,8 +372,10 @@ impl<'a> PlaceHistory<'a> {
     /// Returns the answer for one limit; 0 where it has no demand.
     pub(crate) fn answer_or_nothing(&self, limit: &Limit, suspension: Option<&Suspension>) -> Result<Answer, Error> {
         let (allowed, unit) = (limit.allowed, limit.kind.unit());
-        let nothing =
-            || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: self.later_of(limit, suspension) };
+        let nothing = || {
+            let off_by = if self.leaves_later { 0.0 } else { self.later_of(limit, suspension) };
+            Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by }
+        };
         Ok(self.answer(limit, suspension, 0.0)?.unwrap_or_else(nothing))
     }
 
@@ -426,7 +440,8 @@ impl<'a> PlaceHistory<'a> {
         let peak = peak.or((peaked == Peaked::StopSpeed && above < 0.0).then_some(none))?;
         let velocity = peak.value.abs();
         // The vibration that rings on as the motion is left, and the later shocks, are taken as if all came at its crest.
-        let doubt = if self.followed.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
+        let comes = self.followed.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0;
+        let doubt = if comes && !self.leaves_later {
             let most = later::swing(part, end) + self.later().shock_of(part);
             of.in_swing(part, most) - velocity
         } else {
@@ -470,9 +485,11 @@ impl<'a> PlaceHistory<'a> {
     /// Returns the largest acceleration of the product at the place, and when. Instant impacts are half-sines of the contact time: their
     /// largest value is that of hysteretic contacts as well.
     fn largest_acceleration(&self, contact_s: f64) -> Option<(f64, f64)> {
-        let of = |shock: &Shock| if shock.peak.is_finite() { shock.peak } else { shock.change * FRAC_PI_2 / contact_s };
-        let all = self.shocks();
-        all.iter().map(|shock| (of(shock), shock.time_s)).reduce(|most, one| if one.0 > most.0 { one } else { most })
+        if self.followed.has_contacts() {
+            return *self.crest.get_or_init(|| crest_at(self.followed, &self.place, &self.history));
+        }
+        let all = self.shocks().iter().map(|shock| (shock.change * FRAC_PI_2 / contact_s, shock.time_s));
+        all.reduce(|most, one| if one.0 > most.0 { one } else { most })
     }
 
     /// Returns the shock that leaves least room, each by velocity change or acceleration, whichever leaves more.

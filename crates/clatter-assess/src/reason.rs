@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter};
 use serde::Serializer;
 
 use crate::AtStop;
-use clatter_product::{ContactLaw, DropName, Error, Model, STANDARD_GRAVITY_M_S2};
+use clatter_product::{ContactLaw, DropName, Error, MOST_FRICTION, Model, STANDARD_GRAVITY_M_S2};
 
 /// The reason why a limit is undecided, or would be if nothing exceeded it. Shares are of the allowed value.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,7 +187,7 @@ pub enum Note {
     Rolls,
     /// The part reaches its stop, of which the file says nothing.
     AtStop(AtStop),
-    /// The demand that real tilt adds, by a box with full rotation in drops next to the worst one.
+    /// The demand that real tilt and friction add, by a box with full rotation in drops next to the worst one.
     Tilt {
         /// The largest demand of the box less that of the plate of small tilt, as a share of the latter; negative where the box has less.
         off: f64,
@@ -250,7 +250,7 @@ impl Display for Note {
             }
             Self::Tilt { off, thickness_m } => write!(
                 f,
-                "the plate is of small tilt: a box {} mm thick with full rotation says {:+} % next to this drop",
+                "the plate is of small tilt: a box {} mm thick with full rotation, and friction of 0 and {MOST_FRICTION}, says {:+} % next to this drop",
                 (1e6 * thickness_m).round() / 1e3,
                 percent(*off)
             ),

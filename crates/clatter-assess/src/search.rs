@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
-use crate::engine::{Part, PlaceHistory, in_swings, once};
+use crate::engine::{Part, PlaceHistory, once};
 use crate::model::follow;
 use budgets::{
     CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, LATER_DECIDES, NEAR, REBOUNDS, SAMPLE, SAMPLE_OF_BOX,
@@ -35,7 +35,7 @@ use clatter_product::{Component, Error, Limit, Model, Mount, Source, Stops};
 use climb::starts;
 use edges::Order;
 pub(crate) use found::{Candidate, Worst};
-use found::{Candidates, OfDrop, image};
+use found::{Candidates, Later, OfDrop, image};
 use grid::halton;
 pub(crate) use landings::{Landings, LaterLandings, with_gravity};
 pub(crate) use ranges::{Coordinates, Ranges};
@@ -144,14 +144,11 @@ impl Ranges<'_> {
         if self.base.is_some() {
             ask(&mut all, &spread, None, false)?;
         }
-        // The demand of rebounds is sensitive to every input: where the energy allows them more, drops all over the ranges are
-        // followed for longer as well.
-        if self.base.is_some() {
-            self.land_again(&mut all, landings, tasks, &work);
-        }
-        // A box is followed that far only where that may decide.
+        // The demand of rebounds is sensitive to every input: where later landings may ask for more, drops all over the ranges are
+        // followed for longer as well, a box only where that may decide.
         let least = if self.base.is_some() { LATER_DECIDES } else { 0.0 };
-        let only: Vec<bool> = all.later.iter().map(|most| *most > least).collect();
+        let only: Vec<bool> =
+            self.land_again(&all, landings, tasks, &work).into_iter().map(|most| most > least).collect();
         if only.contains(&true) {
             let longer = if self.base.is_some() { &spread[..spread.len() / 2] } else { &spread };
             ask(&mut all, longer, Some(&only), true)?;
@@ -161,10 +158,11 @@ impl Ranges<'_> {
                 ask(&mut all, &[(1, fallen)], Some(&only), true)?;
             }
         }
+        let later = self.land_again(&all, landings, tasks, &work);
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
         }
-        let Candidates { mut found, refused, drops, later, .. } = all;
+        let Candidates { mut found, refused, drops, swings, .. } = all;
         let most_starts = [usize::MAX, 2, 2, 1][self.faces()];
         let climbs: Vec<(usize, Candidate)> = found
             .iter_mut()
@@ -191,7 +189,7 @@ impl Ranges<'_> {
             let near = if self.product.body.is_wide() { starts(&mut reached) } else { Vec::new() };
             let mut worst =
                 if in_time { self.settle(&tasks[n], reached) } else { self.settle_at_once(&tasks[n], reached) };
-            (worst.drops, worst.later, worst.near) = (drops, later[n], near);
+            (worst.drops, worst.later, worst.near, worst.swing) = (drops, later[n], near, swings[n]);
             if let Some((count, error)) = &refused {
                 worst.refuse(*count, error);
             }
@@ -204,24 +202,6 @@ impl Ranges<'_> {
             worst.stopped = stopped;
         }
         Ok(all)
-    }
-
-    /// Adds to what the parts of a box ring with as it lands again what it may ask for then.
-    fn land_again(&self, all: &mut Candidates, landings: &LaterLandings, tasks: &[Task<'_>], work: &Work<'_>) {
-        let asked = if all.energy_m2_s2 > 0.0 {
-            self.later_landings(landings, tasks, all.energy_m2_s2, work)
-        } else {
-            Ok(vec![0.0; tasks.len()])
-        };
-        let of_sum = |n: usize, sum: f64| {
-            let parts = Self::softest_and_stiffest(&tasks[n], &self.middle(tasks[n].component)).unwrap_or_default();
-            in_swings(&tasks[n].limit, &parts, sum)
-        };
-        match asked {
-            Ok(landings) => all.land_again(&landings, of_sum),
-            // The search was stopped.
-            Err(_) => all.later.fill(f64::INFINITY),
-        }
     }
 
     /// Returns how many drops are followed besides those of the grid where rebounds count.
@@ -305,15 +285,18 @@ impl Ranges<'_> {
                     let mut asked = self.most(task, &place, felt, *k, frequencies, near)?;
                     let reached =
                         |asked: Option<Candidate>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
+                    if task.hits_stops() {
+                        of_drop.swings.push((number, Self::swing(task, &place, felt, *k)?));
+                    }
                     let parts = Self::softest_and_stiffest(task, &place)?;
                     let later = felt.later_most(&task.limit, &parts, reached(asked));
-                    if let (Some(energy_m2_s2), false) = (early.energy_m2_s2(), to_rest) {
-                        if early.is_early() {
-                            of_drop.energy_m2_s2 = energy_m2_s2;
-                            of_drop.later.push((number, felt.rings(&task.limit, &parts)));
-                        }
-                    } else if later > 0.0 && self.base.is_none() {
-                        of_drop.later.push((number, later));
+                    // A box is followed to its rest later.
+                    if later > 0.0 && (self.base.is_none() || !to_rest) {
+                        of_drop.energy_m2_s2 = early.energy_m2_s2();
+                        let rings = felt.rings(&task.limit, &parts);
+                        // Strikes without number are none of one landing.
+                        let rings = if early.is_given_up() { later } else { rings };
+                        of_drop.later.push((number, Later { most: later, rings }));
                     }
                     if later > 0.0 && to_rest {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
@@ -398,6 +381,16 @@ impl Ranges<'_> {
             }
         }
         places.iter().filter_map(|at| Self::part(task, at).transpose()).collect()
+    }
+
+    /// Returns how far a part would swing without its stops in drop k, as a velocity.
+    fn swing(task: &Task<'_>, place: &Coordinates, felt: &PlaceHistory<'_>, k: u32) -> Result<f64, Error> {
+        let mut most = 0.0_f64;
+        for share in [0.0, 1.0, (GOLDEN * f64::from(k)).fract()] {
+            let at = place.with(FREQUENCY, share).with(DAMPING, 0.0);
+            most = Self::part(task, &at)?.map_or(most, |part| most.max(felt.amplitude(&part.without_stop())));
+        }
+        Ok(most)
     }
 
     /// Returns the demand of a part on which this drop acts, where it passes `above`.

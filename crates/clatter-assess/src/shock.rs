@@ -33,16 +33,53 @@ const TENTH: f64 = 0.1;
 /// more than its weight does in flight.
 const WEIGHTS: f64 = 2.0;
 
-/// Returns the shocks of a place with this history, in order of time.
-pub(crate) fn shocks_at(followed: &Followed, place: &Place, felt: &Excitation) -> Vec<Shock> {
+/// Returns what is asked of a place with this history, of instant impacts or of what pushes it.
+fn of_place<T>(
+    followed: &Followed,
+    place: &Place,
+    felt: &Excitation,
+    instants: impl Fn(Vec<Shock>) -> T,
+    of: impl Fn(&Pushed<'_>) -> T,
+) -> T {
     let (gravity, least) = (followed.drop.gravity_m_s2, WEIGHTS * followed.drop.gravity_m_s2);
     if let Some(jumps) = followed.jumps(place) {
-        return at_instants(jumps.into_iter());
+        return instants(at_instants(jumps.into_iter()));
     }
     match followed.accelerations(place) {
-        Some(moved) => shocks(&Pushed { felt, moved: &moved, gravity: 0.0, least }),
-        None => shocks(&Pushed { felt, moved: from_ref(felt), gravity, least }),
+        Some(moved) => of(&Pushed { felt, moved: &moved, gravity: 0.0, least }),
+        None => of(&Pushed { felt, moved: from_ref(felt), gravity, least }),
     }
+}
+
+/// Returns the shocks of a place with this history, in order of time.
+pub(crate) fn shocks_at(followed: &Followed, place: &Place, felt: &Excitation) -> Vec<Shock> {
+    of_place(followed, place, felt, |shocks| shocks, shocks)
+}
+
+/// Returns the largest of them.
+pub(crate) fn largest_at(followed: &Followed, place: &Place, felt: &Excitation) -> Shock {
+    of_place(followed, place, felt, |shocks| largest(&shocks), largest_of)
+}
+
+/// Returns the largest acceleration in any of them, and when; infinite of instant impacts.
+pub(crate) fn crest_at(followed: &Followed, place: &Place, felt: &Excitation) -> Option<(f64, f64)> {
+    let instant = |shocks: Vec<Shock>| shocks.first().map(|shock| (f64::INFINITY, shock.time_s));
+    of_place(followed, place, felt, instant, crest_of)
+}
+
+/// Returns what is asked of an angular acceleration, of instant impacts or of what pushes it: what does so by less than two weights at the
+/// least radius of gyration is no shock.
+fn of_turning<T>(
+    followed: &Followed,
+    turned: &Excitation,
+    instants: impl Fn(Vec<Shock>) -> T,
+    of: impl Fn(&Pushed<'_>) -> T,
+) -> T {
+    if !followed.has_contacts() {
+        return instants(at_instants(turned.sections().map(|k| (k.from, k.delta_v))));
+    }
+    let least = WEIGHTS * followed.drop.gravity_m_s2 / followed.drop.least_gyration_m();
+    of(&Pushed { felt: turned, moved: from_ref(turned), gravity: 0.0, least })
 }
 
 /// Returns the shocks of the turning of the product about the axis of the largest, where that passes `above`.
@@ -52,16 +89,13 @@ pub(crate) fn hardest_turn(followed: &Followed, above: f64) -> Option<Vec<Shock>
 
 /// Returns the largest shock of the turning of the product, where it passes `above`.
 pub(crate) fn largest_turn(followed: &Followed, above: f64) -> Option<Shock> {
-    hardest_turn(followed, above).map(|shocks| largest(&shocks))
+    let of = |turned: &Excitation| of_turning(followed, turned, |shocks| largest(&shocks), largest_of);
+    followed.hardest_turn(above, of, |shock| shock.change)
 }
 
-/// Returns the shocks of an angular acceleration: what pushes it by less than two weights at the least radius of gyration is none.
+/// Returns the shocks of an angular acceleration.
 pub(crate) fn shocks_of_turning(followed: &Followed, turned: &Excitation) -> Vec<Shock> {
-    if !followed.has_contacts() {
-        return at_instants(turned.sections().map(|k| (k.from, k.delta_v)));
-    }
-    let least = WEIGHTS * followed.drop.gravity_m_s2 / followed.drop.least_gyration_m();
-    shocks(&Pushed { felt: turned, moved: from_ref(turned), gravity: 0.0, least })
+    of_turning(followed, turned, |shocks| shocks, shocks)
 }
 
 impl Shock {
@@ -98,14 +132,14 @@ struct Sample {
 }
 
 /// The excitation that pushes a place, or turns a body.
-pub(crate) struct Pushed<'a> {
+struct Pushed<'a> {
     /// The acceleration of the place above free fall, or the angular acceleration.
-    pub(crate) felt: &'a Excitation,
+    felt: &'a Excitation,
     /// The excitation that changes the velocity, along one axis or along three, in the same sections, besides `gravity`.
-    pub(crate) moved: &'a [Excitation],
-    pub(crate) gravity: f64,
+    moved: &'a [Excitation],
+    gravity: f64,
     /// Below this nothing is a shock.
-    pub(crate) least: f64,
+    least: f64,
 }
 
 /// An acceleration above free fall in sections, with the changes of velocity of the place until each begins.
@@ -114,12 +148,21 @@ struct History<'a> {
     moved: &'a [Excitation],
     velocity: Vec<Vec<f64>>,
     gravity: f64,
+    /// The least acceleration of a shock: the share of gravity in what moves is below it.
+    weight: f64,
 }
 
-/// Returns the shocks of an acceleration above free fall, or of an angular one.
-pub(crate) fn shocks(pushed: &Pushed<'_>) -> Vec<Shock> {
-    let history = History::new(pushed);
-    let samples = history.sampled();
+/// Samples to which a shock reaches.
+struct Reach {
+    peak: usize,
+    /// The first and the last.
+    ends: [usize; 2],
+    /// Beside each end the one beyond, which no earlier shock has, and the one before.
+    beside: [[Option<usize>; 2]; 2],
+}
+
+/// Returns the samples to which shocks reach, the highest peak first.
+fn reaches(samples: &[Sample], least: f64) -> Vec<Reach> {
     let size = |k: usize| samples[k].felt.abs();
     let is_peak = |k: &usize| {
         let (k, before) = (*k, k.checked_sub(1));
@@ -129,8 +172,8 @@ pub(crate) fn shocks(pushed: &Pushed<'_>) -> Vec<Shock> {
         size(k) > 0.0 && rises && falls
     };
     let mut peaks: Vec<usize> = (0..samples.len()).filter(is_peak).collect();
-    if peaks.iter().any(|k| size(*k) > pushed.least) {
-        peaks.retain(|k| size(*k) > pushed.least);
+    if peaks.iter().any(|k| size(*k) > least) {
+        peaks.retain(|k| size(*k) > least);
     }
     peaks.sort_by(|&j, &k| size(k).total_cmp(&size(j)).then(j.cmp(&k)));
     let mut taken = vec![false; samples.len()];
@@ -141,17 +184,56 @@ pub(crate) fn shocks(pushed: &Pushed<'_>) -> Vec<Shock> {
         }
         let back = |k: usize| k.checked_sub(1);
         let on = |k: usize| Some(k + 1).filter(|k| *k < samples.len());
-        let least = pushed.least.max(TENTH * size(peak));
-        let [first, last] = [reach(&samples, &taken, least, peak, back), reach(&samples, &taken, least, peak, on)];
-        let begin = history.end_of(&samples, &taken, first, [back(first), on(first).filter(|k| *k <= last)]);
-        let end = history.end_of(&samples, &taken, last, [on(last), back(last).filter(|k| *k >= first)]);
+        let least = least.max(TENTH * size(peak));
+        let [first, last] = [reach(samples, &taken, least, peak, back), reach(samples, &taken, least, peak, on)];
+        let free = |k: &usize| !taken[*k];
+        let begin = [back(first).filter(free), on(first).filter(|k| *k <= last)];
+        let end = [on(last).filter(free), back(last).filter(|k| *k >= first)];
         taken[first..=last].fill(true);
-        let (peak, time_s) = history.crest(&samples, peak);
-        let change = history.change(&begin, &end);
-        found.push(Shock { span_s: [begin.time_s, end.time_s], change, peak, time_s });
+        found.push(Reach { peak, ends: [first, last], beside: [begin, end] });
     }
+    found
+}
+
+/// Returns the shocks of an acceleration above free fall, or of an angular one.
+fn shocks(pushed: &Pushed<'_>) -> Vec<Shock> {
+    let history = History::new(pushed);
+    let samples = history.sampled();
+    let mut found: Vec<Shock> =
+        reaches(&samples, pushed.least).iter().map(|reach| history.shock(&samples, reach)).collect();
     found.sort_by(|a, b| a.span_s[0].total_cmp(&b.span_s[0]));
     found
+}
+
+/// Returns the largest of them, the first of several: where no other may be larger only that one is worked out.
+fn largest_of(pushed: &Pushed<'_>) -> Shock {
+    let history = History::new(pushed);
+    let samples = history.sampled();
+    let reaches = reaches(&samples, pushed.least);
+    let mut most: Vec<(f64, &Reach)> = reaches.iter().map(|reach| (history.most(&samples, reach), reach)).collect();
+    most.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut largest = Shock::NONE;
+    for (most, reach) in most {
+        if most < largest.change {
+            break;
+        }
+        let shock = history.shock(&samples, reach);
+        let is_first = || shock.change == largest.change && shock.span_s[0] < largest.span_s[0];
+        if shock.change > largest.change || is_first() {
+            largest = shock;
+        }
+    }
+    largest
+}
+
+/// Returns the largest acceleration of any of them, and when.
+fn crest_of(pushed: &Pushed<'_>) -> Option<(f64, f64)> {
+    let history = History::new(pushed);
+    let samples = history.sampled();
+    let mut crests: Vec<(f64, f64)> =
+        reaches(&samples, pushed.least).iter().map(|reach| history.crest(&samples, reach.peak)).collect();
+    crests.sort_by(|a, b| a.1.total_cmp(&b.1));
+    crests.into_iter().reduce(|most, one| if one.0 > most.0 { one } else { most })
 }
 
 /// Returns the last sample to which the shock of a peak reaches on one side.
@@ -173,7 +255,7 @@ fn reach(samples: &[Sample], taken: &[bool], least: f64, peak: usize, next: impl
 const STEPS: u32 = 48;
 
 impl<'a> History<'a> {
-    fn new(&Pushed { felt, moved, gravity, .. }: &Pushed<'a>) -> Self {
+    fn new(&Pushed { felt, moved, gravity, least }: &Pushed<'a>) -> Self {
         let begins = |moved: &Excitation| {
             let mut now = 0.0;
             let begin = |section: Section<'_>| {
@@ -183,7 +265,7 @@ impl<'a> History<'a> {
             };
             moved.sections().map(begin).collect()
         };
-        Self { velocity: moved.iter().map(begins).collect(), felt, moved, gravity }
+        Self { velocity: moved.iter().map(begins).collect(), felt, moved, gravity, weight: least }
     }
     /// Returns the sample of a section at a time in it.
     fn at(&self, section: usize, t: f64) -> Sample {
@@ -200,6 +282,25 @@ impl<'a> History<'a> {
             until(end) - until(begin)
         };
         self.moved.iter().zip(&self.velocity).map(along).fold(0.0, libm::hypot)
+    }
+    /// Returns a shock.
+    fn shock(&self, samples: &[Sample], &Reach { peak, ends, beside }: &Reach) -> Shock {
+        let [begin, end] = [0, 1].map(|k| self.end_of(samples, ends[k], beside[k]));
+        let (peak, time_s) = self.crest(samples, peak);
+        Shock { span_s: [begin.time_s, end.time_s], change: self.change(&begin, &end), peak, time_s }
+    }
+    /// Returns more than it changes the velocity by: from sample to sample, with all that the acceleration may do between its ends and those
+    /// beside them.
+    fn most(&self, samples: &[Sample], reach: &Reach) -> f64 {
+        let [first, last] = reach.ends.map(|k| &samples[k]);
+        let beside = |k: usize| {
+            let here = &samples[reach.ends[k]];
+            let one = |other: &Sample| {
+                (here.felt.abs() + other.felt.abs() + self.weight) * (here.time_s - other.time_s).abs()
+            };
+            reach.beside[k].into_iter().flatten().map(|k| one(&samples[k])).fold(0.0, f64::max)
+        };
+        self.change(first, last) + beside(0) + beside(1)
     }
     fn sampled(&self) -> Vec<Sample> {
         let mut all: Vec<Sample> = Vec::with_capacity(8 * self.felt.sections().len());
@@ -224,9 +325,9 @@ impl<'a> History<'a> {
     }
     /// Finds where a shock ends whose last sample this is: where its acceleration falls to zero on the way to the sample beyond, or is
     /// least on one side of the last.
-    fn end_of(&self, samples: &[Sample], taken: &[bool], last: usize, [beyond, before]: [Option<usize>; 2]) -> Sample {
+    fn end_of(&self, samples: &[Sample], last: usize, [beyond, before]: [Option<usize>; 2]) -> Sample {
         let here = samples[last];
-        let Some(next) = beyond.filter(|k| !taken[*k]).map(|k| &samples[k]) else { return here };
+        let Some(next) = beyond.map(|k| &samples[k]) else { return here };
         if here.felt * next.felt <= 0.0 {
             return self.zero(&here, next);
         }
@@ -309,6 +410,25 @@ pub(crate) fn samples(section: &Section<'_>) -> u32 {
 mod tests {
     use super::*;
     use clatter::Sine;
+
+    /// Of pushes that are nearly alike, some in two directions, the largest shock and the largest acceleration are those of all shocks.
+    #[test]
+    fn the_largest_is_the_largest_of_all() {
+        for n in 0..200_u32 {
+            let peak = |k: u32| {
+                let x = f64::from((n * 37 + k * 101 + n * k) % 97) / 97.0;
+                (1.0 + 0.1 * x) * if (n + k).is_multiple_of(3) { -900.0 } else { 900.0 }
+            };
+            let felt = pushes(&[0, 1, 2, 3, 4, 5].map(peak));
+            for least in [0.0, 20.0] {
+                let pushed = Pushed { felt: &felt, moved: from_ref(&felt), gravity: 9.81, least };
+                let all = shocks(&pushed);
+                assert_eq!(largest_of(&pushed), largest(&all), "{n}");
+                let crest = all.iter().map(|shock| shock.peak).fold(0.0, f64::max);
+                assert_eq!(crest_of(&pushed).unwrap().0.to_bits(), crest.to_bits(), "{n}");
+            }
+        }
+    }
 
     /// The peak of a wave lies between two samples a fifth of a radian apart, wherever they are: by a parabola within 1e-5 of it, and a
     /// hundredth of the time between them.

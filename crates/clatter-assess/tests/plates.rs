@@ -379,7 +379,7 @@ fn what_real_tilt_adds_does_not_jump_where_masses_lie_askew() {
         )
     };
     let told = |y: &str| {
-        let text = HANDHELD.replace(even, &masses(y)).replace("[\"0.5 deg\", \"4 deg\"]", "[\"9 deg\", \"10 deg\"]");
+        let text = HANDHELD.replace(even, &masses(y)).replace("[\"0.5 deg\", \"4 deg\"]", "[\"13 deg\", \"14 deg\"]");
         let product = file(&text).product;
         let limits = limits(&text.replace("tilt = [", "direction = [\"20 deg\", \"30 deg\"]\ntilt = ["));
         let off =

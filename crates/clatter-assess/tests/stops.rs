@@ -309,3 +309,33 @@ fn later_landings_count_with_the_farthest_stop() {
     let (far, range) = (most("\"3 mm\""), most("[\"0.2 mm\", \"3 mm\"]"));
     assert!(range >= far * (1.0 - 1e-9), "{range} over the range, {far} at its end");
 }
+
+/// What a stop asks for begins steeply where a part just reaches it: a drop of these bars hits at 0.52 and 0.296 m/s, where those that the
+/// search finds ask for nothing and for 0.2 m/s.
+#[test]
+fn a_part_that_just_reaches_its_stop_is_not_safe_by_what_was_found() {
+    let bars = [
+        ("55 mm", ["1 deg", "20 deg"], "70 mm", "6.5292 mm", "1 ms", 0.5, "0.05 m/s", 6.939_774_866_920_3),
+        ("30 mm", ["2 deg", "12 deg"], "20 mm", "3.7508 mm", "1 ms", 0.5, "0.27 m/s", 6.659_605_867_678_214),
+    ];
+    for (gyration, [lo, hi], at, gap, time, e, allowed, tilt) in bars {
+        let of = |tilt: &str, first: &str| {
+            let text = format!(
+                "product = {{ name = \"bar\", length = \"150 mm\", radius_of_gyration = \"{gyration}\", restitution = 0.2, contact_time = \"1 ms\", \
+                 contact_law = \"hysteretic\" }}\ndrop = {{ speed = \"3 m/s\", tilt = {tilt}{first} }}\ncomponent = [{{ name = \"part\", position = \"{at}\", \
+                 natural_frequency = \"120 Hz\", damping_ratio = 0.05, rattle_space = \"60 mm\", stop_speed_limit = \"{allowed}\", \
+                 stop = {{ gap = \"{gap}\", contact_time = \"{time}\", restitution = {e} }} }}]\n"
+            );
+            let file = ProductFile::read(&text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
+            let limits = assess(&file).unwrap().components.remove(0).limits;
+            limits.into_iter().find(|limit| limit.limit == LimitKind::StopSpeed).unwrap()
+        };
+        let one = of(&format!("\"{tilt} deg\""), ", first = \"a\"");
+        assert_eq!(one.verdict, Verdict::Unsafe, "{one:?}");
+        let all = of(&format!("[\"{lo}\", \"{hi}\"]"), "");
+        assert_ne!(all.verdict, Verdict::Safe, "{all:?}");
+        let most =
+            if all.uncertainty.is_finite() { all.demand.unwrap() * (1.0 + all.uncertainty) } else { f64::INFINITY };
+        assert!(most > one.demand.unwrap(), "{all:?}");
+    }
+}

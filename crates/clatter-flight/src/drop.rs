@@ -443,6 +443,52 @@ impl Drop {
         // One that goes up lands nowhere.
         (moves > 0.0 && landing.block_drop().is_ok()).then_some(landing)
     }
+    /// A later landing of a bar or of a plate near level: with this tilt, rising in a direction, its slopes growing in another one, and its
+    /// energy over the mass shared between fall and spin. The energy counts from where it lies; none where it does not lift the body so, or
+    /// where what is lowest goes up.
+    #[must_use]
+    pub fn landing_tilted(
+        &self,
+        tilt_rad: f64,
+        direction_rad: f64,
+        energy_m2_s2: f64,
+        spin: f64,
+        turns_rad: f64,
+    ) -> Option<Self> {
+        let (k, (sin, cos)) = (self.body.gyration_m(), libm::sincos(turns_rad));
+        let landing = Self { tilt_rad, direction_rad, spin_rad_s: 0.0, spin_axis: None, ..*self };
+        let moves = energy_m2_s2 - self.gravity_m_s2 * landing.center_m();
+        let inertia = match self.body.width {
+            Some(Side { gyration_m, .. }) => {
+                (k * cos).powi(2) + (gyration_m * sin).powi(2) + 2.0 * self.body.products_m2[0] * sin * cos
+            }
+            None => k * k,
+        };
+        let [speed_m_s, spins] =
+            [(1.0 - spin, 1.0), (spin, inertia)].map(|(share, of)| (2.0 * share * moves / of).sqrt());
+        let landing = Self { speed_m_s, ..landing };
+        let landing = if self.body.is_wide() {
+            landing.with_slope_rates([spins * cos, spins * sin])
+        } else {
+            // Level, it turns away from the end that it lands on.
+            Self { spin_rad_s: if tilt_rad > 0.0 { spins.copysign(cos) } else { spins }, ..landing }
+        };
+        let lands = |drop: &Self| match drop.body.width {
+            Some(width) => drop.plate_scene(&width).is_ok(),
+            None => drop.scene().is_ok(),
+        };
+        (moves > 0.0 && lands(&landing)).then_some(landing)
+    }
+    /// How high the center of mass of a bar or of a plate is over where it lies, as it touches.
+    fn center_m(&self) -> f64 {
+        let ([sx, sy], [cos, sin]) = (self.signs(), self.rises().map(f64::abs));
+        let first = |[lo, hi]: [f64; 2], sign: f64| if sign < 0.0 { hi } else { lo };
+        let across = self.body.width.map_or(0.0, |width| first(width.ends_m, sy));
+        let rises = libm::sin(self.tilt_rad) * (first(self.body.arms_m(), sx) * cos + across * sin);
+        // The ends of a bar with a thickness are below its middle, and less so as it is tilted.
+        let thickness_m = self.body.thickness.filter(|_| !self.body.is_wide()).map_or(0.0, |thickness| thickness.m());
+        rises - 0.5 * thickness_m * (1.0 - libm::cos(self.tilt_rad))
+    }
     /// The drop of a box that lands on anything, as flights take it; none of a bar and of a plate.
     ///
     /// # Errors

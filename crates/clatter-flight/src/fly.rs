@@ -144,10 +144,11 @@ impl Followed {
                 let motion = if let Some(Feet { inset_m, height_m }) = feet {
                     let enough = leaves(&is_over, given_back);
                     let motion = scene.on_feet_until(inset_m, height_m, &drop.contacts()?, precision, enough)?;
-                    Course::PlateOnFeet(Box::new(motion))
+                    Course::PlateOnFeet(Box::new(motion.giving_back(given_back)))
                 } else {
                     let enough = leaves(&is_over, given_back);
-                    Course::Plate(Box::new(scene.own_contacts_until(&drop.contacts()?, precision, enough)?))
+                    let motion = scene.own_contacts_until(&drop.contacts()?, precision, enough)?;
+                    Course::Plate(Box::new(motion.giving_back(given_back)))
                 };
                 (motion, precision)
             }
@@ -240,10 +241,20 @@ impl Followed {
     pub fn later_m_s(&self) -> f64 {
         of_each!(&self.motion, motion => motion.later_m_s, block => block.center_m_s)
     }
-    /// Energy over the mass of a box as it was left, counted from where the center of mass lies on the ground; none of other bodies.
+    /// Energy over the mass as it was left: of a box counted from where the center of mass lies on the ground, of other bodies from where
+    /// they lie; infinite where that is not bounded.
     #[must_use]
-    pub fn energy_m2_s2(&self) -> Option<f64> {
-        if let Course::Solid(motion) = &self.motion { Some(motion.flight.energy_m2_s2) } else { None }
+    pub fn energy_m2_s2(&self) -> f64 {
+        if let Course::Solid(motion) = &self.motion {
+            return motion.flight.energy_m2_s2;
+        }
+        // All of it in what moves the farthest point fastest, which the ground turns around.
+        let [_, most_e] = self.drop.restitutions();
+        let (points, _) = self.drop.in_radii(&Place::default());
+        // Instant impacts of a bar on feet know these alone, which come first.
+        let points = if self.has_contacts() { &points[..] } else { &points[..2] };
+        let coupling = points.iter().fold(1.0_f64, |most, [x, y]| most.max(1.0 + x * x + y * y));
+        0.5 * (self.later_m_s() / (1.0 + most_e)).powi(2) / coupling
     }
     /// How far a box has leaned at most from the face that it landed over: 1 balanced over an edge, more where it has fallen over.
     #[must_use]

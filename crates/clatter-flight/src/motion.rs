@@ -219,9 +219,9 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
     }
 }
 
-impl<const N: usize> Motion<N> {
+impl<const N: usize, P: Pose<N>> Motion<N, P> {
     /// Where no strike after the motion gives back more than this share of what it may take.
-    fn giving_back(self, share: f64) -> Self {
+    pub(crate) fn giving_back(self, share: f64) -> Self {
         let bounded = matches!(self.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
         let later_m_s = if bounded { self.later_m_s } else { share * self.later_m_s };
         Self { later_m_s, ..self }

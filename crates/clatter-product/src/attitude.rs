@@ -60,6 +60,20 @@ impl Attitude {
         let every = (0..27).map(|k| Self(Lands::On([side(k / 9), side(k / 3 % 3), side(k % 3)])));
         every.filter(|attitude| attitude.faces() == faces).collect()
     }
+    /// Returns it as it is said in a sentence.
+    ///
+    /// ```
+    /// use clatter_product::Attitude;
+    /// assert_eq!(Attitude::on("bottom front").unwrap().in_a_sentence(), "on its bottom front edge");
+    /// ```
+    #[must_use]
+    pub fn in_a_sentence(self) -> String {
+        let name = self.to_string();
+        match name.split_once(' ') {
+            Some((kind @ ("face" | "edge" | "corner"), faces)) => format!("on its {faces} {kind}"),
+            _ => format!("at a {name}"),
+        }
+    }
     /// Returns on how many faces at once it lands: 1 a face, 2 an edge, 3 a corner; 0 of one that is tilted by an angle.
     #[must_use]
     pub fn faces(self) -> usize {

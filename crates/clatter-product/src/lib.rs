@@ -67,7 +67,9 @@ pub use inputs::{
     AXES, INPUTS, Input, NUMBERS_OF_ALL, NUMBERS_OF_DROP, Optional, Row, Search, optional_inputs, searched,
 };
 pub use model::Model;
-pub use product::{DropName, DropRanges, Fall, First, Landing, Listed, Product, ProductFile, RecordFile};
+pub use product::{
+    DropName, DropRanges, Fall, First, Landing, Listed, MOST_FRICTION, Product, ProductFile, RecordFile,
+};
 pub use quantity::{Limit, LimitKind, ResponsePeak, Source, Unit};
 pub use read::{Family, GridAxis, LARGEST_FILE, Plan};
 pub use reliability::Reliability;

@@ -13,7 +13,7 @@ const THIN: f64 = 8.0;
 /// Tilt to which it is level.
 const LEVEL_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// The largest friction of products on floors that is taken where the file gives none; rubber may have more.
-const FRICTION: f64 = 0.6;
+pub const MOST_FRICTION: f64 = 0.6;
 
 /// A product, its drop and its parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,7 +85,7 @@ impl ProductFile {
         let is_along = |component: &Component| component.inside.axis == clatter_flight::Axis::Z;
         let counts = !(is_thin && self.landings.iter().all(is_level) && self.components.iter().all(is_along));
         self.product.is_friction_assumed = true;
-        self.product.friction = if counts { Spread::new(0.0, FRICTION, Law::Range).ok() } else { None };
+        self.product.friction = if counts { Spread::new(0.0, MOST_FRICTION, Law::Range).ok() } else { None };
     }
     /// Returns the names of its drops, in order; none of a product that falls once.
     #[must_use]

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 
 use super::lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
 use super::trial::Breakers;
-use super::trial::{is_enough, is_known_enough};
+use super::trial::{is_enough, is_known_enough, room};
 use crate::search::Watch;
-use crate::{Accuracy, Assessment, ComponentAssessment, Verdict};
-use clatter_product::{Component, Error, Mount, ProductFile, Source};
+use crate::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, Verdict};
+use clatter_product::{Component, Error, LimitKind, Mount, ProductFile, Source};
 
 /// Steps from bound to bound in which safe values are looked for; an island of safety narrower than one may be missed.
 pub const STEPS: u32 = 48;
@@ -110,6 +110,19 @@ pub fn remedies_watched(
     Ok(parts.into_par_iter().map(together).collect())
 }
 
+/// Returns whether a limit of a suspended part depends on a lever. What the part is asked for beyond its room is not known, so that its room
+/// counts for its other responses too.
+fn affects(lever: Lever, kind: LimitKind) -> bool {
+    match lever {
+        Lever::Frequency | Lever::Damping | Lever::StopGap | Lever::StopTime | Lever::Limit(LimitKind::RattleSpace) => {
+            kind.is_response()
+        }
+        Lever::Position | Lever::Across => kind.source() != Source::Turn,
+        Lever::Limit(own) => own == kind,
+        Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime => true,
+    }
+}
+
 /// One part that is to be made safe.
 #[derive(Clone, Copy)]
 pub(super) struct Case<'a> {
@@ -134,6 +147,11 @@ impl Case<'_> {
             return Ok(Outcome::NoEffect);
         }
         let (here, [lo, hi]) = (self.here(lever), self.reach(lever));
+        let nowhere = || Outcome::Nowhere { bounds: [self.shown(lever, lo), self.shown(lever, hi)] };
+        let fails = |limit: &LimitAssessment| limit.verdict != Verdict::Safe || room(self.file, limit) < self.margin;
+        if found.limits.iter().any(|limit| fails(limit) && !affects(lever, limit.limit)) {
+            return Ok(nowhere());
+        }
         // Where the present value is beyond the bounds, the search starts from the bound next to it.
         let start = here.clamp(lo, hi);
         let mut breakers = Breakers::of(self.file, self, found);
@@ -158,7 +176,7 @@ impl Case<'_> {
                 return Ok(Outcome::Change { change: self.change(lever, x), after });
             }
         }
-        Ok(Outcome::Nowhere { bounds: [self.shown(lever, lo), self.shown(lever, hi)] })
+        Ok(nowhere())
     }
 
     /// Finds the best pair that is enough, and else how near one gets.
@@ -243,14 +261,9 @@ impl Case<'_> {
 
     /// Returns whether a limit of the part depends on a lever.
     fn matters(&self, lever: Lever) -> bool {
-        let kinds = self.component.limits.kinds();
-        let suspended = matches!(self.component.mount, Mount::Suspended { .. });
-        let responds = kinds.iter().any(|kind| kind.is_response());
-        match lever {
-            Lever::Frequency | Lever::Damping | Lever::StopGap | Lever::StopTime => suspended && responds,
-            Lever::Position | Lever::Across => kinds.iter().any(|kind| kind.source() != Source::Turn),
-            Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime | Lever::Limit(_) => true,
-        }
+        let of_suspension = matches!(lever, Lever::Frequency | Lever::Damping | Lever::StopGap | Lever::StopTime);
+        let is_there = !of_suspension || matches!(self.component.mount, Mount::Suspended { .. });
+        is_there && self.component.limits.kinds().into_iter().any(|kind| affects(lever, kind))
     }
     /// Keeps the changes that leave the largest margin. Of a limit without an answer nobody knows how near it is.
     fn nearer(&self, nearest: &mut Option<Together>, changes: &[Change], after: &ComponentAssessment) {

@@ -6,17 +6,19 @@ use crate::assess::ranges_of;
 use crate::assess::{Breaker, Found, assess_these};
 use crate::search::{Ranges, Task};
 use crate::{ComponentAssessment, LimitAssessment, Verdict, WorstCase};
-use clatter_product::{Error, Limit, Listed, ProductFile};
+use clatter_product::{Error, Limit, LimitKind, Listed, ProductFile};
 
 /// Returns the least margin of a part that was assessed, allowed/demand − 1: by both contact laws where contacts take time and the file
 /// names none, for a verdict counts with both then; infinite where no drop was answered.
 #[must_use]
 pub fn least_margin(file: &ProductFile, found: &ComponentAssessment) -> f64 {
-    let of = |limit: &LimitAssessment| {
-        let other = limit.other_law.filter(|_| file.product.contact_law.is_none());
-        other.map_or(f64::INFINITY, |other| limit.allowed / other - 1.0).min(limit.room())
-    };
-    found.limits.iter().map(of).fold(f64::INFINITY, f64::min)
+    found.limits.iter().map(|limit| room(file, limit)).fold(f64::INFINITY, f64::min)
+}
+
+/// Returns the margin of a limit, by both contact laws where the file names none.
+pub(super) fn room(file: &ProductFile, limit: &LimitAssessment) -> f64 {
+    let other = limit.other_law.filter(|_| file.product.contact_law.is_none());
+    other.map_or(f64::INFINITY, |other| limit.allowed / other - 1.0).min(limit.room())
 }
 
 /// Returns whether a part is safe with a margin.
@@ -32,13 +34,29 @@ pub(super) fn is_known_enough(file: &ProductFile, found: &ComponentAssessment, m
 /// The same share but for roundings.
 const ALIKE: f64 = 1.0 + 1e-12;
 
-/// Drops that broke the part, those that did so last at the end.
-pub(super) struct Breakers(Vec<Breaker>);
+/// What is known of a part that is changed.
+pub(super) struct Breakers {
+    /// Drops that broke it, those that did so last at the end.
+    drops: Vec<Breaker>,
+    /// Values that were searched, as they are written, and what the part is with them.
+    searched: Vec<(Vec<(Lever, [u64; 2])>, Option<Box<ComponentAssessment>>)>,
+    /// Of each limit the least allowed value that may be enough, whatever else is changed with it.
+    least: Vec<(LimitKind, f64)>,
+}
 
 impl Breakers {
     /// Returns the worst cases of an assessment.
     pub(super) fn of(file: &ProductFile, case: &Case<'_>, found: &ComponentAssessment) -> Self {
-        let mut breakers = Self(Vec::new());
+        // How far a box is followed depends on what it is allowed; a damage boundary has two values.
+        let is_told = |limit: &&LimitAssessment| !file.is_box() && limit.limit != LimitKind::DamageBoundary;
+        let least = |limit: &LimitAssessment| {
+            let asked = |share: f64| limit.demand.map(|demand| demand * (1.0 + share));
+            let [found, most] = [asked(case.margin)?, asked(limit.uncertainty.max(case.margin))?];
+            // What energy does not allow is safe too.
+            Some((limit.limit, most.min(found.max(limit.bound.unwrap_or(f64::INFINITY))) / ALIKE))
+        };
+        let least = found.limits.iter().filter(is_told).filter_map(least).collect();
+        let mut breakers = Self { drops: Vec::new(), searched: Vec::new(), least };
         breakers.learn(file, case, found);
         breakers
     }
@@ -53,7 +71,7 @@ impl Breakers {
             let ranges = case.ranges(file, &listed[n]);
             Breaker { other_law: false, listed: n, place: ranges.place_of(case.component, worst) }
         };
-        self.0.extend(worst.map(breaker));
+        self.drops.extend(worst.map(breaker));
     }
 }
 
@@ -98,15 +116,21 @@ impl Case<'_> {
 
     /// Returns whether a drop that is known breaks the part with these values, or they cannot be had.
     fn is_broken(&self, values: &[(Lever, f64)], breakers: &mut Breakers) -> bool {
+        if let &[(lever @ Lever::Limit(kind), x)] = values {
+            let [allowed, _] = self.value(lever, x);
+            if breakers.least.iter().any(|(of, least)| *of == kind && allowed < *least) {
+                return true;
+            }
+        }
         let Some(changed) = self.with(values) else { return true };
         let breaks = |breaker: &Breaker| {
             let ranges = self.by_law(&changed, breaker);
             changed.tasks().any(|task| ranges.in_one(&task, &breaker.place) > most(self.margin))
         };
-        let by = breakers.0.iter().rposition(breaks);
+        let by = breakers.drops.iter().rposition(breaks);
         if let Some(n) = by {
             // It is tried first the next time.
-            breakers.0[n..].rotate_left(1);
+            breakers.drops[n..].rotate_left(1);
         }
         by.is_some()
     }
@@ -114,7 +138,7 @@ impl Case<'_> {
     /// Returns the largest demand of known drops on the part with these values.
     pub(super) fn asked(&self, values: &[(Lever, f64)], breakers: &Breakers) -> f64 {
         let Some(changed) = self.with(values) else { return f64::INFINITY };
-        let asked = breakers.0.iter().flat_map(|b| {
+        let asked = breakers.drops.iter().flat_map(|b| {
             let ranges = self.by_law(&changed, b);
             changed.tasks().map(move |task| ranges.in_one(&task, &b.place))
         });
@@ -137,7 +161,7 @@ impl Case<'_> {
             let ranges = self.by_law(&changed, breaker);
             changed.tasks().any(|task| ranges.asks_more(&task, &breaker.place, most))
         };
-        if breakers.0.iter().rev().any(asks_more) {
+        if breakers.drops.iter().rev().any(asks_more) {
             return Ok(None);
         }
         self.searched(&changed, most, breakers)
@@ -165,7 +189,7 @@ impl Case<'_> {
                 Ok(found)
             }
             Ok(Err(breaker)) => {
-                breakers.0.push(breaker);
+                breakers.drops.push(breaker);
                 Ok(None)
             }
             Err(_) => Ok(None),
@@ -178,9 +202,20 @@ impl Case<'_> {
         values: &[(Lever, f64)],
         breakers: &mut Breakers,
     ) -> Result<Option<Box<ComponentAssessment>>, Error> {
+        let written = self.written(values);
+        if let Some((_, found)) = breakers.searched.iter().find(|(other, _)| *other == written) {
+            return Ok(found.clone());
+        }
         let Some(changed) = self.with(values) else { return Ok(None) };
         let found = self.searched(&changed, most(self.margin) * ALIKE, breakers)?;
-        Ok(found.filter(|found| is_known_enough(self.file, found, self.margin)).map(Box::new))
+        let found = found.filter(|found| is_known_enough(self.file, found, self.margin)).map(Box::new);
+        breakers.searched.push((written, found.clone()));
+        Ok(found)
+    }
+
+    /// Returns values as they are written.
+    fn written(&self, values: &[(Lever, f64)]) -> Vec<(Lever, [u64; 2])> {
+        values.iter().map(|&(lever, x)| (lever, self.value(lever, x).map(f64::to_bits))).collect()
     }
 
     /// Finds the first step of those up to `last` that makes the part safe with the margin, where the steps before fail and those after do
@@ -216,9 +251,7 @@ impl Case<'_> {
                 None => end,
                 Some(_) => open + (end - open) / 2,
             };
-            if let Some((n, _)) = enough.as_mut().filter(|(n, _)| self.is_same(&at(next), &at(*n))) {
-                *n = next;
-            } else if let Some(after) = self.enough(&at(next), breakers)? {
+            if let Some(after) = self.enough(&at(next), breakers)? {
                 enough = Some((next, after));
             } else if next == last {
                 return Ok(None);
@@ -227,11 +260,5 @@ impl Case<'_> {
                 guided = self.is_broken(&at(next), breakers);
             }
         }
-    }
-
-    /// Returns whether values are the same as they can be specified.
-    fn is_same(&self, some: &[(Lever, f64)], others: &[(Lever, f64)]) -> bool {
-        let value = |&(lever, x): &(Lever, f64)| self.value(lever, x).map(f64::to_bits);
-        some.iter().map(value).eq(others.iter().map(value))
     }
 }

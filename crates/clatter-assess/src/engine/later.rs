@@ -190,7 +190,9 @@ impl PlaceHistory<'_> {
         let Followed { largest_m_s, .. } = self.followed;
         // No later strike changes the velocity of a point of a bar or of a plate by more, between its ends or corners; of a box, that of
         // its center of mass. A part may be beyond feet, whose instant impacts are those of the feet.
-        let later = if self.is_box() || self.followed.drop.body.feet.is_some() {
+        let later = if self.leaves_later {
+            0.0
+        } else if self.is_box() || self.followed.drop.body.feet.is_some() {
             of_box(&self.later())
         } else {
             self.followed.later_m_s()

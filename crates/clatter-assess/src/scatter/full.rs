@@ -109,11 +109,9 @@ impl<'a> FollowedDrops<'a> {
         };
         let of_part = |followed: &Result<Followed, Error>| {
             let followed = followed.as_ref().map_err(Clone::clone)?;
-            let landings = match (later, followed.energy_m2_s2().filter(|_| followed.is_early())) {
-                (Some(later), Some(energy_m2_s2)) => {
-                    Some(later.worst(energy_m2_s2, drop.gravity_m_s2)?.swap_remove(part.number))
-                }
-                _ => None,
+            let landings = match later.filter(|_| followed.is_early()) {
+                Some(later) => Some(later.worst(followed.energy_m2_s2(), drop.gravity_m_s2)?.swap_remove(part.number)),
+                None => None,
             };
             of_part_of_box(followed, part, landings.as_deref())
         };

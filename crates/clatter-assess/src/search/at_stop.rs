@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::{Coordinates, Ranges, Task, rough_to_rad_s};
 use crate::AtStop;
-use crate::engine::PlaceHistory;
+use crate::engine::{PlaceHistory, in_swings};
 
 /// Drops all over the ranges in which parts are followed to their stops.
 const DROPS: u32 = 256;
@@ -15,6 +15,12 @@ const USUAL_S: [f64; 2] = [1e-3, 0.2e-3];
 const USUAL_RESTITUTION: f64 = 0.5;
 
 impl Ranges<'_> {
+    /// Returns the utilization that parts with stops have of a task in a swing of this amplitude; of others the amplitude is one already.
+    pub(crate) fn in_swing(&self, task: &Task<'_>, amplitude: f64) -> f64 {
+        let parts = Self::softest_and_stiffest(task, &self.middle(task.component)).unwrap_or_default();
+        in_swings(&task.limit, &parts, amplitude)
+    }
+
     /// Returns how a part reaches a stop so far away, at most in drops that spread evenly over the ranges, and in another one; none where it
     /// reaches none.
     pub(crate) fn at_stop(&self, component: &Component, gap_m: f64, other: Coordinates) -> Option<AtStop> {

@@ -67,7 +67,7 @@ pub(super) const SAMPLE: [usize; 2] = [128, 512];
 /// and of each at least.
 pub(super) const SAMPLE_OF_BOX: [usize; 2] = [192, 16];
 
-// Later landings of a box.
+// Later landings.
 
 /// Landings with the energy left, in any posture.
 pub(super) const LANDINGS: u32 = 408;
@@ -76,7 +76,7 @@ pub(super) const LANDING_REACH: f64 = 0.15;
 /// Tries of such a climb.
 pub(super) const LANDING_TRIES: u32 = 64;
 /// A box is followed to its later landings where they may ask for so much of a limit.
-pub(super) const LATER_DECIDES: f64 = 0.9;
+pub(super) const LATER_DECIDES: f64 = 1.0;
 
 // Climbs from the highest drops.
 

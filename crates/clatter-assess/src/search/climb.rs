@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::{Candidate, Task, Work, fastest_rad_s, rough_to_rad_s};
 use crate::engine::{PlaceHistory, of_followed};
-use clatter_flight::{Followed, Until};
-use clatter_product::{Error, Mount};
+use clatter_flight::{Drop, Followed, Until};
+use clatter_product::{Error, MOST_FRICTION, Mount};
 
 impl Ranges<'_> {
     /// Returns whether the demand changes by edges or steps where contacts meet.
@@ -167,8 +167,8 @@ fn around(
 }
 
 impl Ranges<'_> {
-    /// Returns the largest utilization of a box of this thickness with full rotation: in the worst drop of a plate, in other drops
-    /// from which the search climbed, and in drops next to each, which real tilt shifts.
+    /// Returns the largest utilization of a box of this thickness with full rotation, without friction and with the most that is assumed: in
+    /// the worst drop of a plate, in other drops from which the search climbed, and in drops next to each, which real tilt shifts.
     ///
     /// # Errors
     /// That of the worst drop, of a box that is not followed so.
@@ -181,8 +181,8 @@ impl Ranges<'_> {
     }
 
     fn as_block_next_to(&self, task: &Task<'_>, at: &Candidate, count: u32) -> Result<f64, Error> {
-        let of = |place: &Coordinates| -> Result<f64, Error> {
-            let drop = self.single(place);
+        let of = |place: &Coordinates, friction: f64| -> Result<f64, Error> {
+            let drop = Drop { friction, ..self.single(place) };
             let until_s = (BEYOND_PEAK * at.answer.time_s).max(drop.clatter_s());
             let followed = Followed::as_block(&drop, until_s)?;
             followed.check_depth()?;
@@ -198,8 +198,14 @@ impl Ranges<'_> {
             }
             place
         };
-        let here = of(&at.place)?;
-        Ok((1..=count).into_par_iter().map(|k| of(&next(k)).unwrap_or(0.0)).reduce(|| here, f64::max))
+        let smooth = of(&at.place, 0.0)?;
+        let rubbing = |place: &Coordinates| of(place, MOST_FRICTION).unwrap_or(0.0);
+        let beside = |k: u32| {
+            let place = next(k);
+            of(&place, 0.0).unwrap_or(0.0).max(rubbing(&place))
+        };
+        let here = smooth.max(rubbing(&at.place));
+        Ok((1..=count).into_par_iter().map(beside).reduce(|| here, f64::max))
     }
 }
 
@@ -275,5 +281,35 @@ component = [{ name = "part", position = ["70 mm", "30 mm"], mount = "hard", vel
         let [low, .., high] = tilts;
         let most = ranges.as_block(&task, &at(low), &[at(high)]).unwrap();
         assert!(most >= alone(high) && alone(high) > 1.01 * alone(low), "{most}, {}, {}", alone(high), alone(low));
+    }
+
+    /// Where the ground holds its corners a tilted plate is seldom asked for more, and then by its next strike, which comes at another time:
+    /// the box beside it is followed with friction too.
+    #[test]
+    fn the_box_beside_a_plate_rubs_on_the_ground() {
+        let text = r#"
+product = { name = "plate", length = "150 mm", width = "70 mm", thickness = "60 mm", radius_of_gyration = ["43 mm", "20 mm"], restitution = 0.3, contact_time = "0.3 ms" }
+drop = { speed = "3 m/s", tilt = "14 deg", direction = "20 deg" }
+component = [{ name = "part", position = ["70 mm", "30 mm"], natural_frequency = "100 Hz", damping_ratio = 0.05, rattle_space = "9 mm" }]
+"#;
+        let file = ProductFile::read(text, "plate.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let (ranges, component) = (ranges(&file, &Accuracy::default()), &file.components[0]);
+        let task = Task { component, limit: Limit::of(component)[0] };
+        let place = Coordinates { at_m: [0.07, 0.03], ..ranges.middle(component) };
+        let answer = Answer { value: 0.0, allowed: 9e-3, unit: Unit::Meter, time_s: 6e-2, impact: 1, off_by: 0.0 };
+        let mut holds = 0;
+        for hz in [20.0, 40.0, 80.0, 160.0, 320.0] {
+            let part = clatter_shock::Suspension::from_hz(hz, clatter_shock::DampingRatio::new(0.05).unwrap()).unwrap();
+            let at = Candidate { place, part: Some(part), answer, late: false };
+            let [smooth, rough] = [0.0, MOST_FRICTION].map(|friction| {
+                let drop = Drop { friction, ..ranges.single(&place) };
+                let followed = Followed::as_block(&drop, (BEYOND_PEAK * answer.time_s).max(drop.clatter_s())).unwrap();
+                of_followed(&followed, &at.part_there(component), &task.limit).unwrap().utilization()
+            });
+            holds += u32::from(rough > 1.01 * smooth);
+            let most = ranges.as_block_next_to(&task, &at, 0).unwrap();
+            assert_eq!(most.to_bits(), smooth.max(rough).to_bits(), "{hz}: {most}, {smooth}, {rough}");
+        }
+        assert!(holds > 0, "friction asks nowhere for more");
     }
 }

@@ -26,6 +26,8 @@ pub(crate) struct Worst {
     pub(crate) near: Vec<Candidate>,
     /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
     pub(crate) later: f64,
+    /// How far a part with stops would swing without them in any of the drops, as a velocity.
+    pub(crate) swing: f64,
     /// The largest demand of a drop that was found after it has bounced clear once, as a utilization.
     pub(crate) late: f64,
     /// Drops that the model does not take, and why the first of them; of edges that touch, why the one that sinks in deepest.
@@ -36,14 +38,25 @@ pub(crate) struct Worst {
     pub(crate) stopped: bool,
 }
 
+/// What may come after a body has come down once.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Later {
+    /// The demand that the energy allows, as a utilization.
+    pub(super) most: f64,
+    /// The utilization to which the part still rings; of one with stops the amplitude as a velocity.
+    pub(super) rings: f64,
+}
+
 /// The demands of one drop.
 #[derive(Default)]
 pub(super) struct OfDrop {
     /// The demands on the tasks of these numbers.
     pub(super) asked: Vec<(usize, Candidate)>,
-    /// The demand that the energy allows after the body has come down once, on tasks where that is more.
-    pub(super) later: Vec<(usize, f64)>,
-    /// The energy over the mass that a box still has as it is left, where it lands again.
+    /// What may come after the body has come down once, on tasks where that is more.
+    pub(super) later: Vec<(usize, Later)>,
+    /// How far parts with stops would swing without them, as a velocity, for their tasks.
+    pub(super) swings: Vec<(usize, f64)>,
+    /// The energy over the mass that the body still has as it is left, where it lands again.
     pub(super) energy_m2_s2: f64,
     /// The lean of a box that was followed on, from the posture in which it landed.
     pub(super) lean: f64,
@@ -52,7 +65,7 @@ pub(super) struct OfDrop {
 impl Worst {
     pub(super) fn none() -> Self {
         let near = Vec::new();
-        Self { asked: None, near, later: 0.0, late: 0.0, refused: None, drops: 0, stopped: false }
+        Self { asked: None, near, later: 0.0, swing: 0.0, late: 0.0, refused: None, drops: 0, stopped: false }
     }
     pub(super) fn refuse(&mut self, count: usize, error: &Error) {
         let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
@@ -66,10 +79,12 @@ pub(super) struct Candidates {
     pub(super) found: Vec<Vec<Candidate>>,
     /// The number of drops that are not answered, and the reason of the first; of edges that touch, the one that does deepest.
     pub(super) refused: Option<(usize, Error)>,
-    /// The demand that rebounds may have by their energy, for each task; 0 where that is less than the worst.
-    pub(super) later: Vec<f64>,
+    /// What may come after the body has come down once, for each task: the most of any drop.
+    pub(super) later: Vec<Later>,
+    /// How far parts with stops would swing without them, as a velocity, for each task.
+    pub(super) swings: Vec<f64>,
     pub(super) drops: usize,
-    /// The most energy over the mass that a box still has as it lands again.
+    /// The most energy over the mass that the body still has as it lands again.
     pub(super) energy_m2_s2: f64,
     /// The box that leaned most, and how far.
     pub(super) leaning: Option<(f64, Coordinates)>,
@@ -77,25 +92,14 @@ pub(super) struct Candidates {
 
 impl Candidates {
     pub(super) fn none(tasks: usize) -> Self {
-        let nothing = vec![0.0; tasks];
         Self {
             found: vec![Vec::new(); tasks],
             refused: None,
-            later: nothing,
+            later: vec![Later::default(); tasks],
+            swings: vec![0.0; tasks],
             drops: 0,
             energy_m2_s2: 0.0,
             leaning: None,
-        }
-    }
-    /// Adds to what the parts of a box still ring with as it lands again what such landings may do, `of_sum` being the
-    /// utilization of both; 0 where that is no more than the worst.
-    pub(super) fn land_again(&mut self, landings: &[f64], of_sum: impl Fn(usize, f64) -> f64) {
-        let best = self.best();
-        for (n, ((later, landing), best)) in self.later.iter_mut().zip(landings).zip(best).enumerate() {
-            *later = of_sum(n, *later + landing);
-            if *later <= best {
-                *later = 0.0;
-            }
         }
     }
     /// Returns the largest utilization of each task so far.
@@ -113,7 +117,11 @@ impl Candidates {
                     }
                     self.energy_m2_s2 = self.energy_m2_s2.max(of_drop.energy_m2_s2);
                     of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
-                    of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
+                    of_drop.swings.into_iter().for_each(|(task, most)| self.swings[task] = most.max(self.swings[task]));
+                    for (task, Later { most, rings }) in of_drop.later {
+                        let later = &mut self.later[task];
+                        *later = Later { most: later.most.max(most), rings: later.rings.max(rings) };
+                    }
                 }
                 Err(error) => {
                     self.refused = Some(
@@ -167,9 +175,10 @@ mod tests {
                 at_m: [0.0; 2],
                 shares: [0.0; super::super::ranges::AXES],
             };
-            let of = |most: f64| OfDrop { later: vec![(0, most)], ..OfDrop::default() };
+            let of = |most: f64| OfDrop { later: vec![(0, Later { most, rings: 0.5 * most })], ..OfDrop::default() };
             all.take(order.map(|most| (place, Ok(of(most)))).into());
-            assert!((all.later[0] - 3.0).abs() < 1e-12 && all.drops == 3, "{:?} of {order:?}", all.later);
+            let [most, rings] = [all.later[0].most, all.later[0].rings];
+            assert!((most - 3.0).abs() < 1e-12 && (rings - 1.5).abs() < 1e-12 && all.drops == 3, "{:?}", all.later);
         }
     }
 }

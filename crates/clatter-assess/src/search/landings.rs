@@ -1,31 +1,34 @@
-//! What a box may ask for as it lands again.
+//! What a product may ask for as it lands again.
 //!
 //! After it bounced clear how it comes down hangs on every digit of its drop. So it is not followed: a later landing is one in any posture,
 //! with any part of the energy left in fall, spin and slide. The worst of those, with all of the energy that any drop of the ranges leaves,
-//! covers every landing that follows, as each leaves less to the next. It depends on the product and the part alone, and is searched once.
+//! stands for every landing that follows, as each leaves less to the next; several in step with a part that hardly forgets would add up, of
+//! which the tests found none. It depends on the product and the part alone, and is searched once.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicUsize;
 
 use super::budgets::{CLOSER, LANDING_REACH, LANDING_TRIES, LANDINGS};
+use super::found::Candidates;
 use super::grid::halton;
-use super::ranges::{AXES, CONTACT, Coordinates, DAMPING, FREQUENCY, Ranges};
-use super::{GOLDEN, Task, Work, rough_to_rad_s};
+use super::ranges::{AXES, CONTACT, Coordinates, Ranges};
+use super::{Task, Work, rough_to_rad_s};
 use crate::Accuracy;
-use crate::assess::ranges_of;
+use crate::assess::{COVERAGE_WHERE_ROUGH, ranges_of};
 use crate::engine::PlaceHistory;
 use crate::model::follow;
 use clatter::End;
 use clatter_flight::{Drop, Followed, Until};
 use clatter_product::{Error, Limit, Listed, ProductFile};
-use clatter_shock::Suspension;
 
-/// Numbers from 0 to 1 that say how a box lands again: two of its posture, two of the axis of its spin, and how its energy is shared.
+/// Numbers from 0 to 1 that say how a body lands again: two of its posture, two of the axis of its spin, and how its energy is shared.
 const POSTURE: usize = 6;
 /// The axes of Halton's sequence that these take, which no input of the ranges has here.
 const OF_POSTURE: [usize; POSTURE] = [0, 1, 4, 7, 8, 10];
-/// Landings flat on a face, and then those on a face of which one edge rests and the other slaps down, as of a box that topples.
+/// Landings of a bar or of a plate flat on the bottom.
+const FLAT_ON_BOTTOM: u32 = 2;
+/// Landings of a box flat on a face, and then those on a face of which one edge rests and the other slaps down, as of a box that topples.
 const FLAT: u32 = 60;
 const ON_FACES: u32 = FLAT + 48;
 /// A landing: its posture, and the shares along the axes of the ranges.
@@ -38,8 +41,23 @@ fn direction([z, turn]: [f64; 2]) -> [f64; 3] {
     [across * cos, across * sin, z]
 }
 
-/// Returns landing k: flat on each face first, without and with a slide in four directions, as lively as may be with the shortest and the
-/// longest contact; then turning about each edge of each face; then anywhere.
+/// Returns landing k of a bar or of a plate near level: flat first, as lively as may be with the shortest and the longest contact; then level
+/// in one of three, and anywhere.
+fn tilted_landing(k: u32) -> Landing {
+    if k < FLAT_ON_BOTTOM {
+        let mut shares = [1.0; AXES];
+        shares[CONTACT] = f64::from(k);
+        return ([0.0; POSTURE], shares);
+    }
+    let (mut posture, shares) = anywhere(k);
+    if k.is_multiple_of(3) {
+        posture[0] = 0.0;
+    }
+    (posture, shares)
+}
+
+/// Returns landing k of a box: flat on each face first, without and with a slide in four directions, as lively as may be with the shortest and
+/// the longest contact; then turning about each edge of each face; then anywhere.
 fn landing(k: u32) -> Landing {
     if k < FLAT {
         let mut shares = [1.0; AXES];
@@ -60,10 +78,14 @@ fn landing(k: u32) -> Landing {
         // A thin body that turns about one of its edges has a quarter of its energy in its spin.
         return ([0.0, 0.0, z, turn, 0.5, 0.0], shares);
     }
+    anywhere(k)
+}
+
+/// Returns landing k of those anywhere; a third falls without spin and slide, of a box on each face in turn.
+fn anywhere(k: u32) -> Landing {
     let at = |n: usize| halton(n, k + 1);
     let share = |axis: usize| (2.0 * halton(axis, k + 1) - 0.5).clamp(0.0, 1.0);
     let mut posture = OF_POSTURE.map(at);
-    // A third falls without spin and slide, on each face in turn.
     if (k / 6).is_multiple_of(3) {
         (posture[4], posture[5]) = (0.0, 0.0);
     }
@@ -82,15 +104,21 @@ fn next_to((posture, shares): &Landing, t: u32) -> Landing {
     (posture, std::array::from_fn(|axis| (shares[axis] + step(axis)).clamp(0.0, 1.0)))
 }
 
-/// Energies over the mass at which landings are searched: 4^−12 m²/s² to 4^12.
-const LEVELS: f64 = 12.0;
-/// More than all of them.
-const MOST_LEVELS: usize = 25;
+/// Energies over the mass at which landings are searched: 2^−24 m²/s² to 2^24.
+const LEVELS: f64 = 24.0;
+/// All of them.
+const MOST_LEVELS: usize = 49;
 
 /// The worst landings of a product by one contact law, at each energy that was needed.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct LaterLandings {
     of: [OnceLock<Result<Vec<f64>, Error>>; MOST_LEVELS],
+}
+
+impl Default for LaterLandings {
+    fn default() -> Self {
+        Self { of: std::array::from_fn(|_| OnceLock::new()) }
+    }
 }
 
 /// Returns the first of these drops with a gravity, of which alone later landings depend.
@@ -145,6 +173,15 @@ impl Ranges<'_> {
             direction([z, turn])
         };
         let drop = self.single(&place);
+        if !drop.is_solid() {
+            if k < FLAT_ON_BOTTOM {
+                return drop.flattened().landing_tilted(0.0, drop.direction_rad, energy_m2_s2, 0.0, 0.0);
+            }
+            let wide = drop.body.is_wide();
+            let steepest = if wide { OFF_FACE } else { FRAC_PI_2 * (1.0 - 1e-9) };
+            let towards = if wide { TAU * turn } else { Drop::towards(if turn < 0.5 { End::A } else { End::B }) };
+            return drop.landing_tilted(steepest * z * z, towards, energy_m2_s2, spin * spin, TAU * axis_turn);
+        }
         let slide = if drop.friction > 0.0 { slide * slide } else { 0.0 };
         let spin = spin * spin * (1.0 - slide);
         // The slide goes where the axis of the spin points.
@@ -159,8 +196,11 @@ impl Ranges<'_> {
             let Some(drop) = self.lands_again(k, landing, energy_m2_s2) else { return Ok(None) };
             let contact_s = drop.contact_times_s().map_or(0.0, |[_, longest]| longest);
             let lands_s = 2.0 * (drop.gap_m() / (2.0 * energy_m2_s2).sqrt() + contact_s);
-            follow(&drop, self.model, self.tolerance.max(0.02), Until::LandsAfter(lands_s)).map(Some)
+            let until = if drop.is_solid() { Until::LandsAfter(lands_s) } else { Until::Lands };
+            let followed = follow(&drop, self.model, self.tolerance.max(0.02), until)?;
+            if followed.is_given_up() { Err(Error::Unfinished) } else { Ok(Some(followed)) }
         };
+        let landing = if self.base.is_some() { landing } else { tilted_landing };
         let mut worst: Vec<(f64, u32, Landing)> = vec![(0.0, 0, landing(0)); tasks.len()];
         for k in 0..LANDINGS {
             work.go_on(0)?;
@@ -188,24 +228,53 @@ impl Ranges<'_> {
     }
 
     /// Returns the largest utilization of each task in any landing with at most this energy over the mass.
-    pub(super) fn later_landings(
+    fn later_landings(
         &self,
         known: &LaterLandings,
         tasks: &[Task<'_>],
         energy_m2_s2: f64,
         work: &Work<'_>,
     ) -> Result<Vec<f64>, Error> {
-        let level = (0.5 * libm::log2(energy_m2_s2)).ceil().clamp(-LEVELS, LEVELS);
-        let whole = libm::exp2(2.0 * level);
+        let level = libm::log2(energy_m2_s2).ceil().clamp(-LEVELS, LEVELS);
+        let whole = libm::exp2(level);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let of = known.of[(level + LEVELS) as usize].get_or_init(|| self.worst_landings(tasks, whole, work));
         match of {
-            // Speeds, and so what they do, grow as the root of the energy, and a little faster, as some of it lifts the box.
+            // Speeds, and so what they do, grow as the root of the energy, and a little faster, as some of it lifts the body.
             Ok(worst) => Ok(worst.iter().map(|worst| worst * (energy_m2_s2 / whole).sqrt()).collect()),
             Err(Error::Stopped) => Err(Error::Stopped),
-            // Corners that sink in too deep with so much energy may not with this.
+            // What sinks in too deep with so much energy may not with this.
             Err(_) => self.worst_landings(tasks, energy_m2_s2, work),
         }
+    }
+
+    /// Returns the utilization of each task that later landings may ask for: what its parts still ring with and the worst landing with the
+    /// energy that is left, and no more than all of that energy at once does; 0 where that is no more than the worst that was found.
+    pub(super) fn land_again(
+        &self,
+        all: &Candidates,
+        landings: &LaterLandings,
+        tasks: &[Task<'_>],
+        work: &Work<'_>,
+    ) -> Vec<f64> {
+        let best = all.best();
+        let above = |n: usize, later: f64| if later > best[n] { later } else { 0.0 };
+        let by_energy: Vec<f64> = all.later.iter().enumerate().map(|(n, later)| above(n, later.most)).collect();
+        // On feet a body may land on an edge beyond them, which is not among the landings.
+        let on_feet = self.product.body.feet.is_some();
+        if on_feet || by_energy.iter().all(|most| *most == 0.0) || all.energy_m2_s2 == f64::INFINITY {
+            return by_energy;
+        }
+        let searched = match self.later_landings(landings, tasks, all.energy_m2_s2, work) {
+            Ok(searched) => searched,
+            Err(Error::Stopped) => return vec![f64::INFINITY; tasks.len()],
+            Err(_) => return by_energy,
+        };
+        let of_one = |(n, most): (usize, f64)| {
+            let sum = self.in_swing(&tasks[n], all.later[n].rings + searched[n]);
+            above(n, most.min((1.0 + COVERAGE_WHERE_ROUGH) * sum))
+        };
+        by_energy.into_iter().enumerate().map(of_one).collect()
     }
 
     /// Returns the utilization of a task in a landing, wherever its part may be; of a part with stops the amplitude of its swing.
@@ -215,12 +284,8 @@ impl Ranges<'_> {
             let place = Coordinates { first: End::A, flat: false, mirrored: [false; 2], at_m, shares: *shares };
             let felt = PlaceHistory::rough(followed, task.place(at_m), rough_to_rad_s(task.component))?;
             if task.hits_stops() {
-                // How far the part swings; its stops change that together with what it rings with before.
-                for share in [0.0, 1.0, (GOLDEN * f64::from(k)).fract()] {
-                    let at = place.with(FREQUENCY, share).with(DAMPING, 0.0);
-                    let part = Self::part(task, &at)?.map(Suspension::without_stop);
-                    most = part.map_or(most, |part| most.max(felt.amplitude(&part)));
-                }
+                // Its stops change that together with what it rings with before.
+                most = most.max(Self::swing(task, &place, &felt, k)?);
                 continue;
             }
             let asked = self.most(task, &place, &felt, k, Self::frequencies(task, &followed.drop), most)?;
@@ -284,47 +349,102 @@ mod tests {
         ProductFile::read(&text, "box.toml").unwrap_or_else(|faults| panic!("{faults}\n{text}"))
     }
 
-    /// Drops of random boxes, each followed until it lies: in how many of all does a part ask for more, as the box lands again, than is told.
-    /// Of 4320 of 60 such products it was 12, by 10 % at most and once by 42 %, of a demand of 2 % of the limit.
-    #[test]
-    fn later_landings_ask_for_no_more_than_the_worst_of_any() {
-        let (mut all, mut more, mut near) = (0, 0, 0);
-        for n in 0..8 {
-            let file = product(n);
-            let listed = file.listed();
-            let ranges = ranges_of(&file, &listed[0].drop, listed[0].base, &Accuracy::default());
-            let ranges = Ranges { law: ContactLaw::Hysteretic, ..ranges };
-            let tasks: Vec<Task<'_>> = file
-                .components
-                .iter()
-                .map(|component| Task { component, limit: Limit::of(component).remove(0) })
-                .collect();
-            let work = Work { watch: &|_, _| true, done: AtomicUsize::new(0), all: 1 };
-            let known = LaterLandings::default();
-            for k in 1..=16 {
-                let place = ranges.spread_out(k);
-                let [early, over] = [Until::Lands, Until::Over].map(|until| ranges.follow(&place, until));
-                let (Ok(early), Ok(over)) = (early, over) else { continue };
-                if !early.is_early() {
-                    continue;
-                }
-                let landings = ranges.later_landings(&known, &tasks, early.energy_m2_s2().unwrap(), &work).unwrap();
-                for (task, landing) in tasks.iter().zip(landings) {
-                    let at_m = task.component.places_m()[0];
-                    let place = Coordinates { at_m, ..place };
-                    let part = Ranges::part(task, &place).unwrap();
-                    let felt = |followed| PlaceHistory::new(followed, task.place(at_m)).unwrap();
-                    let asked =
-                        |followed| felt(followed).answer_or_nothing(&task.limit, part.as_ref()).unwrap().utilization();
-                    let [first, whole] = [&early, &over].map(asked);
-                    let told = first.max(landing + felt(&early).rings(&task.limit, part.as_ref()));
-                    all += 1;
-                    near += u32::from(whole > 0.5 * told && whole > first);
-                    more += u32::from(whole > told);
-                    assert!(whole <= 1.1 * told, "{n}, {k}, {}: {whole} of {told}", task.component.name);
-                }
+    /// A bar or a plate with three parts, of any shape.
+    fn near_level(n: u32) -> ProductFile {
+        let x = |of: u32| random(n, of);
+        let [length, width] = [120.0 + 100.0 * x(1), 60.0 + 50.0 * x(2)];
+        let wide = n.is_multiple_of(2);
+        let of_width = if wide {
+            format!(", width = \"{width} mm\", thickness = \"{} mm\"", 6.0 + 6.0 * x(3))
+        } else {
+            String::new()
+        };
+        let gyration = [length * (0.25 + 0.05 * x(4)), width * (0.25 + 0.05 * x(5))];
+        let gyration = if wide {
+            format!("[\"{} mm\", \"{} mm\"]", gyration[0], gyration[1])
+        } else {
+            format!("\"{} mm\"", gyration[0])
+        };
+        let mut text = format!(
+            "product = {{ name = \"near level\", length = \"{length} mm\"{of_width}, radius_of_gyration = {gyration}, restitution = {}, \
+             contact_time = \"{} ms\", contact_law = \"hysteretic\" }}\ndrop = {{ height = \"1 m\", tilt = [\"0.5 deg\", \"{} deg\"] }}\n",
+            0.2 + 0.6 * x(6),
+            0.3 + x(7),
+            3.0 + 5.0 * x(20)
+        );
+        for k in 0..3 {
+            let mount = if (n + k).is_multiple_of(3) {
+                "mount = \"hard\"\nacceleration_limit = \"1000 gn\"".to_owned()
+            } else {
+                let [hz, damping] = [40.0 + 300.0 * x(8 + k), 0.003 + 0.15 * x(11 + k)];
+                format!("natural_frequency = \"{hz} Hz\"\ndamping_ratio = {damping}\nrattle_space = \"10 mm\"")
+            };
+            let [along, across] = [x(14 + k) - 0.5, x(17 + k) - 0.5].map(|share| 0.9 * share);
+            let at = if wide {
+                format!("[\"{} mm\", \"{} mm\"]", along * length, across * width)
+            } else {
+                format!("\"{} mm\"", along * length)
+            };
+            write!(text, "[[component]]\nname = \"{k}\"\nposition = {at}\n{mount}\n").unwrap();
+        }
+        ProductFile::read(&text, "near-level.toml").unwrap_or_else(|faults| panic!("{faults}\n{text}"))
+    }
+
+    /// Follows drops of a product until it lies: how many parts there are, how many of them are asked for more, as it lands again, than is told,
+    /// and how many for half as much.
+    fn compare(file: &ProductFile, n: u32, drops: u32) -> [usize; 3] {
+        let [mut all, mut more, mut near] = [0; 3];
+        let listed = file.listed();
+        let ranges = ranges_of(file, &listed[0].drop, listed[0].base, &Accuracy::default());
+        let ranges = Ranges { law: ContactLaw::Hysteretic, ..ranges };
+        let tasks: Vec<Task<'_>> =
+            file.components.iter().map(|component| Task { component, limit: Limit::of(component).remove(0) }).collect();
+        let work = Work { watch: &|_, _| true, done: AtomicUsize::new(0), all: 1 };
+        let known = LaterLandings::default();
+        for k in 1..=drops {
+            let place = ranges.spread_out(k);
+            let drop = ranges.single(&place);
+            let [early, over] = [Until::Lands, Until::Over].map(|until| follow(&drop, ranges.model, 0.02, until));
+            let (Ok(early), Ok(over)) = (early, over) else { continue };
+            if !early.is_early() {
+                continue;
+            }
+            let landings = ranges.later_landings(&known, &tasks, early.energy_m2_s2(), &work).unwrap();
+            for (task, landing) in tasks.iter().zip(landings) {
+                let at_m = task.component.places_m()[0];
+                let place = Coordinates { at_m, ..place };
+                let part = Ranges::part(task, &place).unwrap();
+                let felt = |followed| PlaceHistory::new(followed, task.place(at_m)).unwrap();
+                let asked =
+                    |followed| felt(followed).answer_or_nothing(&task.limit, part.as_ref()).unwrap().utilization();
+                let [first, whole] = [&early, &over].map(asked);
+                let told = first.max(landing + felt(&early).rings(&task.limit, part.as_ref()));
+                all += 1;
+                near += usize::from(whole > 0.5 * told && whole > first);
+                more += usize::from(whole > told);
+                let name = &task.component.name;
+                assert!(whole <= (1.0 + COVERAGE_WHERE_ROUGH) * told, "{n}, {k}, {name}: {whole} of {told}");
             }
         }
+        [all, more, near]
+    }
+
+    /// Adds up what products tell.
+    fn sum(of: impl Iterator<Item = [usize; 3]>) -> [usize; 3] {
+        of.fold([0; 3], |all, one| [0, 1, 2].map(|k| all[k] + one[k]))
+    }
+
+    /// Of 4320 of 60 such products it was 12 that are asked for more, by 10 % at most and once by 42 %, of a demand of 2 % of the limit.
+    #[test]
+    fn boxes_land_again_as_hard_as_the_worst_of_any() {
+        let [all, more, near] = sum((0..8).map(|n| compare(&product(n), n, 16)));
+        assert!(100 * more <= all && near >= 10, "{more} of {all} ask for more, {near} for half as much as is told");
+    }
+
+    /// The same of bars and of plates near level: of 9600 of 200 products it was none.
+    #[test]
+    fn bars_and_plates_land_again_as_hard_as_the_worst_of_any() {
+        let [all, more, near] = sum((0..16).map(|n| compare(&near_level(n), n, 16)));
         assert!(100 * more <= all && near >= 10, "{more} of {all} ask for more, {near} for half as much as is told");
     }
 }

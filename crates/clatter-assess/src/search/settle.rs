@@ -3,7 +3,7 @@
 use super::budgets::{NARROWED, TRIES};
 use super::ranges::{Coordinates, RESTITUTION, Ranges};
 use super::{Candidate, Task, Worst};
-use crate::engine::{Answer, of_followed};
+use crate::engine::{Answer, PlaceHistory};
 use crate::model::follow;
 use clatter_flight::Until;
 use clatter_product::Error;
@@ -81,7 +81,10 @@ impl Ranges<'_> {
         let followed = follow(&self.single(&found.place), self.model, self.tolerance, Until::Over)?;
         let at = |at_m: [f64; 2]| {
             let there = Candidate { place: Coordinates { at_m, ..found.place }, ..*found };
-            let answer = of_followed(&followed, &there.part_there(task.component), &task.limit)?;
+            let part = there.part_there(task.component);
+            // What may come later is told by the worst landings.
+            let felt = PlaceHistory::new(&followed, part.place)?.leaving_later();
+            let answer = felt.answer_or_nothing(&task.limit, part.suspension.as_ref())?;
             Ok::<_, Error>(Candidate { answer, ..there })
         };
         let mut worst = at(found.place.at_m)?;

@@ -127,8 +127,9 @@ fn drop(worst: &WorstCase) -> String {
         let peak = peak.as_str();
         let (off, speed, e) = (three(worst.tilt_deg()), three(worst.drop.speed_m_s), three(worst.drop.restitution));
         return format!(
-            "That drop lands on the {landing}, {off}° off, at {speed} m/s{}, with e = {e}{frequency}; {peak}.",
+            "That drop lands on the {landing}, {off}° off, at {speed} m/s{}, with e = {e}{frequency}; {peak}.{}",
             optional(worst),
+            in_the_lab(worst, &landing.in_a_sentence()),
         );
     } else if let Some(direction) = worst.direction_deg() {
         format!("on {}, rising to {}°,", plate::lowest(direction), three(direction))
@@ -142,6 +143,17 @@ fn drop(worst: &WorstCase) -> String {
     let optional = optional(worst);
     let which = worst.landing.and_then(DropName::number).map_or(String::new(), |n| format!(", drop {n} of the file,"));
     format!("That drop{which} lands {lands} at {speed} m/s{tilted}{optional}, with e = {e}{frequency}; {peak}.")
+}
+
+/// Describes the drop of a box to be made in a laboratory, from rest.
+fn in_the_lab(worst: &WorstCase, lands: &str) -> String {
+    let drop = &worst.drop;
+    if drop.gravity_m_s2 == 0.0 {
+        return String::new();
+    }
+    let height_m = 0.5 * drop.speed_m_s * drop.speed_m_s / drop.gravity_m_s2;
+    let off = if drop.tilt_rad > 0.0 { format!(", turned by {}°", three(worst.tilt_deg())) } else { String::new() };
+    format!(" In the lab: drop it from {} m {lands}{off}.", three(height_m))
 }
 
 /// Describes the inputs that a file may leave out, where they count, and the friction of a box.

@@ -24,7 +24,7 @@ pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
         "The ground",
         [
             "The ground",
-            "It is hard, level and without friction, and the same for all corners: nothing holds a corner or lets it slide. Soft ground lengthens the pulses and lowers e.",
+            "It is hard, level and the same for all corners. The plate is followed without friction; the box beside it is followed with a coefficient of 0.6 as well, and the notes tell by how much it differs. Soft ground lengthens the pulses and lowers e.",
         ],
     ),
     (
