@@ -218,8 +218,8 @@ fn largest_of(pushed: &Pushed<'_>) -> Shock {
             break;
         }
         let shock = history.shock(&samples, reach);
-        let is_first = || shock.change == largest.change && shock.span_s[0] < largest.span_s[0];
-        if shock.change > largest.change || is_first() {
+        let first = || largest.span_s[0].total_cmp(&shock.span_s[0]);
+        if shock.change.total_cmp(&largest.change).then_with(first).is_gt() {
             largest = shock;
         }
     }

@@ -34,12 +34,15 @@ pub(super) fn is_known_enough(file: &ProductFile, found: &ComponentAssessment, m
 /// The same share but for roundings.
 const ALIKE: f64 = 1.0 + 1e-12;
 
+/// Values of levers as they are written.
+type Written = Vec<(Lever, [u64; 2])>;
+
 /// What is known of a part that is changed.
 pub(super) struct Breakers {
     /// Drops that broke it, those that did so last at the end.
     drops: Vec<Breaker>,
     /// Values that were searched, as they are written, and what the part is with them.
-    searched: Vec<(Vec<(Lever, [u64; 2])>, Option<Box<ComponentAssessment>>)>,
+    searched: Vec<(Written, Option<Box<ComponentAssessment>>)>,
     /// Of each limit the least allowed value that may be enough, whatever else is changed with it.
     least: Vec<(LimitKind, f64)>,
 }
@@ -214,7 +217,7 @@ impl Case<'_> {
     }
 
     /// Returns values as they are written.
-    fn written(&self, values: &[(Lever, f64)]) -> Vec<(Lever, [u64; 2])> {
+    fn written(&self, values: &[(Lever, f64)]) -> Written {
         values.iter().map(|&(lever, x)| (lever, self.value(lever, x).map(f64::to_bits))).collect()
     }
 
