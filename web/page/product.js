@@ -206,7 +206,7 @@ function worst(part, limit, { drop, command: line }) {
     {},
     element('b', {}, `${part.name}, ${limit.limit.replaceAll('-', ' ')}`),
     `: ${drop ? drop + when : 'no drop was answered'}.`,
-    limit.undecided ? element('p', {}, `Undecided: ${limit.undecided}.`) : undefined,
+    limit.undecided ? element('p', {}, `Undecided: ${limit.governs ? `by ${limit.governs}, ` : ''}${limit.undecided}.`) : undefined,
     limit.decided_by ? element('p', {}, `Decided by: ${limit.decided_by}`) : undefined,
     ...limit.notes.map((note) => element('p', {}, typeof note === 'string' ? note : JSON.stringify(note))),
     line ? command(line) : undefined,

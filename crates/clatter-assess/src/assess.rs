@@ -274,8 +274,7 @@ fn judge(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst
     }
     // What a stop asks for begins steeply where the part just reaches it: how far it swings is covered, and not what it is asked for alone.
     if task.hits_stops() {
-        let [here, covered] = [1.0, 1.0 + COVERAGE_WHERE_ROUGH].map(|share| ranges.in_swing(task, share * worst.swing));
-        of.most = of.most.max(utilization + covered - here);
+        of.most = of.most.max(ranges.covered_at_stops(task, &asked, worst.swing));
     }
     if worst.later > of.most {
         of.most = worst.later;

@@ -148,7 +148,7 @@ struct History<'a> {
     moved: &'a [Excitation],
     velocity: Vec<Vec<f64>>,
     gravity: f64,
-    /// The least acceleration of a shock: the share of gravity in what moves is below it.
+    /// No less than gravity, whose share is in what moves and not in what is felt: the least acceleration of a shock is two of it.
     weight: f64,
 }
 
@@ -265,7 +265,7 @@ impl<'a> History<'a> {
             };
             moved.sections().map(begin).collect()
         };
-        Self { velocity: moved.iter().map(begins).collect(), felt, moved, gravity, weight: least }
+        Self { velocity: moved.iter().map(begins).collect(), felt, moved, gravity, weight: least.max(gravity) }
     }
     /// Returns the sample of a section at a time in it.
     fn at(&self, section: usize, t: f64) -> Sample {
@@ -296,7 +296,9 @@ impl<'a> History<'a> {
         let beside = |k: usize| {
             let here = &samples[reach.ends[k]];
             let one = |other: &Sample| {
-                (here.felt.abs() + other.felt.abs() + self.weight) * (here.time_s - other.time_s).abs()
+                let pushed = (here.felt.abs() + other.felt.abs() + self.weight) * (here.time_s - other.time_s).abs();
+                let jumps = [here, other].map(|sample| self.felt.section(sample.section).delta_v.abs());
+                pushed + jumps[0] + jumps[1]
             };
             reach.beside[k].into_iter().flatten().map(|k| one(&samples[k])).fold(0.0, f64::max)
         };

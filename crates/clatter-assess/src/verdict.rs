@@ -307,10 +307,11 @@ impl LimitAssessment {
     pub fn why_reliable(&self) -> Option<String> {
         self.reliability.map(|by| format!("{by}, {} products, none exceeded it", by.samples()))
     }
-    /// Returns why the limit is undecided, in a sentence.
+    /// Returns why the limit is undecided, in a sentence, and by which drop where that is not the one with the largest demand.
     #[must_use]
     pub fn why_undecided(&self) -> Option<String> {
-        joined(&self.undecided)
+        let by = self.governs.map_or_else(String::new, |other| format!("by {other}, "));
+        joined(&self.undecided).map(|why| by + &why)
     }
     /// Returns the margin to order limits by: infinite where no drop was answered.
     #[must_use]

@@ -4,8 +4,9 @@ use clatter_flight::Until;
 use clatter_product::{Component, Limit, LimitKind, Stops};
 use rayon::prelude::*;
 
-use super::{Coordinates, Ranges, Task, rough_to_rad_s};
+use super::{Candidate, Coordinates, Ranges, Task, rough_to_rad_s};
 use crate::AtStop;
+use crate::assess::COVERAGE_WHERE_ROUGH;
 use crate::engine::{PlaceHistory, in_swings};
 
 /// Drops all over the ranges in which parts are followed to their stops.
@@ -19,6 +20,21 @@ impl Ranges<'_> {
     pub(crate) fn in_swing(&self, task: &Task<'_>, amplitude: f64) -> f64 {
         let parts = Self::softest_and_stiffest(task, &self.middle(task.component)).unwrap_or_default();
         in_swings(&task.limit, &parts, amplitude)
+    }
+
+    /// Returns the utilization that parts with stops may have of a task where they swing further than in the drop that was found, by what the
+    /// search may miss: in proportion to what stops ask for in such swings; of a part that does not reach them there, all of that.
+    pub(crate) fn covered_at_stops(&self, task: &Task<'_>, asked: &Candidate, swing: f64) -> f64 {
+        let further = 1.0 + COVERAGE_WHERE_ROUGH;
+        let found = || {
+            let part = asked.part?;
+            let followed = self.follow(&asked.place, Until::Lands).ok()?;
+            let felt = PlaceHistory::new(&followed, task.place(asked.place.at_m)).ok()?;
+            let here = felt.amplitude(&part.without_stop());
+            let [here, covered] = [here, further * here].map(|amplitude| in_swings(&task.limit, [&part], amplitude));
+            (here > 0.0 && asked.answer.value > 0.0).then(|| asked.answer.utilization() * covered / here)
+        };
+        found().unwrap_or_else(|| self.in_swing(task, further * swing))
     }
 
     /// Returns how a part reaches a stop so far away, at most in drops that spread evenly over the ranges, and in another one; none where it

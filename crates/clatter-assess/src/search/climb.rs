@@ -198,13 +198,10 @@ impl Ranges<'_> {
             }
             place
         };
-        let smooth = of(&at.place, 0.0)?;
-        let rubbing = |place: &Coordinates| of(place, MOST_FRICTION).unwrap_or(0.0);
-        let beside = |k: u32| {
-            let place = next(k);
-            of(&place, 0.0).unwrap_or(0.0).max(rubbing(&place))
-        };
-        let here = smooth.max(rubbing(&at.place));
+        let both = |place: &Coordinates| [0.0, MOST_FRICTION].map(|friction| of(place, friction));
+        let [smooth, rough] = both(&at.place);
+        let here = smooth?.max(rough?);
+        let beside = |k: u32| both(&next(k)).into_iter().flatten().fold(0.0, f64::max);
         Ok((1..=count).into_par_iter().map(beside).reduce(|| here, f64::max))
     }
 }

@@ -206,8 +206,7 @@ fn worst_drop(
         sentence(out, "  reliable: ", &why)?;
     }
     match (limit.why_undecided(), limit.governs) {
-        (Some(reason), Some(other)) => sentence(out, "  undecided: ", &format!("by {other}, {reason}"))?,
-        (Some(reason), None) => sentence(out, "  undecided: ", &reason)?,
+        (Some(reason), _) => sentence(out, "  undecided: ", &reason)?,
         (None, Some(other)) => sentence(out, &format!("  {}: ", verdict(limit.verdict)), &format!("by {other}"))?,
         (None, None) => {}
     }
