@@ -15,7 +15,8 @@ use crate::{
 };
 use clatter_flight::Drop;
 use clatter_product::{
-    Base, Component, ContactLaw, DropName, DropRanges, Error, Limit, LimitKind, Model, Mount, ProductFile, Source, Unit,
+    Base, Component, ContactLaw, DropName, DropRanges, Error, LEVEL_RAD, Limit, LimitKind, Model, Mount, ProductFile,
+    Source, Unit,
 };
 
 /// The part of a worst case that the search may miss, as a share of it: tests hold single drops of the same ranges to this.
@@ -299,8 +300,10 @@ fn judge(file: &ProductFile, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst
             Err(error) => of.doubts.push(Doubt::Fullest(fullest, error)),
         }
     }
-    if drop.body.is_wide() && drop.is_level && !worst.stopped {
-        let thickness_m = drop.body.thickness().m();
+    // A plate is of small tilt, and a bar at real tilt is followed without friction.
+    let is_steep = drop.tilt_rad > LEVEL_RAD && ranges.model == Model::Compliant && drop.body.feet.is_none();
+    if drop.is_level && (drop.body.is_wide() || is_steep) && !worst.stopped {
+        let thickness_m = drop.body.is_wide().then(|| drop.body.thickness().m());
         match ranges.as_block(task, &asked, &worst.near) {
             Ok(most) => {
                 of.most += (most - utilization).max(0.0);

@@ -189,10 +189,10 @@ pub enum Note {
     AtStop(AtStop),
     /// The demand that real tilt and friction add, by a box with full rotation in drops next to the worst one.
     Tilt {
-        /// The largest demand of the box less that of the plate of small tilt, as a share of the latter; negative where the box has less.
+        /// The largest demand of the box less that of the worst drop, as a share of the latter; negative where the box has less.
         off: f64,
-        /// Its thickness.
-        thickness_m: f64,
+        /// The thickness of a plate; none of a bar.
+        thickness_m: Option<f64>,
     },
     /// The requested model is not the one with the most physics.
     Model {
@@ -248,12 +248,15 @@ impl Display for Note {
                      every input"
                 )
             }
-            Self::Tilt { off, thickness_m } => write!(
-                f,
-                "the plate is of small tilt: a box {} mm thick with full rotation, and friction of 0 and {MOST_FRICTION}, says {:+} % next to this drop",
-                (1e6 * thickness_m).round() / 1e3,
-                percent(*off)
-            ),
+            Self::Tilt { off, thickness_m } => {
+                match thickness_m {
+                    Some(thickness_m) => {
+                        write!(f, "the plate is of small tilt: a box {} mm thick with full rotation", (1e6 * thickness_m).round() / 1e3)?;
+                    }
+                    None => f.write_str("a steep bar has no friction, and its parts move upright: a box in which they tilt with it")?,
+                }
+                write!(f, ", and friction of 0 and {MOST_FRICTION}, says {:+} % next to this drop", percent(*off))
+            }
             Self::Model { asked, fullest, off } => {
                 write!(f, "{} was asked for; {} says {:+} % in this drop", asked.name(), fullest.name(), percent(*off))
             }

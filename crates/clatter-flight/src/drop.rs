@@ -3,7 +3,7 @@
 mod levers;
 mod points;
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
 use clatter::End;
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ use crate::contact::{Contact, ContactLaw};
 use crate::plate::{Plate, PlateScene};
 use crate::profile::Profile;
 use crate::scene::Scene;
-use crate::{Error, OwnContacts};
+use crate::{Error, OwnContact, OwnContacts};
 
 pub use levers::Levers;
 
@@ -87,6 +87,8 @@ pub(crate) enum Engine {
     Solid,
 }
 
+/// Radius of gyration across the square plate that stands for a bar, over the length: it does not turn about its length.
+const ACROSS: f64 = 20.0;
 /// A plate is turned about the axis of its tilt where the rest is below this share of its spin.
 const ALONG_TILT: f64 = 1e-9;
 
@@ -174,6 +176,29 @@ impl Drop {
     pub fn boxed(&self) -> Option<Self> {
         let is_plate = self.engine() == Engine::Level && self.body.feet.is_none();
         is_plate.then(|| Self { is_level: false, body: self.body.with_thickness(self.body.thickness()), ..*self })
+    }
+    /// The same drop of a square plate that stands for a bar: two of its corners land in place of an end, and each of their contacts lasts √2 as
+    /// long as that of an end, so that both together last as long.
+    #[must_use]
+    pub fn widened(&self) -> Self {
+        if self.body.is_wide() {
+            return *self;
+        }
+        let length_m = self.body.length_m();
+        let width = Side { ends_m: [0.5 * length_m; 2], gyration_m: ACROSS * length_m };
+        // The mass of a bar lies along its length alone, and its ends are as far below that as it is half thick.
+        let thickness = self.body.thickness.map_or([0.0; 2], |thickness| thickness.ends_m);
+        let thickness = Side { ends_m: thickness, gyration_m: 0.0 };
+        let [a, b, ..] = self
+            .own_contacts
+            .0
+            .map(|own| OwnContact { contact_time_s: own.contact_time_s.map(|time_s| SQRT_2 * time_s), ..own });
+        Self {
+            body: self.body.with_width(width).with_thickness(thickness),
+            contact_time_s: self.contact_time_s.map(|time_s| SQRT_2 * time_s),
+            own_contacts: OwnContacts([a, b, b, a]),
+            ..*self
+        }
     }
     pub(crate) fn engine(&self) -> Engine {
         match (self.body.is_wide(), self.is_level) {
@@ -443,6 +468,15 @@ impl Drop {
         // One that goes up lands nowhere.
         (moves > 0.0 && landing.block_drop().is_ok()).then_some(landing)
     }
+    /// The energy over the mass that a box had before the landing that threw it into this one, of what its corners give back; infinite of other
+    /// bodies. It counts from where the center of mass lies on the ground.
+    #[must_use]
+    pub fn thrown_by_m2_s2(&self) -> f64 {
+        let ([_, most_e], times_s) = (self.restitutions(), self.contact_times_s());
+        let contact_s = times_s.map_or(0.0, |[shortest, _]| shortest);
+        let block = self.of_box().ok().flatten();
+        block.map_or(f64::INFINITY, |block| block.thrown_by_m2_s2(most_e, contact_s))
+    }
     /// A later landing of a bar or of a plate near level: with this tilt, rising in a direction, its slopes growing in another one, and its
     /// energy over the mass shared between fall and spin. The energy counts from where it lies; none where it does not lift the body so, or
     /// where what is lowest goes up.
@@ -507,7 +541,7 @@ impl Drop {
         let rises = self.gaps_m()[0] / self.body.length_m();
         // Its ends press as the corners of the edge that comes down first.
         let lands = self.own_contacts.mirrored([false, self.signs()[1] < 0.0]);
-        let own_contacts = OwnContacts([lands.0[0], lands.0[1], crate::OwnContact::NONE, crate::OwnContact::NONE]);
+        let own_contacts = OwnContacts([lands.0[0], lands.0[1], OwnContact::NONE, OwnContact::NONE]);
         // That is how much of its spin lies along the length, at any tilt.
         let spin_rad_s = self.spin_rad_s * libm::cos(self.direction_rad).abs();
         let direction_rad = Self::towards(self.first());

@@ -68,7 +68,7 @@ pub use inputs::{
 };
 pub use model::Model;
 pub use product::{
-    DropName, DropRanges, Fall, First, Landing, Listed, MOST_FRICTION, Product, ProductFile, RecordFile,
+    DropName, DropRanges, Fall, First, LEVEL_RAD, Landing, Listed, MOST_FRICTION, Product, ProductFile, RecordFile,
 };
 pub use quantity::{Limit, LimitKind, ResponsePeak, Source, Unit};
 pub use read::{Family, GridAxis, LARGEST_FILE, Plan};

@@ -250,16 +250,16 @@ impl Block {
     }
 }
 
-struct Run<'a, const N: usize> {
+pub(super) struct Run<'a, const N: usize> {
     drop: &'a BlockDrop,
     contacts: &'a [Contact; 8],
     /// Largest restitution of all contacts.
     restitution: f64,
     /// Shortest and longest contact times.
     times_s: [f64; 2],
-    system: System,
-    y: [f64; N],
-    now: f64,
+    pub(super) system: System,
+    pub(super) y: [f64; N],
+    pub(super) now: f64,
     /// Length of the next step.
     stride: f64,
     /// Scales of the numbers of a state.
@@ -274,7 +274,7 @@ struct Run<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Run<'a, N> {
-    fn new(drop: &'a BlockDrop, contacts: &'a [Contact; 8]) -> Self {
+    pub(super) fn new(drop: &'a BlockDrop, contacts: &'a [Contact; 8]) -> Self {
         let block = drop.block;
         let has_dents = contacts[0].law().leaves_a_dent();
         let restitutions =
@@ -323,7 +323,7 @@ impl<'a, const N: usize> Run<'a, N> {
         }
     }
 
-    fn first_touches(&mut self) {
+    pub(super) fn first_touches(&mut self) {
         let near = 1e-12 * self.drop.block.reach();
         for i in 0..8 {
             let (height, velocity) = System::place(&self.y, self.system.corners[i]);
@@ -375,7 +375,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// Returns the reason to stop, if nothing significant can follow.
-    fn ends(&self) -> Option<Stop> {
+    pub(super) fn ends(&self) -> Option<Stop> {
         let (z, v, _, _) = parts(&self.y);
         if self.misfit > ENERGY * self.opened {
             return Some(Stop::EnergyLimit { time_s: self.now });
@@ -406,7 +406,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// Makes one step, to the next event at most, and returns whether the time is over.
-    fn step(&mut self, each: &mut dyn FnMut(&BlockStep<'_>)) -> bool {
+    pub(super) fn step(&mut self, each: &mut dyn FnMut(&BlockStep<'_>)) -> bool {
         let left = self.drop.time_limit - self.now;
         let (_, _, _, spin) = parts(&self.y);
         let turn = 0.25 / dot(spin, spin).sqrt();
@@ -453,7 +453,7 @@ impl<'a, const N: usize> Run<'a, N> {
         if event.is_some() {
             for i in 0..8 {
                 if self.system.has_turned(i, &self.y) {
-                    if self.now >= self.drop.lands_after && self.system.lands(i, &self.y) {
+                    if self.now >= self.drop.lands_after && self.system.lands(i, &self.y) && self.is_light() {
                         return true;
                     }
                     self.stride = self.stride.min(0.01 * self.times_s[0]);
@@ -565,6 +565,12 @@ impl<'a, const N: usize> Run<'a, N> {
             Hold::Slack if depth <= 0.0 => corner.hold = Hold::Up,
             Hold::Up | Hold::Slack => self.touch(i, velocity),
         }
+    }
+
+    /// Returns whether the ground presses no harder than twice the weight: else the motion that is left would go on by what presses, and
+    /// parts would ring by that as it is left out.
+    fn is_light(&self) -> bool {
+        self.system.load(&self.y).up <= 2.0 * self.drop.gravity
     }
 
     fn parts(&mut self, i: usize, hold: Hold) {

@@ -107,3 +107,22 @@ fn no_corner_of_a_spinning_box_is_faster_than_reckoned_with() {
     let fastest = fastest(&Run::new(&drop, &contacts));
     assert!(fastest > 2.0 && drop.fastest() >= fastest && drop.fastest() < 1.5 * fastest, "{fastest}");
 }
+
+/// A box is left where it lands again, and not as a corner touches while others press.
+#[test]
+fn a_box_is_left_with_no_more_than_its_weight_on_the_ground() {
+    let contacts = [Contact::new(ContactLaw::Hysteretic, 0.1, 1.3e-3).unwrap(); 8];
+    let mut left = 0;
+    for n in 0_u32..40 {
+        let [tilt, direction] = [0.002 + 0.001 * f64::from(n), 0.61 * f64::from(n)];
+        let drop = BlockDrop::tilted(block([0.25, 0.22, 0.02]), tilt, direction % std::f64::consts::TAU, 3.0, GRAVITY)
+            .unwrap();
+        let mut pressed = 0.0;
+        let flight = drop.until_it_lands_after_s(1.5e-3).own_contacts(&contacts, |step| {
+            pressed = step.force_per_mass_m_s2(1.0).iter().sum();
+        });
+        left += u32::from(matches!(flight.unwrap().stop, Stop::TimeLimit { .. }));
+        assert!(pressed <= 2.0 * GRAVITY * (1.0 + 1e-9), "{n}: {pressed} m/s²");
+    }
+    assert!(left > 20, "{left} of 40 land again");
+}
