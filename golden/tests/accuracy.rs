@@ -64,6 +64,12 @@ fn the_tosses() {
     golden("accuracy-tosses", &clatter_studies::cube::numbers().expect("the numbers of the section"));
 }
 
+/// Checks every number of the section on friction, as it is printed.
+#[test]
+fn the_friction() {
+    golden("accuracy-friction", &clatter_studies::friction::numbers().expect("the numbers of the section"));
+}
+
 #[test]
 fn the_page() {
     let openings = [
@@ -76,6 +82,9 @@ fn the_page() {
         "Table 11 ",
         "Fig. 2 ",
         "The next touch.",
+        "Below 10°",
+        "Table 17 ",
+        "Fig. 5 ",
     ];
     if let Some(text) = page(clatter_studies::Report::Accuracy, &openings) {
         golden("accuracy-page", &text);

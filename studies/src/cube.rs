@@ -28,7 +28,7 @@ const TOSSES: &str = include_str!("../data/cube.csv");
 const SQUARES: &str = include_str!("../data/square.csv");
 
 /// Returns the quantile of values, interpolated linearly between neighbors.
-fn quantile(values: impl IntoIterator<Item = f64>, share: f64) -> f64 {
+pub(crate) fn quantile(values: impl IntoIterator<Item = f64>, share: f64) -> f64 {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
     #[expect(

@@ -4,6 +4,7 @@
 
 mod bar;
 mod cube;
+mod friction;
 mod orders;
 mod peers;
 mod plane;
@@ -12,6 +13,7 @@ pub mod rules;
 
 pub use bar::scheme;
 pub use cube::{OverTime, tosses};
+pub(crate) use friction::friction;
 pub use orders::{Panel as OrderPanel, orders};
 pub use peers::{Dot, Tool, tools};
 pub use plane::{Impacts, Zones, impacts, zones};

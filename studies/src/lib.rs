@@ -8,7 +8,8 @@
 //!   of all results;
 //! - [`bars`], [`trade_files`], [`peers`]: the cost of accuracy, for our models and for other tools;
 //! - [`cube`]: measured tosses of a cube and of a square compared with the box and with other tools, and the effect of
-//!   friction.
+//!   friction;
+//! - [`friction`]: what friction of the ground changes of a box, by tilt, thickness and coefficient.
 //!
 //! [`figures`] draws the results; [`write()`] makes the printed reports of the command `clatter report`.
 
@@ -24,6 +25,7 @@ mod files;
 #[cfg(test)]
 #[path = "../../crates/clatter-report/src/frame.rs"]
 mod frame;
+pub mod friction;
 mod orders;
 pub mod paper;
 mod peers;
@@ -118,20 +120,22 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
                 ("trade.typ", include_str!("../../reports/trade.typ")),
                 ("peers.typ", include_str!("../../reports/peers.typ")),
                 ("cube.typ", include_str!("../../reports/cube.typ")),
+                ("friction.typ", include_str!("../../reports/friction.typ")),
             ];
             write_pages("accuracy.pdf", source, &accuracy_files, &inputs, dir, progress)
         }
     }
 }
 
-/// Returns errors, the trade between them and time, the results of other tools for the same scenes, and measured
-/// tosses.
+/// Returns errors, the trade between them and time, the results of other tools for the same scenes, measured tosses, and
+/// what friction does.
 fn accuracy_files() -> Result<Vec<File>, Error> {
     let mut files = accuracy::Data::compute()?.files()?;
     // This comes after the rest: it measures times.
     files.extend(trade_files()?);
     files.extend(peers()?);
     files.extend(cube::files()?);
+    files.extend(friction::files()?);
     Ok(files)
 }
 

@@ -33,7 +33,7 @@ pub fn numbers() -> Result<String, Error> {
     Ok(numbers.map(|(_, text)| text).unwrap_or_default())
 }
 
-/// Tosses, and the models for them: the box, rigid impacts without and with friction, other tools.
+/// Tosses, and the models for them, each with friction and without: the box, rigid impacts, other tools.
 struct Page {
     study: Study,
     models: Vec<Model>,
@@ -42,7 +42,8 @@ struct Page {
 impl Page {
     fn new(text: &str, published: &Cube, peers: bool) -> Result<Self, Error> {
         let study = Study::new(tosses::read(text)?, published);
-        let mut models = vec![study.box_model()?, study.rigid(true)?, study.rigid(false)?];
+        let [smooth, rough] = study.boxes()?;
+        let mut models = vec![rough, smooth, study.rigid(true)?, study.rigid(false)?];
         if peers {
             models.extend(study.peers()?);
         }
@@ -103,18 +104,21 @@ impl Page {
     }
 
     /// Returns the number of tosses whose next corner to come down is the same with friction and without, by rigid
-    /// impacts, and for how many of these, and of the rest, the box has the measured one.
+    /// impacts, and for how many of these, and of the rest, the box has the measured one, with friction and without.
     fn decided(&self) -> Value {
         let next = |touchdowns: &[(usize, f64)]| touchdowns.first().map(|down| down.0);
-        let [own, with, without] = [0, 1, 2].map(|i| &self.models[i].touchdowns);
-        let (mut counts, mut right) = ([0; 2], [0; 2]);
+        let [boxes, rigid] = [0, 2].map(|first| [first, first + 1].map(|i| &self.models[i].touchdowns));
+        let (mut counts, mut right) = ([0; 2], [[0; 2]; 2]);
         for (i, case) in self.study.half(false).into_iter().enumerate() {
             let measured = next(&super::compare::touchdowns(case, &case.measured, &self.study.cube));
-            let other = usize::from(next(&with[i]) != next(&without[i]));
+            let other = usize::from(next(&rigid[0][i]) != next(&rigid[1][i]));
             counts[other] += usize::from(measured.is_some());
-            right[other] += usize::from(measured.is_some() && next(&own[i]) == measured);
+            for (right, own) in right[other].iter_mut().zip(boxes) {
+                *right += usize::from(measured.is_some() && next(&own[i]) == measured);
+            }
         }
-        json!({ "same": counts[0], "same_right": right[0], "other": counts[1], "other_right": right[1] })
+        let of = |other: usize| json!({ "of": counts[other], "with": right[other][0], "without": right[other][1] });
+        json!({ "same": of(0), "other": of(1) })
     }
 
     fn figure(&self) -> Result<String, Error> {
@@ -128,9 +132,8 @@ impl Page {
             });
             pairs.collect()
         };
-        let mujoco = self.models.iter().find(|model| model.friction && model.name.starts_with("MuJoCo"));
-        let with = mujoco.map(velocities).unwrap_or_default();
-        Ok(figure(&models, 1e3 / self.study.cube.rate_hz, [&velocities(&self.models[0]), &with])?)
+        let [with, without] = [0, 1].map(|i| velocities(&self.models[i]));
+        Ok(figure(&models, 1e3 / self.study.cube.rate_hz, [&with, &without])?)
     }
 }
 
@@ -168,5 +171,67 @@ mod tests {
         for name in ["clatter, box", "rigid impacts", "MuJoCo", "Drake"] {
             assert!(files[1].1.contains(name), "{name} is not drawn");
         }
+    }
+
+    /// Returns the text with one space where lines break.
+    fn words(text: &str) -> String {
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn the_docs_tell_what_was_measured() {
+        let all: Value = serde_json::from_str(&numbers().unwrap()).unwrap();
+        let (cube, square) = (&all["cube"], &all["square"]);
+        let [docs, readme] =
+            [include_str!("../../../docs/how-sure-am-i.md"), include_str!("../../../README.md")].map(words);
+        let holds = |text: &str, said: &str| assert!(text.contains(said), "the docs do not say: {said}");
+        let (same, other) = (&cube["decided"]["same"], &cube["decided"]["other"]);
+        holds(
+            &docs,
+            &format!(
+                "next corner is right in {} of {} tosses where friction does not decide, and in {} of {} where it does; without \
+                 friction in {} and {}.",
+                same["with"], same["of"], other["with"], other["of"], same["without"], other["without"]
+            ),
+        );
+        let model = |of: &Value, name: &str, friction: bool| {
+            let models = of["models"].as_array().unwrap().iter();
+            models.clone().find(|row| row["name"] == name && row["friction"] == friction).cloned()
+        };
+        let middle = |cell: &Value| cell.as_str().unwrap().split(' ').next().unwrap().to_owned();
+        for (line, name, friction) in [
+            ("the box with friction", "clatter, box", true),
+            ("the box without", "clatter, box", false),
+            ("rigid impacts with friction", "rigid impacts", true),
+            ("MuJoCo 4.0.0 with friction", "MuJoCo 4.0.0", true),
+            ("Drake 1.51.1 with friction", "Drake 1.51.1", true),
+        ] {
+            let cell = |of| model(of, name, friction).map_or(String::new(), |row| middle(&row["corners_mm"]) + " mm ");
+            holds(&docs, &format!("| {line} | {}| {}|", cell(cube), cell(square)));
+        }
+        let rough = model(square, "clatter, box", true).unwrap();
+        let e =
+            rough["setting"].as_str().unwrap().strip_prefix("e = ").and_then(|words| words.split(',').next()).unwrap();
+        let rises_mm: f64 = rough["rise_bias_mm"].as_str().unwrap().parse().unwrap();
+        let struck = middle(&square["strikes"]["e"]);
+        holds(
+            &docs,
+            &format!("its best e is {e}, where its strikes have {struck}, and it rises {rises_mm:.0} mm too high."),
+        );
+        let [rough, smooth] =
+            [true, false].map(|friction| model(cube, "clatter, box", friction).unwrap()["next"].clone());
+        holds(
+            &readme,
+            &format!(
+                "| next corner of a measured toss | {} of {} right; without friction {} |",
+                rough[0], rough[1], smooth[0]
+            ),
+        );
+        let [low, high] = cube["strikes"]["e"]
+            .as_str()
+            .and_then(|e| e.split(['(', ')']).nth(1)?.split_once('–'))
+            .map(<[_; 2]>::from)
+            .unwrap();
+        holds(&docs, &format!("rebounds with e from {low} to {high}."));
     }
 }

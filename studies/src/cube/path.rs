@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use super::body::{Cube, upward};
 use super::flight::State;
+use super::rigid::Rigid;
 use super::strike::second_flight;
 use super::tosses::Toss;
 use crate::Error;
@@ -12,7 +13,7 @@ use crate::Error;
 /// Samples of a path: 162 ms of the cube from the first one to the last, 96 ms of the square.
 pub(super) const SAMPLES: usize = 25;
 
-/// The part of a pose that gives the heights of corners. Ground without friction depends on nothing else.
+/// The part of a pose that gives the heights of corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pose {
     /// Height of the center over the ground.
@@ -85,16 +86,18 @@ impl Case {
         self.measured.iter().zip(path).map(|(measured, pose)| measured.off_m(pose, cube)).collect()
     }
 
-    /// Returns the path by the box of the product: contacts that take time, no friction.
-    pub(super) fn box_path(&self, e: f64, contact_s: f64, cube: &Cube) -> Result<Vec<Pose>, Error> {
+    /// Returns the path by the box of the product: contacts that take time.
+    pub(super) fn box_path(&self, rigid: Rigid, contact_s: f64, cube: &Cube) -> Result<Vec<Pose>, Error> {
         let block = Block::new([2.0 * cube.half_m; 3], [0.0; 3], [cube.gyration_m; 3])?;
         let [w, i, j, k] = [self.touch.turned.w, self.touch.turned.i, self.touch.turned.j, self.touch.turned.k];
         let spin = self.touch.turned.inverse() * self.touch.spin;
         let end = self.times_s.last().copied().unwrap_or(0.0);
         let drop = BlockDrop::new(block, [w, i, j, k], -self.touch.velocity.z, cube.gravity_m_s2)?
             .with_spin(spin.into())?
+            .with_friction(rigid.friction)?
+            .with_slide([self.touch.velocity.x, self.touch.velocity.y])?
             .with_time_limit_s(end + 1e-3)?;
-        let contact = Contact::new(ContactLaw::Hysteretic, e, contact_s)?;
+        let contact = Contact::new(ContactLaw::Hysteretic, rigid.e, contact_s)?;
         let mut path = Vec::with_capacity(self.times_s.len());
         let flight = drop.contacts(&contact, |step| {
             while let Some(time) = self.times_s.get(path.len())
@@ -116,11 +119,11 @@ impl Case {
 
 #[cfg(test)]
 mod tests {
-    use crate::cube::TOSSES;
-    use crate::cube::body::CUBE;
+    use crate::cube::body::{CUBE, SQUARE};
     use crate::cube::rigid::Rigid;
     use crate::cube::study::Study;
     use crate::cube::tosses::read;
+    use crate::cube::{SQUARES, TOSSES};
 
     /// The two ways share nothing: the box of the product with short contacts, and impacts at points, as long as the
     /// lowest corner rises.
@@ -128,12 +131,12 @@ mod tests {
     fn short_contacts_without_friction_are_rigid_impacts() {
         let study = Study::new(read(TOSSES).unwrap(), &CUBE);
         let lowest = |pose: &super::Pose| pose.heights_m(&study.cube).into_iter().fold(f64::INFINITY, f64::min);
+        let rigid = Rigid { e: 0.3, friction: 0.0 };
         let mut compared = 0;
         for case in &study.cases {
-            let own = case.box_path(0.3, 5e-5, &study.cube).unwrap();
-            let rigid = Rigid { e: 0.3, friction: 0.0 }.path(case, &study.cube);
+            let own = case.box_path(rigid, 5e-5, &study.cube).unwrap();
             let mut last = 0.0;
-            for (a, b) in own.iter().zip(&rigid) {
+            for (a, b) in own.iter().zip(&rigid.path(case, &study.cube)) {
                 if lowest(a) < last {
                     break;
                 }
@@ -144,5 +147,40 @@ mod tests {
             }
         }
         assert!(compared > 300, "{compared} samples");
+    }
+
+    /// By so much the next corner is higher, so that it comes down later.
+    const ALONE_M: f64 = 0.015;
+
+    /// Where the corner slides on all along a press its force has one direction, that of Coulomb's law at a point: in a plane exactly so.
+    #[test]
+    fn short_contacts_that_slide_on_are_rigid_impacts() {
+        let study = Study::new(read(SQUARES).unwrap(), &SQUARE);
+        let mut compared = 0;
+        for friction in [0.05, 0.1, 0.2] {
+            let (rigid, smooth) = (Rigid { e: 0.3, friction }, Rigid { e: 0.3, friction: 0.0 });
+            for case in &study.cases {
+                let arms = study.cube.arms(&case.touch.turned);
+                let arm = arms[study.cube.lowest(&case.touch).0];
+                if arms.iter().any(|other| *other != arm && other.z < arm.z + ALONE_M) {
+                    continue;
+                }
+                let [before, after] =
+                    [case.touch, rigid.strike(&case.touch, arm, &study.cube)].map(|state| state.velocity_at(arm));
+                let [slid, slides_on] = [before, after].map(|velocity| velocity.xy().dot(&before.xy().normalize()));
+                // A slower one sticks at first, as the ground gives along itself too.
+                if slid.min(slides_on) < 1.5 * friction * -before.z {
+                    continue;
+                }
+                let soon = super::Case { times_s: vec![1e-3], ..case.first(1) };
+                let own = soon.box_path(rigid, 1e-6, &study.cube).unwrap();
+                let [with, without] = [rigid, smooth].map(|rigid| rigid.path(&soon, &study.cube));
+                let (off, does) = (own[0].off_m(&with[0], &study.cube), with[0].off_m(&without[0], &study.cube));
+                // The bound is the way of a corner within the contact time, 1e-6 s, over that by friction within 1e-3 s.
+                assert!(off < 0.03 * does, "toss {}: {off:e} of {does:e} by friction of {friction}", case.number);
+                compared += 1;
+            }
+        }
+        assert!(compared > 50, "{compared} touches");
     }
 }

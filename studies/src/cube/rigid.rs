@@ -24,6 +24,12 @@ const STEP_S: f64 = 1e-4;
 const ROUNDS: usize = 4;
 
 impl Rigid {
+    /// Returns the two as they are printed; friction only where there is some.
+    pub(super) fn words(self) -> String {
+        let friction = if self.friction > 0.0 { format!(", μ = {}", self.friction) } else { String::new() };
+        format!("e = {}{friction}", self.e)
+    }
+
     /// Returns the impulse over the mass at a corner that comes down.
     pub(super) fn impulse(self, arm: Vector3<f64>, velocity: Vector3<f64>, gyration_m: f64) -> Vector3<f64> {
         let k = gyration_m.powi(2);

@@ -63,25 +63,28 @@ impl Study {
         best.map(|(setting, _)| setting).ok_or_else(|| Error::Data("no settings".into()))
     }
 
-    /// Returns the model of the box of the product, by restitution and contact time.
-    pub(super) fn box_model(&self) -> Result<Model, Error> {
-        let settings: Vec<_> = RESTITUTIONS.iter().flat_map(|e| self.cube.contacts_s.map(|time| (*e, time))).collect();
-        let path = |case: &Case, (e, contact_s): (f64, f64)| case.box_path(e, contact_s, &self.cube);
-        let best @ (e, time) = self.fitted(&settings, path)?;
-        let setting = format!("e = {e}, contacts of {} ms", 1e3 * time);
-        self.model("clatter, box", false, setting, |case| path(case, best))
+    /// Returns the model of the box of the product, without friction and with it: restitution and contact time, then
+    /// restitution and friction at this time.
+    pub(super) fn boxes(&self) -> Result<[Model; 2], Error> {
+        let path = |case: &Case, (rigid, contact_s): (Rigid, f64)| case.box_path(rigid, contact_s, &self.cube);
+        let times = &self.cube.contacts_s;
+        let settings: Vec<_> =
+            rigids(false).into_iter().flat_map(|rigid| times.iter().map(move |time| (rigid, *time))).collect();
+        let smooth @ (_, contact_s) = self.fitted(&settings, path)?;
+        let settings: Vec<_> = rigids(true).into_iter().map(|rigid| (rigid, contact_s)).collect();
+        let rough = self.fitted(&settings, path)?;
+        let model = |best: (Rigid, f64)| {
+            let setting = format!("{}, contacts of {} ms", best.0.words(), 1e3 * best.1);
+            self.model("clatter, box", best.0.friction > 0.0, setting, |case| path(case, best))
+        };
+        Ok([model(smooth)?, model(rough)?])
     }
 
     /// Returns the model of the rigid cube of this study, with friction or without.
     pub(super) fn rigid(&self, friction: bool) -> Result<Model, Error> {
-        let frictions: &[f64] = if friction { &FRICTIONS } else { &[0.0] };
-        let settings: Vec<_> =
-            RESTITUTIONS.iter().flat_map(|&e| frictions.iter().map(move |&friction| Rigid { e, friction })).collect();
         let path = |case: &Case, rigid: Rigid| Ok(rigid.path(case, &self.cube));
-        let best = self.fitted(&settings, path)?;
-        let friction_words = if friction { format!(", μ = {}", best.friction) } else { String::new() };
-        let setting = format!("e = {}{friction_words}", best.e);
-        self.model("rigid impacts", friction, setting, |case| path(case, best))
+        let best = self.fitted(&rigids(friction), path)?;
+        self.model("rigid impacts", friction, best.words(), |case| path(case, best))
     }
 
     /// Returns MuJoCo and Drake, as `peers/cube.py` last ran them.
@@ -169,8 +172,14 @@ pub(super) const SLIDES_M_S: f64 = 0.2;
 /// Number of samples of a flight that predicts a touch.
 const LEAST: usize = 4;
 /// Settings that the fits try.
-const RESTITUTIONS: [f64; 12] = [0.1, 0.15, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6];
+const RESTITUTIONS: [f64; 13] = [0.1, 0.15, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.7];
 const FRICTIONS: [f64; 7] = [0.05, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2];
+
+/// Returns every restitution, with every friction or with none.
+fn rigids(friction: bool) -> Vec<Rigid> {
+    let frictions: &[f64] = if friction { &FRICTIONS } else { &[0.0] };
+    RESTITUTIONS.iter().flat_map(|&e| frictions.iter().map(move |&friction| Rigid { e, friction })).collect()
+}
 
 /// A model with its settings and its predictions for the other half.
 #[derive(Debug)]
@@ -236,25 +245,26 @@ mod tests {
     /// The tosses begin as the measured ones and go on as boxes of known settings, with the noise of the measured ones.
     #[test]
     fn the_settings_of_known_boxes_are_found_again() {
-        let mut study = Study::new(read(TOSSES).unwrap(), &CUBE);
-        let (e, contact_s) = (0.35, 3e-3);
-        let mut next = numbers(7);
-        let mut noise = |size: f64| size * next();
-        for case in &mut study.cases {
-            case.measured = case.box_path(e, contact_s, &study.cube).unwrap();
-            for pose in &mut case.measured {
-                pose.height_m += noise(5e-5);
-                pose.upward += Vector3::from_fn(|_, _| noise(5e-4));
+        for (which, (friction, words)) in [(0.0, "e = 0.35"), (0.14, "e = 0.35, μ = 0.14")].into_iter().enumerate() {
+            let mut study = Study::new(read(TOSSES).unwrap(), &CUBE);
+            let mut next = numbers(7);
+            let mut noise = |size: f64| size * next();
+            for case in &mut study.cases {
+                case.measured = case.box_path(Rigid { e: 0.35, friction }, 3e-3, &study.cube).unwrap();
+                for pose in &mut case.measured {
+                    pose.height_m += noise(5e-5);
+                    pose.upward += Vector3::from_fn(|_, _| noise(5e-4));
+                }
             }
+            let model = &study.boxes().unwrap()[which];
+            assert_eq!(model.setting, format!("{words}, contacts of 3 ms"));
+            // The bound is the noise itself.
+            assert!(model.errors.corners_m[2] < 1e-4, "{:?}", model.errors.corners_m);
+            // A corner that turns just at the limit may count with this noise and not with that.
+            let [right, of] = model.errors.next;
+            assert!(right + 1 >= of && of > 40, "{right} of {of}");
+            assert!(model.errors.rise_bias_m.abs() < 1e-4, "{}", model.errors.rise_bias_m);
         }
-        let model = study.box_model().unwrap();
-        assert_eq!(model.setting, "e = 0.35, contacts of 3 ms");
-        // The bound is the noise itself.
-        assert!(model.errors.corners_m[2] < 1e-4, "{:?}", model.errors.corners_m);
-        // A corner that turns just at the limit may count with this noise and not with that.
-        let [right, of] = model.errors.next;
-        assert!(right + 1 >= of && of > 40, "{right} of {of}");
-        assert!(model.errors.rise_bias_m.abs() < 1e-4, "{}", model.errors.rise_bias_m);
     }
 
     #[test]

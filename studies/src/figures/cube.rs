@@ -14,12 +14,12 @@ pub struct OverTime<'a> {
     pub corners_mm: Vec<[f64; 3]>,
 }
 
-/// Draws errors over time, and predicted velocities over measured ones, in m/s: by the first model and by one with
-/// friction.
+/// Draws errors over time, and velocities foretold over measured ones, in m/s: by the first model, which has friction,
+/// and by the second, which has none.
 pub fn tosses(
     models: &[OverTime<'_>],
     step_ms: f64,
-    [without, with]: [&[(f64, f64)]; 2],
+    [with, without]: [&[(f64, f64)]; 2],
 ) -> Result<String, FigureError> {
     let mut paper = Paper::new(465.0, 250.0);
     let time = |sample: usize| step_ms * (f64::from(u32::try_from(sample).unwrap_or(u32::MAX)) + 0.5);
@@ -59,7 +59,7 @@ pub fn tosses(
     };
     let chart = axes.on(&mut paper, 24.0);
     chart.curve(&mut paper, [(-0.6, -0.6), (0.6, 0.6)].into_iter(), Ink::line(GRAY, 0.8));
-    for (points, fill) in [(with, RUST), (without, BLUES[4])] {
+    for (points, fill) in [(without, BLUES[2]), (with, BLUES[7])] {
         for (measured, predicted) in points {
             chart.mark(&mut paper, *measured, *predicted, fill);
         }
@@ -70,9 +70,9 @@ pub fn tosses(
     )
 }
 
-/// Returns the line of a model: the first is the box of the product; those with friction are solid.
+/// Returns the line of a model: the first two are the box of the product; those with friction are solid.
 fn ink(model: usize, friction: bool) -> Ink<'static> {
-    let color = [BLUES[7], INK, RUST, GRAY][if model == 0 { 0 } else { 1 + (model - 1) / 2 % 3 }];
-    let width = if model == 0 { 2.2 } else { 1.1 };
-    if friction || model == 0 { Ink::line(color, width) } else { Ink { dash: "3 2", ..Ink::line(color, width) } }
+    let color = [BLUES[7], INK, RUST, GRAY][model / 2 % 4];
+    let width = if model < 2 { 2.2 } else { 1.1 };
+    if friction { Ink::line(color, width) } else { Ink { dash: "3 2", ..Ink::line(color, width) } }
 }
