@@ -1,5 +1,6 @@
 //! Bodies: all mass and every part lies within the faces, in a file and in code.
 
+use clatter_assess::Note;
 use clatter_product::{ContactLaw, DataFault, Error, Law, ProductFile, Side, Spread};
 
 use crate::random::Random;
@@ -245,4 +246,27 @@ fn masses_within_a_body_are_possible() {
         }
     }
     assert!((1..2000).contains(&refused), "{refused} of 3000");
+}
+
+/// A bar is followed without friction: beside one that is tilted by more than 10° a box is followed with friction of 0 and 0.6, and what that
+/// asks for more is among what drops may ask. Beside others there is none.
+#[test]
+fn a_steep_bar_has_a_box_with_friction_beside_it() {
+    let of = |tilts: &str| {
+        let text = BAR.replace("[\"1 deg\", \"5 deg\"]", tilts).replace("extent = \"20 mm\"\n", "");
+        let file = ProductFile::read(&text, "bar.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        let assessment = clatter_assess::assess(&file).expect("an assessment");
+        let limit = assessment.components[0].limits[0].clone();
+        let tilt = |note: &Note| if let Note::Tilt { off, thickness_m: None } = note { Some(*off) } else { None };
+        (limit.notes.iter().find_map(tilt), limit.uncertainty)
+    };
+    assert_eq!(of("[\"1 deg\", \"9.9 deg\"]").0, None);
+    let mut most = 0.0_f64;
+    for tilts in ["[\"12 deg\", \"20 deg\"]", "[\"30 deg\", \"40 deg\"]", "[\"40 deg\", \"60 deg\"]"] {
+        let (off, uncertainty) = of(tilts);
+        let off = off.unwrap_or_else(|| panic!("{tilts}: no box beside it"));
+        assert!(uncertainty >= off.max(0.0), "{tilts}: {off}, {uncertainty}");
+        most = most.max(off.abs());
+    }
+    assert!(most > 0.02, "the box says nowhere anything else: {most}");
 }
