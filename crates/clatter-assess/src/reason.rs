@@ -253,7 +253,7 @@ impl Display for Note {
                     Some(thickness_m) => {
                         write!(f, "the plate is of small tilt: a box {} mm thick with full rotation", (1e6 * thickness_m).round() / 1e3)?;
                     }
-                    None => f.write_str("a steep bar has no friction, and its parts move upright: a box in which they tilt with it")?,
+                    None => f.write_str("a steep bar is followed without friction, and its parts move upright: a box whose parts tilt with it")?,
                 }
                 write!(f, ", and friction of 0 and {MOST_FRICTION}, says {:+} % next to this drop", percent(*off))
             }
