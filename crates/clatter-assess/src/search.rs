@@ -9,7 +9,6 @@
 //! Drops are first followed until the body comes down after its clatter. Where the energy left then may bring a part above the
 //! worst found, they are followed for longer, and so are drops of a sequence that spreads evenly over all ranges.
 
-mod ask;
 mod at_stop;
 mod budgets;
 mod climb;
@@ -27,14 +26,16 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::engine::{Part, PlaceHistory, once};
-use ask::Further;
-use budgets::{CLIMB, CLIMBS, FREQUENCIES, IN_A_TURN, LATER_DECIDES, SAMPLE, SAMPLE_OF_BOX};
-use clatter_flight::{Drop, Place, Until};
+use crate::model::follow;
+use budgets::{
+    CLIMB, CLIMBS, FREQUENCIES, FREQUENCIES_LATE, IN_A_TURN, LATER_DECIDES, NEAR, REBOUNDS, SAMPLE, SAMPLE_OF_BOX,
+};
+use clatter_flight::{Drop, Followed, Place, Until};
 use clatter_product::{Component, Error, Limit, Model, Mount, Source, Stops};
 use climb::starts;
 use edges::Order;
-use found::Candidates;
 pub(crate) use found::{Candidate, Worst};
+use found::{Candidates, Later, OfDrop, image};
 use grid::halton;
 pub(crate) use landings::{Landings, LaterLandings, with_gravity};
 pub(crate) use ranges::{Coordinates, Ranges};
@@ -103,9 +104,8 @@ impl Ranges<'_> {
         most: f64,
         watch: Watch<'_>,
     ) -> Result<Vec<Worst>, Box<Coordinates>> {
-        // A box is followed further than it lands in some drops only: it is slow.
+        // A box is followed to its rest in some drops only: it is slow.
         let of_all = self.base.is_none();
-        let first = if of_all { Further::ToRest } else { Further::No };
         let [steps, turn_steps] = self.steps(all_tasks);
         let mut all = Candidates::none(tasks.len());
         let grid: Vec<(u32, Coordinates)> = (0..).zip(self.grid(steps, turn_steps)).collect();
@@ -117,14 +117,14 @@ impl Ranges<'_> {
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
         // A drop that comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
         // any number of threads.
-        let ask = |all: &mut Candidates, drops: &[(u32, Coordinates)], only: Option<&[bool]>, further: Further| {
+        let ask = |all: &mut Candidates, drops: &[(u32, Coordinates)], only: Option<&[bool]>, to_rest: bool| {
             let mut orders = Vec::with_capacity(drops.len());
             for wave in drops.chunks(WAVE) {
                 let best = all.best();
                 let of_one = |drop: &(u32, Coordinates)| {
                     let early = work.go_on(1).and_then(|()| self.follow(&drop.1, Until::Lands));
                     let order = early.as_ref().ok().map(Order::of);
-                    let asked = early.and_then(|early| self.ask(tasks, drop, &early, best.clone(), only, further));
+                    let asked = early.and_then(|early| self.ask(tasks, drop, &early, best.clone(), only, to_rest));
                     (order, (drop.1, asked))
                 };
                 let (of_wave, asked): (Vec<_>, Vec<_>) = wave.par_iter().map(of_one).unzip();
@@ -134,40 +134,31 @@ impl Ranges<'_> {
             }
             Ok::<_, Box<Coordinates>>(orders)
         };
-        let orders = ask(&mut all, &grid, None, first)?;
-        ask(&mut all, &overlaps, Some(&shocks), first)?;
+        let orders = ask(&mut all, &grid, None, of_all)?;
+        ask(&mut all, &overlaps, Some(&shocks), of_all)?;
         let edged: Vec<bool> = tasks.iter().map(|task| self.has_edges(task)).collect();
         if edged.contains(&true) {
-            ask(&mut all, &self.edges(&grid, &orders, &work), Some(&edged), first)?;
+            ask(&mut all, &self.edges(&grid, &orders, &work), Some(&edged), of_all)?;
         }
         let spread: Vec<(u32, Coordinates)> = (1..).take(sample).map(|k| (k, self.spread_out(k))).collect();
         if self.base.is_some() {
-            ask(&mut all, &spread, None, Further::No)?;
+            ask(&mut all, &spread, None, false)?;
         }
         // The demand of rebounds is sensitive to every input: where later landings may ask for more, drops all over the ranges are
-        // followed for longer as well, a box only where that may decide, and no further than needed.
-        let is_box = self.base.is_some();
-        let (longer, least) = if is_box { (&spread[..spread.len() / 2], LATER_DECIDES) } else { (&spread[..], 0.0) };
-        let mut again = vec![false; tasks.len()];
-        let may_exceed = |all: &Candidates, again: &[bool]| -> Vec<bool> {
-            let later = self.land_once_more(all, landings, (tasks, again), &work);
-            later.into_iter().map(|most| most > least).collect()
-        };
-        let mut only = may_exceed(&all, &again);
-        if is_box && only.contains(&true) {
-            ask(&mut all, longer, Some(&only), Further::Again)?;
-            again.copy_from_slice(&only);
-            only = may_exceed(&all, &again);
-        }
+        // followed for longer as well, a box only where that may decide.
+        let least = if self.base.is_some() { LATER_DECIDES } else { 0.0 };
+        let only: Vec<bool> =
+            self.land_again(&all, landings, tasks, &work).into_iter().map(|most| most > least).collect();
         if only.contains(&true) {
-            ask(&mut all, longer, Some(&only), Further::ToRest)?;
+            let longer = if self.base.is_some() { &spread[..spread.len() / 2] } else { &spread };
+            ask(&mut all, longer, Some(&only), true)?;
             // A product that stands and hardly ever falls over has the largest demand where it does.
             let stands = all.leaning.filter(|(lean, _)| self.faces() == 1 && *lean < 1.0);
             if let Some(fallen) = stands.and_then(|(lean, place)| self.fallen_over(&tasks[0], place, lean, &work)) {
-                ask(&mut all, &[(1, fallen)], Some(&only), Further::ToRest)?;
+                ask(&mut all, &[(1, fallen)], Some(&only), true)?;
             }
         }
-        let later = self.land_once_more(&all, landings, (tasks, &again), &work);
+        let later = self.land_again(&all, landings, tasks, &work);
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
         }
@@ -237,6 +228,123 @@ impl Ranges<'_> {
             (rough > most && rough > best[n] && exact()).then(|| Box::new(highest.place))
         };
         tasks.iter().enumerate().find_map(of_one)
+    }
+
+    /// Returns the demand of drop k, which was followed until it lands, for each task, or for those marked in `only`, where that comes near
+    /// the worst.
+    fn ask(
+        &self,
+        tasks: &[Task<'_>],
+        (k, drop): &(u32, Coordinates),
+        early: &Followed,
+        mut best: Vec<f64>,
+        only: Option<&[bool]>,
+        to_rest: bool,
+    ) -> Result<OfDrop, Error> {
+        let (mut of_drop, is_plate) = (OfDrop::default(), self.product.body.is_wide());
+        let (mut rebounded, mut over) = (None, None);
+        let mut first = 0;
+        for of_one in tasks.chunk_by(|a, b| std::ptr::eq(a.component, b.component)) {
+            let numbers = first..first + of_one.len();
+            first = numbers.end;
+            if only.is_some_and(|only| !only[numbers.clone()].contains(&true)) {
+                continue;
+            }
+            let own: Vec<[f64; 2]> = of_one[0].component.places_m();
+            let ends = of_one[0].component.ends_m().len();
+            let images =
+                self.mirrors().iter().flat_map(|&sides| own.iter().map(move |&at_m| (sides, image(at_m, sides))));
+            // Which limits an end of the part comes near in this drop: those of a rectangle are many.
+            let mut near_at_ends = vec![false; of_one.len()];
+            for (n, (sides, at_m)) in images.enumerate() {
+                if n % own.len() == 0 {
+                    near_at_ends.fill(false);
+                }
+                let is_between = n % own.len() >= ends;
+                let mut felt: Option<PlaceHistory<'_>> = None;
+                for (own_number, (task, number)) in of_one.iter().zip(numbers.clone()).enumerate() {
+                    // Turns are the same everywhere.
+                    let again = n > 0 && task.limit.kind.source() == Source::Turn;
+                    let far_from_worst = is_plate && !near_at_ends[own_number] && !task.hits_stops();
+                    let not_there = is_between && (!task.is_largest_between() || far_from_worst);
+                    if again || not_there || only.is_some_and(|only| !only[number]) {
+                        continue;
+                    }
+                    let felt = match &mut felt {
+                        Some(felt) => felt,
+                        none => {
+                            none.insert(PlaceHistory::rough(early, task.place(at_m), rough_to_rad_s(task.component))?)
+                        }
+                    };
+                    let worst = best[number];
+                    let place = Coordinates { at_m, ..*drop };
+                    // A demand of nothing is an answer as well.
+                    let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
+                    let frequencies = Self::frequencies(task, &early.drop);
+                    let late = frequencies.max(FREQUENCIES_LATE);
+                    let mut asked = self.most(task, &place, felt, *k, frequencies, near)?;
+                    let reached =
+                        |asked: Option<Candidate>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
+                    if task.hits_stops() {
+                        of_drop.swings.push((number, Self::swing(task, &place, felt, *k)?));
+                    }
+                    let parts = Self::softest_and_stiffest(task, &place)?;
+                    let later = felt.later_most(&task.limit, &parts, reached(asked));
+                    // A box is followed to its rest later.
+                    if later > 0.0 && (self.base.is_none() || !to_rest) {
+                        of_drop.energy_m2_s2 = early.energy_m2_s2();
+                        let rings = felt.rings(&task.limit, &parts);
+                        // Strikes without number are none of one landing.
+                        let rings = if early.is_given_up() { later } else { rings };
+                        of_drop.later.push((number, Later { most: later, rings }));
+                    }
+                    if later > 0.0 && to_rest {
+                        let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
+                        of_drop.lean = rebounded.lean();
+                        let longer = felt.longer(rebounded)?;
+                        let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());
+                        asked = self.most(task, &place, &longer, *k, late, above(asked))?.or(asked);
+                        if longer.later_most(&task.limit, &parts, reached(asked)) > 0.0 {
+                            let longest = longer.longer(self.followed(drop, Until::Over, &mut over)?)?;
+                            asked = self.most(task, &place, &longest, *k, late, above(asked))?.or(asked);
+                        }
+                    }
+                    if let Some(mut asked) = asked {
+                        asked.late = asked.answer.time_s > early.drop.clear_s();
+                        best[number] = worst.max(asked.answer.utilization());
+                        near_at_ends[own_number] = true;
+                        of_drop.asked.push((number, asked.mirrored(sides, is_plate)));
+                    }
+                }
+            }
+        }
+        Ok(of_drop)
+    }
+
+    fn follow(&self, place: &Coordinates, until: Until) -> Result<Followed, Error> {
+        let drop = self.single(place);
+        // A plate that loses little goes on and on; what it may do later is bounded by its energy. A box topples late, onto its broad
+        // faces at last, and lies soon after.
+        let until = match until {
+            Until::Rebounded | Until::Over if self.base.is_some() => until,
+            Until::Rebounded if self.product.body.is_wide() => Until::Past(REBOUNDS[0] * drop.bounced_s()),
+            Until::Over if self.product.body.is_wide() => Until::Past(REBOUNDS[1] * drop.bounced_s()),
+            until => until,
+        };
+        follow(&drop, self.model, self.tolerance.max(0.02), until)
+    }
+
+    /// Follows a drop where it was not followed yet.
+    fn followed<'f>(
+        &self,
+        place: &Coordinates,
+        until: Until,
+        once: &'f mut Option<Followed>,
+    ) -> Result<&'f Followed, Error> {
+        match once {
+            Some(followed) => Ok(followed),
+            none => Ok(none.insert(self.follow(place, until)?)),
+        }
     }
 
     /// Returns how many natural frequencies are tried in one drop: some in each turn that the ends of their range differ by.

@@ -16,7 +16,6 @@ mod dormand_prince;
 mod drop;
 mod run;
 pub(crate) mod system;
-mod thrown;
 
 pub use drop::BlockDrop;
 pub use run::{BlockFlight, BlockStep, BlockStrike, LEAST_OF_BLOCKS};

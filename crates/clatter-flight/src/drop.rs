@@ -468,15 +468,6 @@ impl Drop {
         // One that goes up lands nowhere.
         (moves > 0.0 && landing.block_drop().is_ok()).then_some(landing)
     }
-    /// The energy over the mass that a box had before the landing that threw it into this one, of what its corners give back; infinite of other
-    /// bodies. It counts from where the center of mass lies on the ground.
-    #[must_use]
-    pub fn thrown_by_m2_s2(&self) -> f64 {
-        let ([_, most_e], times_s) = (self.restitutions(), self.contact_times_s());
-        let contact_s = times_s.map_or(0.0, |[shortest, _]| shortest);
-        let block = self.of_box().ok().flatten();
-        block.map_or(f64::INFINITY, |block| block.thrown_by_m2_s2(most_e, contact_s))
-    }
     /// A later landing of a bar or of a plate near level: with this tilt, rising in a direction, its slopes growing in another one, and its
     /// energy over the mass shared between fall and spin. The energy counts from where it lies; none where it does not lift the body so, or
     /// where what is lowest goes up.

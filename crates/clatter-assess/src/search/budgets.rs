@@ -71,9 +71,6 @@ pub(super) const SAMPLE_OF_BOX: [usize; 2] = [192, 16];
 
 /// Landings with the energy left, in any posture.
 pub(super) const LANDINGS: u32 = 408;
-/// Energies that are tried of a landing which none with all of it throws up, and how many of them there are to half of it.
-pub(super) const ENERGIES: u32 = 20;
-pub(super) const ENERGIES_IN_HALF: f64 = 4.0;
 /// Range of the tries of a climb from the worst of them.
 pub(super) const LANDING_REACH: f64 = 0.15;
 /// Tries of such a climb.

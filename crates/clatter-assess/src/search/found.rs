@@ -54,8 +54,6 @@ pub(super) struct OfDrop {
     pub(super) asked: Vec<(usize, Candidate)>,
     /// What may come after the body has come down once, on tasks where that is more.
     pub(super) later: Vec<(usize, Later)>,
-    /// What parts still ring with after a box has landed twice, as [`Later::rings`], on tasks where what comes then is more.
-    pub(super) rings_again: Vec<(usize, f64)>,
     /// How far parts with stops would swing without them, as a velocity, for their tasks.
     pub(super) swings: Vec<(usize, f64)>,
     /// The energy over the mass that the body still has as it is left, where it lands again.
@@ -83,8 +81,6 @@ pub(super) struct Candidates {
     pub(super) refused: Option<(usize, Error)>,
     /// What may come after the body has come down once, for each task: the most of any drop.
     pub(super) later: Vec<Later>,
-    /// What parts still ring with after a box has landed twice, for each task: the most of any drop.
-    pub(super) rings_again: Vec<f64>,
     /// How far parts with stops would swing without them, as a velocity, for each task.
     pub(super) swings: Vec<f64>,
     pub(super) drops: usize,
@@ -100,7 +96,6 @@ impl Candidates {
             found: vec![Vec::new(); tasks],
             refused: None,
             later: vec![Later::default(); tasks],
-            rings_again: vec![0.0; tasks],
             swings: vec![0.0; tasks],
             drops: 0,
             energy_m2_s2: 0.0,
@@ -122,8 +117,6 @@ impl Candidates {
                     }
                     self.energy_m2_s2 = self.energy_m2_s2.max(of_drop.energy_m2_s2);
                     of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
-                    let again = of_drop.rings_again.into_iter();
-                    again.for_each(|(task, most)| self.rings_again[task] = most.max(self.rings_again[task]));
                     of_drop.swings.into_iter().for_each(|(task, most)| self.swings[task] = most.max(self.swings[task]));
                     for (task, Later { most, rings }) in of_drop.later {
                         let later = &mut self.later[task];

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicUsize;
 
-use super::budgets::{CLOSER, ENERGIES, ENERGIES_IN_HALF, LANDING_REACH, LANDING_TRIES, LANDINGS};
+use super::budgets::{CLOSER, LANDING_REACH, LANDING_TRIES, LANDINGS};
 use super::found::Candidates;
 use super::grid::halton;
 use super::ranges::{AXES, CONTACT, Coordinates, Ranges};
@@ -109,27 +109,15 @@ const LEVELS: f64 = 24.0;
 /// All of them.
 const MOST_LEVELS: usize = 49;
 
-/// Which landings with an energy count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Thrown {
-    /// All of them.
-    Any,
-    /// Those that a landing with this energy may have thrown up.
-    ByLanding,
-}
-
-/// The worst landings at each energy that was needed.
-type AtLevels = [OnceLock<Result<Vec<f64>, Error>>; MOST_LEVELS];
-
-/// The worst landings of a product by one contact law: of all, and of those that a landing throws up.
+/// The worst landings of a product by one contact law, at each energy that was needed.
 #[derive(Debug)]
 pub(crate) struct LaterLandings {
-    of: [AtLevels; 2],
+    of: [OnceLock<Result<Vec<f64>, Error>>; MOST_LEVELS],
 }
 
 impl Default for LaterLandings {
     fn default() -> Self {
-        Self { of: [(); 2].map(|()| std::array::from_fn(|_| OnceLock::new())) }
+        Self { of: std::array::from_fn(|_| OnceLock::new()) }
     }
 }
 
@@ -162,7 +150,7 @@ impl Landings {
         let of = |component| Limit::of(component).into_iter().map(move |limit| Task { component, limit });
         let tasks: Vec<Task<'_>> = self.file.components.iter().flat_map(of).collect();
         let work = Work { watch: &|_, _| true, done: AtomicUsize::new(0), all: 1 };
-        let mut all = ranges.later_landings(&self.known[number], &tasks, energy_m2_s2, Thrown::Any, &work)?.into_iter();
+        let mut all = ranges.later_landings(&self.known[number], &tasks, energy_m2_s2, &work)?.into_iter();
         Ok(self.file.components.iter().map(|component| all.by_ref().take(of(component).count()).collect()).collect())
     }
 }
@@ -202,24 +190,13 @@ impl Ranges<'_> {
     }
 
     /// Returns the largest utilization of each task in any landing with this energy over the mass. One after the other, as others wait for it.
-    fn worst_landings(
-        &self,
-        tasks: &[Task<'_>],
-        most_m2_s2: f64,
-        thrown: Thrown,
-        work: &Work<'_>,
-    ) -> Result<Vec<f64>, Error> {
-        // A landing that none with this energy throws up may have less of it.
-        let lands = |k: u32, landing: &Landing| {
-            let thrown_up = |drop: &Drop| thrown == Thrown::Any || drop.thrown_by_m2_s2() <= most_m2_s2;
-            let energies = (0..ENERGIES).map(|n| most_m2_s2 * libm::exp2(-f64::from(n) / ENERGIES_IN_HALF));
-            let drops = energies.map(|energy| (energy, self.lands_again(k, landing, energy)));
-            drops.map_while(|(energy, drop)| Some((energy, drop?))).find(|(_, drop)| thrown_up(drop))
-        };
+    fn worst_landings(&self, tasks: &[Task<'_>], energy_m2_s2: f64, work: &Work<'_>) -> Result<Vec<f64>, Error> {
         // Where one of them is not answered, the worst of all is not known.
         let follow = |k: u32, landing: &Landing| {
-            let Some((energy_m2_s2, drop)) = lands(k, landing) else { return Ok(None) };
-            let until = if drop.is_solid() { Until::LandsAfter(lands_s(&drop, energy_m2_s2)) } else { Until::Lands };
+            let Some(drop) = self.lands_again(k, landing, energy_m2_s2) else { return Ok(None) };
+            let contact_s = drop.contact_times_s().map_or(0.0, |[_, longest]| longest);
+            let lands_s = 2.0 * (drop.gap_m() / (2.0 * energy_m2_s2).sqrt() + contact_s);
+            let until = if drop.is_solid() { Until::LandsAfter(lands_s) } else { Until::Lands };
             let followed = follow(&drop, self.model, self.tolerance.max(0.02), until)?;
             if followed.is_given_up() { Err(Error::Unfinished) } else { Ok(Some(followed)) }
         };
@@ -256,31 +233,28 @@ impl Ranges<'_> {
         known: &LaterLandings,
         tasks: &[Task<'_>],
         energy_m2_s2: f64,
-        thrown: Thrown,
         work: &Work<'_>,
     ) -> Result<Vec<f64>, Error> {
         let level = libm::log2(energy_m2_s2).ceil().clamp(-LEVELS, LEVELS);
         let whole = libm::exp2(level);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let of = known.of[thrown as usize][(level + LEVELS) as usize]
-            .get_or_init(|| self.worst_landings(tasks, whole, thrown, work));
+        let of = known.of[(level + LEVELS) as usize].get_or_init(|| self.worst_landings(tasks, whole, work));
         match of {
             // Speeds, and so what they do, grow as the root of the energy, and a little faster, as some of it lifts the body.
             Ok(worst) => Ok(worst.iter().map(|worst| worst * (energy_m2_s2 / whole).sqrt()).collect()),
             Err(Error::Stopped) => Err(Error::Stopped),
             // What sinks in too deep with so much energy may not with this.
-            Err(_) => self.worst_landings(tasks, energy_m2_s2, thrown, work),
+            Err(_) => self.worst_landings(tasks, energy_m2_s2, work),
         }
     }
 
     /// Returns the utilization of each task that later landings may ask for: what its parts still ring with and the worst landing with the
     /// energy that is left, and no more than all of that energy at once does; 0 where that is no more than the worst that was found.
-    fn land_again(
+    pub(super) fn land_again(
         &self,
         all: &Candidates,
         landings: &LaterLandings,
         tasks: &[Task<'_>],
-        thrown: Thrown,
         work: &Work<'_>,
     ) -> Vec<f64> {
         let best = all.best();
@@ -291,35 +265,16 @@ impl Ranges<'_> {
         if on_feet || by_energy.iter().all(|most| *most == 0.0) || all.energy_m2_s2 == f64::INFINITY {
             return by_energy;
         }
-        let searched = match self.later_landings(landings, tasks, all.energy_m2_s2, thrown, work) {
+        let searched = match self.later_landings(landings, tasks, all.energy_m2_s2, work) {
             Ok(searched) => searched,
             Err(Error::Stopped) => return vec![f64::INFINITY; tasks.len()],
             Err(_) => return by_energy,
         };
         let of_one = |(n, most): (usize, f64)| {
-            let rings = if thrown == Thrown::Any { all.later[n].rings } else { all.rings_again[n] };
-            let sum = self.in_swing(&tasks[n], rings + searched[n]);
+            let sum = self.in_swing(&tasks[n], all.later[n].rings + searched[n]);
             above(n, most.min((1.0 + COVERAGE_WHERE_ROUGH) * sum))
         };
         by_energy.into_iter().enumerate().map(of_one).collect()
-    }
-
-    /// Returns the same of boxes of which drops all over the ranges were followed until they had landed twice for the tasks in `again`: what
-    /// comes then was thrown up by a landing with the energy left.
-    pub(super) fn land_once_more(
-        &self,
-        all: &Candidates,
-        landings: &LaterLandings,
-        (tasks, again): (&[Task<'_>], &[bool]),
-        work: &Work<'_>,
-    ) -> Vec<f64> {
-        let later = self.land_again(all, landings, tasks, Thrown::Any, work);
-        if !again.contains(&true) {
-            return later;
-        }
-        let thrown = self.land_again(all, landings, tasks, Thrown::ByLanding, work);
-        let of_both = later.into_iter().zip(thrown).zip(again);
-        of_both.map(|((any, thrown), again)| if *again { any.min(thrown) } else { any }).collect()
     }
 
     /// Returns the utilization of a task in a landing, wherever its part may be; of a part with stops the amplitude of its swing.
@@ -338,12 +293,6 @@ impl Ranges<'_> {
         }
         Ok(most)
     }
-}
-
-/// Returns how long the corners of a box take to come down with an energy over the mass, about.
-pub(super) fn lands_s(drop: &Drop, energy_m2_s2: f64) -> f64 {
-    let contact_s = drop.contact_times_s().map_or(0.0, |[_, longest]| longest);
-    2.0 * (drop.gap_m() / (2.0 * energy_m2_s2).sqrt() + contact_s)
 }
 
 /// Postures off a face lie within this angle of it: an eighth of a turn.
@@ -442,8 +391,8 @@ mod tests {
     }
 
     /// Follows drops of a product until it lies: how many parts there are, how many of them are asked for more, as it lands again, than is told,
-    /// and how many for half as much. Of landings that others have thrown up after its second one.
-    fn compare(file: &ProductFile, n: u32, drops: u32, thrown: Thrown) -> [usize; 3] {
+    /// and how many for half as much.
+    fn compare(file: &ProductFile, n: u32, drops: u32) -> [usize; 3] {
         let [mut all, mut more, mut near] = [0; 3];
         let listed = file.listed();
         let ranges = ranges_of(file, &listed[0].drop, listed[0].base, &Accuracy::default());
@@ -460,10 +409,7 @@ mod tests {
             if !early.is_early() {
                 continue;
             }
-            let energy_m2_s2 = early.energy_m2_s2();
-            let landings = ranges.later_landings(&known, &tasks, energy_m2_s2, thrown, &work).unwrap();
-            let twice = Until::LandsAfter(early.stop().time_s() + lands_s(&drop, energy_m2_s2));
-            let early = if thrown == Thrown::Any { early } else { follow(&drop, ranges.model, 0.02, twice).unwrap() };
+            let landings = ranges.later_landings(&known, &tasks, early.energy_m2_s2(), &work).unwrap();
             for (task, landing) in tasks.iter().zip(landings) {
                 let at_m = task.component.places_m()[0];
                 let place = Coordinates { at_m, ..place };
@@ -477,8 +423,7 @@ mod tests {
                 near += usize::from(whole > 0.5 * told && whole > first);
                 more += usize::from(whole > told);
                 let name = &task.component.name;
-                let most = if thrown == Thrown::Any { 1.0 + COVERAGE_WHERE_ROUGH } else { 1.3 };
-                assert!(whole <= most * told, "{n}, {k}, {name}: {whole} of {told}");
+                assert!(whole <= (1.0 + COVERAGE_WHERE_ROUGH) * told, "{n}, {k}, {name}: {whole} of {told}");
             }
         }
         [all, more, near]
@@ -492,22 +437,14 @@ mod tests {
     /// Of 4320 of 60 such products it was 12 that are asked for more, by 10 % at most and once by 42 %, of a demand of 2 % of the limit.
     #[test]
     fn boxes_land_again_as_hard_as_the_worst_of_any() {
-        let [all, more, near] = sum((0..8).map(|n| compare(&product(n), n, 16, Thrown::Any)));
-        assert!(100 * more <= all && near >= 10, "{more} of {all} ask for more, {near} for half as much as is told");
-    }
-
-    /// After their second landing boxes land as hard as the worst of those that a landing throws up: of 4320 of 60 such products it was 4 that
-    /// are asked for more, by 1, 14, 19 and 27 %.
-    #[test]
-    fn boxes_that_have_landed_twice_land_as_hard_as_the_worst_that_is_thrown_up() {
-        let [all, more, near] = sum((0..8).map(|n| compare(&product(n), n, 24, Thrown::ByLanding)));
+        let [all, more, near] = sum((0..8).map(|n| compare(&product(n), n, 16)));
         assert!(100 * more <= all && near >= 10, "{more} of {all} ask for more, {near} for half as much as is told");
     }
 
     /// The same of bars and of plates near level: of 9600 of 200 products it was none.
     #[test]
     fn bars_and_plates_land_again_as_hard_as_the_worst_of_any() {
-        let [all, more, near] = sum((0..16).map(|n| compare(&near_level(n), n, 16, Thrown::Any)));
+        let [all, more, near] = sum((0..16).map(|n| compare(&near_level(n), n, 16)));
         assert!(100 * more <= all && near >= 10, "{more} of {all} ask for more, {near} for half as much as is told");
     }
 }

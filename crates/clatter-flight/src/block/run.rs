@@ -250,16 +250,16 @@ impl Block {
     }
 }
 
-pub(super) struct Run<'a, const N: usize> {
+struct Run<'a, const N: usize> {
     drop: &'a BlockDrop,
     contacts: &'a [Contact; 8],
     /// Largest restitution of all contacts.
     restitution: f64,
     /// Shortest and longest contact times.
     times_s: [f64; 2],
-    pub(super) system: System,
-    pub(super) y: [f64; N],
-    pub(super) now: f64,
+    system: System,
+    y: [f64; N],
+    now: f64,
     /// Length of the next step.
     stride: f64,
     /// Scales of the numbers of a state.
@@ -274,7 +274,7 @@ pub(super) struct Run<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Run<'a, N> {
-    pub(super) fn new(drop: &'a BlockDrop, contacts: &'a [Contact; 8]) -> Self {
+    fn new(drop: &'a BlockDrop, contacts: &'a [Contact; 8]) -> Self {
         let block = drop.block;
         let has_dents = contacts[0].law().leaves_a_dent();
         let restitutions =
@@ -323,7 +323,7 @@ impl<'a, const N: usize> Run<'a, N> {
         }
     }
 
-    pub(super) fn first_touches(&mut self) {
+    fn first_touches(&mut self) {
         let near = 1e-12 * self.drop.block.reach();
         for i in 0..8 {
             let (height, velocity) = System::place(&self.y, self.system.corners[i]);
@@ -375,7 +375,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// Returns the reason to stop, if nothing significant can follow.
-    pub(super) fn ends(&self) -> Option<Stop> {
+    fn ends(&self) -> Option<Stop> {
         let (z, v, _, _) = parts(&self.y);
         if self.misfit > ENERGY * self.opened {
             return Some(Stop::EnergyLimit { time_s: self.now });
@@ -406,7 +406,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// Makes one step, to the next event at most, and returns whether the time is over.
-    pub(super) fn step(&mut self, each: &mut dyn FnMut(&BlockStep<'_>)) -> bool {
+    fn step(&mut self, each: &mut dyn FnMut(&BlockStep<'_>)) -> bool {
         let left = self.drop.time_limit - self.now;
         let (_, _, _, spin) = parts(&self.y);
         let turn = 0.25 / dot(spin, spin).sqrt();
