@@ -3,7 +3,7 @@
 mod levers;
 mod points;
 
-use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use clatter::End;
 use serde::{Deserialize, Serialize};
@@ -177,10 +177,8 @@ impl Drop {
         let is_plate = self.engine() == Engine::Level && self.body.feet.is_none();
         is_plate.then(|| Self { is_level: false, body: self.body.with_thickness(self.body.thickness()), ..*self })
     }
-    /// The same drop of a square plate that stands for a bar: two of its corners land in place of an end, and each of their contacts lasts √2 as
-    /// long as that of an end, so that both together last as long.
-    #[must_use]
-    pub fn widened(&self) -> Self {
+    /// The same drop of a square plate that stands for a bar, two of whose corners land in place of an end.
+    pub(crate) fn widened(&self) -> Self {
         if self.body.is_wide() {
             return *self;
         }
@@ -189,16 +187,9 @@ impl Drop {
         // The mass of a bar lies along its length alone, and its ends are as far below that as it is half thick.
         let thickness = self.body.thickness.map_or([0.0; 2], |thickness| thickness.ends_m);
         let thickness = Side { ends_m: thickness, gyration_m: 0.0 };
-        let [a, b, ..] = self
-            .own_contacts
-            .0
-            .map(|own| OwnContact { contact_time_s: own.contact_time_s.map(|time_s| SQRT_2 * time_s), ..own });
-        Self {
-            body: self.body.with_width(width).with_thickness(thickness),
-            contact_time_s: self.contact_time_s.map(|time_s| SQRT_2 * time_s),
-            own_contacts: OwnContacts([a, b, b, a]),
-            ..*self
-        }
+        let [a, b, ..] = self.own_contacts.0;
+        let body = self.body.with_width(width).with_thickness(thickness);
+        Self { body, own_contacts: OwnContacts([a, b, b, a]), ..*self }
     }
     pub(crate) fn engine(&self) -> Engine {
         match (self.body.is_wide(), self.is_level) {

@@ -178,15 +178,17 @@ impl Followed {
     }
 
     /// Follows a drop of a plate as one of the box that it is at real tilt, until a time. The corners of its bottom alone land, however far
-    /// they sink in.
+    /// they sink in. For a bar stands a square box that does not turn about its length, two of whose corners share the contact of an end.
     ///
     /// # Errors
-    /// [`Error::ContactTime`] and [`Error::NoBox`], and others for a box that is not followed so.
+    /// [`Error::ContactTime`], and others for a box that is not followed so.
     pub fn as_block(drop: &Drop, until_s: f64) -> Result<Self, Error> {
-        let block = drop.block_drop()?.with_time_limit_s(until_s)?;
-        let motion = BlockMotion::new(&block, &drop.contacts_of_block()?)?;
+        let (wide, is_bar) = (drop.widened(), !drop.body.is_wide());
+        let block = wide.block_drop()?.with_time_limit_s(until_s)?;
+        let contacts = wide.contacts_of_block()?.map(|contact| if is_bar { contact.half() } else { contact });
+        let motion = BlockMotion::new(&block, &contacts)?;
         let largest_m_s = motion.flight.largest_m_s();
-        Ok(Self { drop: *drop, motion: Course::Solid(motion), precision: 0.0, is_early: false, largest_m_s })
+        Ok(Self { drop: wide, motion: Course::Solid(motion), precision: 0.0, is_early: false, largest_m_s })
     }
 
     /// Refuses corners of a plate that sink in deeper than it is known to be thick: those of its top, which are not followed, would touch as

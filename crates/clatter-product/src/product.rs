@@ -10,7 +10,7 @@ use crate::{Attitude, Base, Component, Error, INPUTS, Law, Reliability, Row, Spr
 
 /// The least side along a broad face over the thickness of a thin product: a phone has 77 mm over 9 mm.
 const THIN: f64 = 8.0;
-/// Tilt to which it is level.
+/// The largest tilt at which a thin body counts as level: friction hardly changes what parts along its thickness get.
 pub const LEVEL_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// The largest friction of products on floors that is taken where the file gives none; rubber may have more.
 pub const MOST_FRICTION: f64 = 0.6;

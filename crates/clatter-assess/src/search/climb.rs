@@ -182,7 +182,7 @@ impl Ranges<'_> {
 
     fn as_block_next_to(&self, task: &Task<'_>, at: &Candidate, count: u32) -> Result<f64, Error> {
         let of = |place: &Coordinates, friction: f64| -> Result<f64, Error> {
-            let drop = Drop { friction, ..self.single(place).widened() };
+            let drop = Drop { friction, ..self.single(place) };
             let until_s = (BEYOND_PEAK * at.answer.time_s).max(drop.clatter_s());
             let followed = Followed::as_block(&drop, until_s)?;
             if self.product.body.is_wide() {
@@ -318,7 +318,7 @@ component = [{ name = "part", position = ["70 mm", "30 mm"], natural_frequency =
     fn a_box_turns_as_the_bar_that_it_stands_for() {
         use crate::{Part, answer};
         use clatter_flight::{Body, OwnContact, OwnContacts, Side};
-        use clatter_product::{LimitKind, Model};
+        use clatter_product::{ContactLaw, LimitKind, Model};
         let soft = OwnContact { restitution: Some(0.2), contact_time_s: Some(8e-4) };
         let (part, limit) = (Part::new(0.0, None), Limit::new(LimitKind::AngularVelocityChange, 1.0));
         let (mut off, mut rubs) = (0.0_f64, 0.0_f64);
@@ -331,11 +331,12 @@ component = [{ name = "part", position = ["70 mm", "30 mm"], natural_frequency =
                 contact_time_s: Some(3e-4 + 5e-4 * x(3)),
                 own_contacts: OwnContacts([own, OwnContact::NONE, OwnContact::NONE, OwnContact::NONE]),
                 direction_rad: Drop::towards(if n % 2 == 0 { End::A } else { End::B }),
+                contact_law: if n % 4 == 1 { ContactLaw::Dashpot } else { ContactLaw::Hysteretic },
                 ..Drop::new(body, 3.0, 0.02 + 0.8 * x(4), 0.2 + 0.5 * x(5))
             };
             let followed = answer(&bar, &part, &limit, Model::Compliant, 1e-3).unwrap();
             let [smooth, rough] = [0.0, MOST_FRICTION].map(|friction| {
-                let drop = Drop { friction, ..bar.widened() };
+                let drop = Drop { friction, ..bar };
                 let block = Followed::as_block(&drop, 1.2 * followed.time_s + 5e-3).unwrap();
                 of_followed(&block, &part, &limit).unwrap().value
             });

@@ -120,6 +120,11 @@ impl Contact {
         // Frequencies are angles over the time.
         Self { time_s, frequency: self.frequency * self.time_s / time_s, ..self }
     }
+    /// Returns the contact of half of its stiffness and damping: two of them press as this one does.
+    pub(crate) fn half(self) -> Self {
+        let damping = self.damping / std::f64::consts::SQRT_2;
+        Self { damping, ..self.lasting(std::f64::consts::SQRT_2 * self.time_s) }
+    }
     /// Returns the law.
     #[must_use]
     pub fn law(&self) -> ContactLaw {
