@@ -333,8 +333,10 @@ fn of_records(
                 done += channel.values.len() as u64;
                 names.push((count > 1).then(|| measured.called(&visible(&channel.name))));
             }
-            let axes: Vec<&Spectrum> = of_channels[first..].iter().collect();
             if question.resultant {
+                let of_channels = measured.record.channels().iter().zip(&of_channels[first..]);
+                let axes: Vec<&Spectrum> =
+                    of_channels.filter(|(channel, _)| !channel.is_resultant()).map(|(_, spectrum)| spectrum).collect();
                 let resultant = Spectrum::summary(&axes, Summary::RootSumSquare);
                 resultants.extend(resultant.map(|spectrum| (Some(measured.called(RESULTANT)), spectrum)));
             }

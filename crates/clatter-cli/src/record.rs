@@ -147,6 +147,14 @@ fn said(times: &TimeAxis) -> String {
     format!("{n} samples in {duration} from {} s on, {steps}", figures(times.start_s()))
 }
 
+/// Returns the time of the first sample in a table: that of the file, but 0 for one of a clock, beside which the record is short.
+fn begin_s(times: &TimeAxis) -> f64 {
+    /// A time of six digits tells a thousandth of the record.
+    const SHORT: f64 = 1e3;
+    let start_s = times.start_s();
+    if start_s.abs() <= SHORT * times.duration_s() { start_s } else { 0.0 }
+}
+
 /// A column of a file.
 struct ColumnOut<'a> {
     name: String,
@@ -167,6 +175,7 @@ impl Whole<'_> {
         let times = record.times();
         let longest_s = times.iter().map(|times| times.duration_s()).fold(0.0, f64::max);
         let time = Show { unit: time_unit(longest_s), name: "s" };
+        let from_first = times.iter().any(|times| begin_s(times).to_bits() != times.start_s().to_bits());
         let file = text::path(&self.args.file);
         match times[..] {
             [times] => writeln!(out, "{file}: {}\n", said(times))?,
@@ -180,8 +189,10 @@ impl Whole<'_> {
         for channel in record.channels() {
             let [high, low] = extremes(channel);
             let (name, _) = column(&shown(&channel.name, width - 1), width);
-            let (unit, cells) =
-                (shown(&channel.unit, 9), [high, low].map(|i| (channel.values[i], channel.times().since_s(i))));
+            let (unit, cells) = (
+                shown(&channel.unit, 9),
+                [high, low].map(|i| (channel.values[i], begin_s(channel.times()) + channel.times().since_s(i))),
+            );
             write!(out, "{name}{unit:>10}")?;
             for (value, since_s) in cells {
                 write!(out, "{:>14}{:>14}", figures(value), time.figures(since_s))?;
@@ -190,6 +201,9 @@ impl Whole<'_> {
             if times.len() > 1 {
                 writeln!(out, "    {}", said(channel.times()))?;
             }
+        }
+        if from_first {
+            writeln!(out, "\nTimes count from the first sample.")?;
         }
         for (k, channel) in record.channels().iter().enumerate() {
             let name = shown(&channel.name, 40);

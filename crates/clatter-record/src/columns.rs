@@ -14,7 +14,7 @@ use crate::times::Printed;
 use crate::{At, Column, Error, FULL_SCALE, Finding, Options, Pick, Record, Table, Values};
 
 /// Rates that a file tells twice are the same where they differ by no more than this share.
-const SAME_RATE: f64 = 1e-3;
+pub(crate) const SAME_RATE: f64 = 1e-3;
 
 /// Where the times of a channel are.
 #[derive(Debug, Clone, Copy, PartialEq)]

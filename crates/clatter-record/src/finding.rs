@@ -93,6 +93,17 @@ pub enum Finding {
         /// That frequency in Hz.
         hz: f64,
     },
+    /// A value, of one sample or of several, is far beyond all others: it may stand for no value.
+    Outlier {
+        /// Name of the channel.
+        channel: String,
+        /// The first sample that has it.
+        at: At,
+        /// The value in m/s².
+        value_m_s2: f64,
+        /// How many times the largest of all others it is.
+        times: f64,
+    },
     /// Samples in a row have the very largest value: the amplifier or the converter may have been at its end.
     Clipped {
         /// Name of the channel.
@@ -191,6 +202,13 @@ impl std::fmt::Display for Finding {
                 let [level, share, hz] = [three(*level), percent(*share), three(*hz)];
                 write!(f, "{channel}, {from} to {to}: {level} m/s2 {what}, up to {share} % of the spectrum at {hz} Hz")
             }
+            Self::Outlier { channel, at, value_m_s2, times } => {
+                let [value, times] = [*value_m_s2, *times].map(three);
+                write!(
+                    f,
+                    "{channel}, {at}: {value} m/s2 is {times} times as large as all other values: it may stand for no value"
+                )
+            }
             Self::Clipped { channel, at, samples, value_m_s2 } => write!(
                 f,
                 "{channel}, from {at} on: {samples} samples at {} m/s2, the largest of all: it may be clipped",
@@ -217,6 +235,8 @@ fn three(value: f64) -> String {
 
 /// A shock begins and ends where the acceleration passes this share of the largest: the 10 % of the standards.
 pub(crate) const EDGE: f64 = 0.1;
+/// A value so many times all others is no acceleration of the same shock.
+const OUTLIER: f64 = 100.0;
 /// Offsets that change a spectrum by less are not told.
 const TOLD: f64 = 0.02;
 /// A level is told from noise where it is so many times its standard error, of the means of so many parts: one in two hundred
@@ -342,6 +362,12 @@ impl Inspection<'_> {
         }
         if inside(*last) {
             findings.push(Finding::Ends { channel: channel(), share: last.abs() / largest });
+        }
+        let others = values.iter().map(|a| a.abs()).filter(|a| *a < largest).fold(0.0, f64::max);
+        if others > 0.0 && largest > OUTLIER * others {
+            let at = values.iter().position(|a| a.abs() >= largest).unwrap_or(0);
+            let (at, value_m_s2, times) = ((self.at)(at), values[at], largest / others);
+            findings.push(Finding::Outlier { channel: channel(), at, value_m_s2, times });
         }
         self.clipped(largest, findings);
         if self.is_even {

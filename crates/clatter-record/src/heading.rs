@@ -4,7 +4,9 @@ mod words;
 
 use crate::factor;
 use crate::unit::{Kind, Unit, lists};
-use words::{ACCELERATIONS, BEGINNINGS, DATES, FUNCTIONS, GRAMS, INDICES, OTHERS, PLACES, TIMES};
+use words::{
+    ACCELERATIONS, BEGINNINGS, CODED, DATES, DEVICES, FUNCTIONS, G_FORCES, GRAMS, INDICES, OTHERS, PLACES, TIMES,
+};
 
 /// A heading: the name of a column and its unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,8 +16,12 @@ pub(crate) struct Heading {
     pub(crate) unit: Option<Unit>,
     /// The unit as it is spelled, known or not.
     pub(crate) spelled: Option<String>,
+    /// A factor that stands beside the name, in brackets of its own, where there is no unit.
+    pub(crate) factor: f64,
     /// Tells whether words stand in the column, and no numbers.
     pub(crate) is_text: bool,
+    /// The cell as it stands in the file, by which it may be picked as well.
+    pub(crate) cell: String,
 }
 
 /// The kinds of columns that names tell apart.
@@ -36,6 +42,10 @@ const LONGEST: usize = 1000;
 impl Heading {
     /// Of the text of a cell: `time [ms]`, `Acceleration (g)`, `time, s`, `t / ms`, `acceleration_m_s2`, `Seconds`.
     pub(crate) fn of(cell: &str) -> Self {
+        Self { cell: cell.trim().trim_matches('"').to_owned(), ..Self::read(cell) }
+    }
+
+    fn read(cell: &str) -> Self {
         let cell = &plain(cell.trim().trim_matches(['"', '\'']).trim());
         if cell.len() > LONGEST {
             let begin: String = cell.chars().take(40).collect();
@@ -54,14 +64,15 @@ impl Heading {
 
     /// A name without a unit.
     pub(crate) fn named_alone(name: &str) -> Self {
-        Self { name: name.to_owned(), unit: None, spelled: None, is_text: false }
+        Self { name: name.to_owned(), unit: None, spelled: None, factor: 1.0, is_text: false, cell: String::new() }
     }
 
     /// The same with a unit that stands elsewhere.
     pub(crate) fn with_unit(mut self, unit: &str) -> Self {
         let unit = unbracketed(unit.trim().trim_matches('"'));
         if !unit.is_empty() {
-            (self.unit, self.spelled) = (Unit::of(unit), Some(unit.to_owned()));
+            let sized = Unit::of(unit).map(|unit| unit.times(self.factor));
+            (self.unit, self.spelled) = (sized, Some(unit.to_owned()));
         }
         self
     }
@@ -86,8 +97,14 @@ impl Heading {
         if words.is_empty() {
             return Named::Index;
         }
+        if let Some(coded) = coded(&name) {
+            return coded;
+        }
+        // A magnetic one, but for `field.acceleration.x`.
+        let is_field = words.contains(&"field") && !words.iter().any(is_acc);
         if self.is_text
             || any(OTHERS)
+            || is_field
             || BEGINNINGS.split(' ').any(|begin| words.iter().any(|word| word.starts_with(begin)))
         {
             return Named::Other;
@@ -142,13 +159,38 @@ impl Heading {
         let word = parts(&name).into_iter().find(|word| lists(FUNCTIONS, word));
         let begins = name.starts_with(['-', '−', '–', '|']) && name.len() > 1;
         let raised = ["^", "²", "³", "**", "d/dt", "/dt"].iter().find(|mark| name.contains(**mark));
-        let factor = parts(&name).into_iter().find(|word| factor::is_marked(word));
+        let factor = parts(&name).into_iter().find(|word| factor::is_marked(word)).map(str::to_owned);
+        let factor = factor.or_else(|| factor::beside(&name));
         word.map(|word| format!("'{word}'"))
             .or_else(|| raised.map(|mark| format!("'{mark}'")))
             .or_else(|| factor.map(|word| format!("'{word}'")))
             .or_else(|| {
                 begins.then(|| format!("'{}' before its name", &name[..name.chars().next().map_or(0, char::len_utf8)]))
             })
+    }
+
+    /// Returns whether the name is one of an acceleration in g.
+    pub(crate) fn is_g_force(&self) -> bool {
+        lists(G_FORCES, &self.name.to_lowercase())
+    }
+
+    /// Returns whether the name tells devices or packets apart, and counts nothing.
+    pub(crate) fn is_of_device(&self) -> bool {
+        let name = self.name.to_lowercase();
+        parts(&name).iter().any(|word| lists(DEVICES, word))
+    }
+
+    /// Returns whether the unit is written as gauss is, with a capital letter.
+    pub(crate) fn is_in_capital_g(&self) -> bool {
+        self.spelled.as_deref().is_some_and(|unit| ["G", "mG", "kG", "uG", "µG"].contains(&unit))
+    }
+
+    /// Returns whether the name is one of a magnetic field: `Bx`, `H_y`, `B field`.
+    pub(crate) fn is_of_field(&self) -> bool {
+        let name = self.name.to_lowercase();
+        let words = parts(&name);
+        let letter = |word: &&str| matches!(word.as_bytes(), [b'b' | b'h'] | [b'b' | b'h', b'x' | b'y' | b'z']);
+        words.contains(&"field") || words.first().is_some_and(letter)
     }
 
     /// Returns whether a unit such as g or mG is one of a mass or of a magnetic field, by the name.
@@ -167,6 +209,16 @@ impl Heading {
             Some(unit) if *unit != self.name => format!("{} [{unit}]", self.name),
             _ => self.name.clone(),
         }
+    }
+}
+
+/// Returns what a channel code of ISO 13499 is of, by its 13th and 14th place; none of another name.
+fn coded(name: &str) -> Option<Named> {
+    let is_code = name.len() == 16 && name.starts_with(|c: char| c.is_ascii_digit());
+    let what = name.get(12..14).filter(|_| is_code && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'?'))?;
+    match what {
+        "ac" => Some(Named::Acceleration),
+        what => lists(CODED, what).then_some(Named::Other),
     }
 }
 
@@ -193,6 +245,11 @@ fn plain(cell: &str) -> String {
     };
     let text: String = cell.chars().map(plain).collect();
     if text.contains("  ") { text.split_whitespace().collect::<Vec<_>>().join(" ") } else { text }
+}
+
+/// Returns whether a word before a number makes a factor or an offset of it.
+pub(crate) fn is_factor_word(word: &str) -> bool {
+    lists(words::FACTORS, word)
 }
 
 /// Words of a name, in small letters.
@@ -225,7 +282,7 @@ fn bracketed(cell: &str) -> Option<Heading> {
         refused = refused.or(found.refused);
         kept.extend(found.name.split_whitespace().map(str::to_owned));
         if let Some(group) = groups.get(i).filter(|_| place != Some(i)) {
-            match factor::alone(group) {
+            match factor::in_brackets(group) {
                 Some(factor) => size *= factor,
                 None => kept.push(if group.chars().count() == 1 { (*group).to_owned() } else { format!("({group})") }),
             }
@@ -234,8 +291,7 @@ fn bracketed(cell: &str) -> Option<Heading> {
     let name = kept.join(" ");
     let is_one = size.to_bits() == 1.0_f64.to_bits();
     let Some(place) = place else {
-        // A factor without a unit has none to go with.
-        return Some(if is_one { Heading::named_alone(&name) } else { unclear(&name) });
+        return Some(Heading { factor: size, ..Heading::named_alone(&name) });
     };
     let spelled = match refused {
         Some(beside) => format!("{} {beside}", groups[place]),
@@ -276,7 +332,7 @@ fn place_of_unit(groups: &[&str]) -> Result<Option<usize>, ()> {
         match Unit::of(group) {
             Some(unit) if unit.kind.is_recorded() => recorded.push(place),
             Some(_) => other.push(place),
-            None if factor::alone(group).is_some() => {}
+            None if factor::in_brackets(group).is_some() => {}
             None if is_like_unit(group) || factor::is_operation(group) => unknown.push(place),
             None => {}
         }

@@ -14,7 +14,7 @@ impl Preview {
     /// Those of [`Preview::roles`], and [`Error::Columns`] for channels of two rates whose times are not told apart.
     pub(crate) fn by_time(&self, options: &Options) -> Result<Vec<Roles>, Error> {
         let mut roles = self.roles(options)?;
-        let times: Vec<usize> = (0..self.headings.len()).filter(|column| self.headings[*column].is_time()).collect();
+        let times: Vec<usize> = (0..self.headings.len()).filter(|column| self.is_time(*column)).collect();
         // By all channels, whichever are asked for.
         let all = self.channels(times.first().copied(), &Options::default()).unwrap_or_default();
         let owners = if self.named && options.time.is_none() { self.paired(&times, &all) } else { None };

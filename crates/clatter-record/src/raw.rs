@@ -36,6 +36,23 @@ pub(crate) struct Raw {
     pub(crate) found: Vec<Finding>,
 }
 
+/// The channel that is the root of the sum of the squares of all others, two at least, in every sample.
+fn resultant(channels: &[Untimed]) -> Option<usize> {
+    /// As files print it, in parts of the largest value.
+    const PRINTED: f64 = 1e-3;
+    let is_resultant = |k: &usize| {
+        let own = &channels[*k].values;
+        let most = own.iter().copied().fold(0.0, f64::max);
+        let root = |i: usize| {
+            let others = channels.iter().enumerate().filter(|(other, _)| other != k);
+            others.fold(0.0, |root, (_, other)| libm::hypot(root, other.values[i]))
+        };
+        most > 0.0 && own.iter().enumerate().all(|(i, value)| (root(i) - value).abs() <= PRINTED * most)
+    };
+    // One direction alone is the length of itself: the last, as files have it.
+    (0..channels.len()).rev().filter(|_| channels.len() > 2).find(is_resultant)
+}
+
 impl Raw {
     /// Channels of samples that are so far apart.
     pub(crate) fn even(channels: Vec<Untimed>, [start_s, step_s]: [f64; 2]) -> Self {
@@ -60,6 +77,7 @@ impl Raw {
             }
             self.found.push(Finding::Skipped(bad));
         }
+        self.refuse_dates()?;
         let samples = self.channels[0].values.len();
         if samples < 2 {
             return Err(clatter_shock::Error::Short { what: "a record", samples, needed: 2 }.into());
@@ -83,8 +101,30 @@ impl Raw {
             samples,
             numbering: self.numbering,
         });
-        let timed = |Untimed { name, unit, values }| Channel { name, unit, values, times: Arc::clone(&times) };
-        Ok(Record { channels: self.channels.into_iter().map(timed).collect(), read: self.found, account: None })
+        let resultant = resultant(&self.channels);
+        let timed = |(k, Untimed { name, unit, values })| Channel {
+            name,
+            unit,
+            values,
+            times: Arc::clone(&times),
+            is_resultant: resultant == Some(k),
+        };
+        let channels = self.channels.into_iter().enumerate().map(timed).collect();
+        Ok(Record { channels, read: self.found, account: None })
+    }
+
+    /// Refuses days since 1900, as spreadsheets keep dates, that are read as seconds: a few parts of a day after 20 000 of them.
+    fn refuse_dates(&self) -> Result<(), Error> {
+        let (span_s, count) = (self.since_s.last().copied().unwrap_or(0.0), float(self.since_s.len().max(2) - 1));
+        let is_date = self.unit_s == 1.0 && (2e4..8e4).contains(&self.start_s) && span_s > 0.0 && span_s < 1e-6 * count;
+        if !is_date {
+            return Ok(());
+        }
+        Err(Error::Columns(format!(
+            "times from {} on, {:.3e} apart, are days of a spreadsheet and not seconds: --units=d and that of the acceleration",
+            self.start_s,
+            span_s / count
+        )))
     }
 
     fn times(&self) -> Times<'_> {

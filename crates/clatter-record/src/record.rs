@@ -9,6 +9,7 @@ use std::sync::Arc;
 use clatter_shock::samples::check;
 
 use crate::axis::{Spacing, TimeAxis};
+use crate::columns::SAME_RATE;
 use crate::container::{self, Kind};
 use crate::error::Bad;
 use crate::finding::{At, Finding, Inspection, is_of_events};
@@ -39,9 +40,24 @@ pub struct Channel {
     /// Accelerations in m/s².
     pub values: Vec<f64>,
     pub(crate) times: Arc<TimeAxis>,
+    pub(crate) is_resultant: bool,
 }
 
 impl Channel {
+    /// Whether the file has it as the resultant of all others, the root of the sum of their squares in every sample: it is no direction of
+    /// its own.
+    ///
+    /// ```
+    /// # use clatter_record::{Options, Record};
+    /// let csv = "time [ms],x [g],y [g],sum [g]\n0,0,0,0\n0.1,3,-4,5\n0.2,1,0,1\n";
+    /// let record = Record::read(csv.as_bytes(), &Options::default(), |_| ())?;
+    /// assert!(record.channels()[2].is_resultant() && !record.channels()[0].is_resultant());
+    /// # Ok::<(), clatter_record::Error>(())
+    /// ```
+    #[must_use]
+    pub fn is_resultant(&self) -> bool {
+        self.is_resultant
+    }
     /// When its samples are.
     #[must_use]
     pub fn times(&self) -> &TimeAxis {
@@ -174,9 +190,22 @@ impl Record {
         if rows.below().count > 0 {
             found.push(Finding::Below(rows.below().clone()));
         }
+        found.extend(rows.against_told(&roles.channels).into_iter().map(Finding::Note));
+        let slope = rows.slope();
+        if let Some(([slope, offset], line)) = slope {
+            found.push(Finding::Note(format!(
+                "the numbers are taken times {slope}, plus {offset}, as line {line} tells"
+            )));
+        }
+        let rate = rows.rate();
         let (start_s, unit_s, told) = (rows.start_s(), rows.time_size(), rows.told());
         let Rows { channels, times: since_s, printed, numbering, sampled_s, doubled, mut bad, .. } = rows;
-        let untimed = |(values, Role { name, unit, .. })| Untimed { name, unit, values };
+        let untimed = |(mut values, Role { name, unit, size, .. }): (Vec<f64>, Role)| {
+            if let Some(([slope, offset], _)) = slope {
+                values.iter_mut().for_each(|value| *value = *value * slope + offset * size);
+            }
+            Untimed { name, unit, values }
+        };
         let channels = channels.into_iter().zip(roles.channels).map(untimed).collect();
         let mut raw = Raw { channels, start_s, unit_s, since_s, printed, step_s: None, numbering, found };
         let rounded_s = raw.printed.unit() * unit_s;
@@ -184,6 +213,12 @@ impl Record {
             let given_s = period(hz)?;
             let finding = against_times(given_s, &raw.since_s, rounded_s, "the rate that is given")?;
             raw.found.extend(finding);
+            if let Some((told_s, line)) = rate.filter(|(told_s, _)| (told_s / given_s - 1.0).abs() > SAME_RATE) {
+                let told_hz = told_s.recip();
+                raw.found.push(Finding::Note(format!(
+                    "line {line} tells {told_hz} Hz, and the rate that is given is {hz} Hz"
+                )));
+            }
             raw = Raw { start_s: 0.0, step_s: Some(given_s), since_s: Vec::new(), printed: Printed::default(), ..raw };
         } else if let (Some([from_s, by_s]), None) = (sampled_s, roles.time) {
             (raw.start_s, raw.step_s) = (from_s, Some(by_s));

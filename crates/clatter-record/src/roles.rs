@@ -83,7 +83,7 @@ impl Preview {
             _ if channels.contains(&column) => "acceleration",
             _ if heading.is_text => "words",
             _ if self.is_index(column) => "number of the row",
-            Some(Kind::Acceleration) if heading.is_of_grams() => "no acceleration by its name",
+            Some(Kind::Acceleration) if self.is_of_grams(column) => "no acceleration by its name",
             Some(Kind::Acceleration) => "not asked for",
             Some(Kind::Time) => "another time",
             Some(Kind::Other(what)) => what,
@@ -109,7 +109,7 @@ impl Preview {
             Pick::Number(number) => number.checked_sub(1).filter(|column| *column < self.headings.len()),
             Pick::Name(name) => {
                 let is = |heading: &Heading| {
-                    heading.name.eq_ignore_ascii_case(name) || heading.shown().eq_ignore_ascii_case(name)
+                    [&heading.name, &heading.shown(), &heading.cell].iter().any(|own| own.eq_ignore_ascii_case(name))
                 };
                 self.headings.iter().position(is)
             }
@@ -181,6 +181,21 @@ impl Preview {
         }
     }
 
+    /// Takes the unit of times that have none from the time between samples that the file tells.
+    pub(crate) fn take_unit_of_time(&mut self, step_s: f64) {
+        /// Times may be printed to few digits.
+        const SAME: f64 = 0.05;
+        let open = |column: &usize| self.headings[*column].is_time() && self.headings[*column].spelled.is_none();
+        for column in (0..self.headings.len()).filter(open).collect::<Vec<_>>() {
+            let steps = clatter_shock::samples::float(self.rows.len().max(2) - 1);
+            let Some(step) = self.span(column).map(|span| span / steps) else { continue };
+            let unit = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6)];
+            if let Some((unit, _)) = unit.into_iter().find(|(_, size)| (step * size / step_s - 1.0).abs() < SAME) {
+                self.headings[column] = self.headings[column].clone().with_unit(unit);
+            }
+        }
+    }
+
     /// The numbers of a column in the first rows.
     pub(crate) fn numbers(&self, column: usize) -> impl DoubleEndedIterator<Item = f64> {
         self.rows.iter().filter_map(move |row| row.get(column)).copied()
@@ -203,18 +218,56 @@ impl Preview {
         self.rows.len() > 1 && rises && moves
     }
 
-    /// Returns whether a column counts its rows, or is named as one that tells rows apart.
+    /// Returns whether a column counts its rows, as its name says: in whole numbers that are each as far from the next, or the same.
     fn is_index(&self, column: usize) -> bool {
         let heading = &self.headings[column];
         if heading.named() != Named::Index || heading.kind() == Some(Kind::Acceleration) {
             return false;
         }
-        let counts = self.steps(column).all(|(a, b)| b > a && a.fract() == 0.0);
-        // `N`, `sample 1` and the like are names of channels as well.
-        let name = heading.name.to_lowercase();
-        let may_be_channel = ["n", "no", "nr", "sample", "samples", "point", "number", "num"]
-            .contains(&name.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default());
-        counts && self.rows.len() > 1 || !may_be_channel
+        let step = self.steps(column).map(|(a, b)| b - a).find(|step| *step != 0.0);
+        let counts = |step: f64| {
+            let is_step = |(a, b): (f64, f64)| b == a || ((b - a) - step).abs() < 0.5;
+            step >= 1.0 && self.steps(column).all(|(a, b)| is_step((a, b)) && a.fract() == 0.0 && b.fract() == 0.0)
+        };
+        // What has no numbers counts nothing else, nor does what tells devices apart.
+        let is_empty = || self.numbers(column).all(f64::is_nan);
+        step.is_some_and(counts) || is_empty() || heading.is_of_device()
+    }
+
+    /// Returns whether a column is one of times: by its name or unit, or one that rises evenly before the values of the same name, as in
+    /// `Trace 2 X`, `Trace 2 Y`.
+    pub(crate) fn is_time(&self, column: usize) -> bool {
+        let heading = &self.headings[column];
+        if heading.is_time() {
+            return true;
+        }
+        let stem = |column: usize, axis: char| {
+            let name = self.headings.get(column)?.name.to_lowercase();
+            name.strip_suffix(axis).map(|stem| stem.trim_end_matches([' ', '_', '-', '.']).to_owned())
+        };
+        let is_open = heading.unit.is_none() && heading.named() == Named::Unknown && !heading.is_text;
+        let before_values = || {
+            stem(column, 'x').is_some_and(|name| stem(column + 1, 'y') == Some(name) && stem(column + 2, 'z').is_none())
+        };
+        is_open && before_values() && self.rises_evenly(column)
+    }
+
+    /// Returns whether the first rows of a column rise by steps that are all alike, and are enough to tell.
+    fn rises_evenly(&self, column: usize) -> bool {
+        /// Rows that tell a time from a signal that rises.
+        const SURE: usize = 6;
+        let Some(mean) = self.span(column).map(|span| span / clatter_shock::samples::float(self.rows.len() - 1)) else {
+            return false;
+        };
+        // Times that are printed to few digits.
+        self.rows.len() >= SURE && mean > 0.0 && self.steps(column).all(|(a, b)| ((b - a) / mean - 1.0).abs() < 0.3)
+    }
+
+    /// Returns whether a unit of acceleration is one of mass or of a magnetic field: by the name, or as a capital G beside small ones.
+    fn is_of_grams(&self, column: usize) -> bool {
+        let heading = &self.headings[column];
+        let small = |other: &Heading| other.spelled.as_deref().is_some_and(|unit| ["g", "mg"].contains(&unit));
+        heading.is_of_grams() || heading.is_in_capital_g() && (heading.is_of_field() || self.headings.iter().any(small))
     }
 
     /// Of columns that nothing else is known of those of x, y and z, where all three are there and other ones beside.
@@ -238,7 +291,7 @@ impl Preview {
             return options.accelerations.iter().map(|pick| self.picked(pick, "acceleration")).collect();
         }
         // Times of other channels are none.
-        let is_time = |column: usize| Some(column) == time || self.named && self.headings[column].is_time();
+        let is_time = |column: usize| Some(column) == time || self.named && self.is_time(column);
         let rest: Vec<usize> = (0..self.headings.len()).filter(|column| !is_time(*column)).collect();
         if !self.named {
             self.refuse_unclear(time)?;
@@ -251,16 +304,22 @@ impl Preview {
             return Ok(found);
         }
         let those = |is: &dyn Fn(&Heading) -> bool| -> Vec<usize> {
-            rest.iter().copied().filter(|column| is(&self.headings[*column])).collect()
+            rest.iter().copied().filter(|column| is(&self.headings[*column]) && !self.is_of_grams(*column)).collect()
         };
         let volts = |heading: &Heading| options.sensitivity_v_s2_m.is_some() && heading.kind() == Some(VOLTAGE);
         // Words drop no column that has a unit of acceleration, but for grams and gausses. Below a name of an acceleration a unit
         // that is not understood, or one of something else, has to be cleared up.
         let mut found = those(&|heading| match (heading.named(), heading.kind()) {
-            (_, Some(Kind::Acceleration)) => !heading.is_text && !heading.is_of_grams(),
+            (_, Some(Kind::Acceleration)) => !heading.is_text,
             (Named::Other | Named::Time, _) => volts(heading),
             (named, _) => volts(heading) || named == Named::Acceleration,
         });
+        // Accelerations in g beside those in m/s²: the unit given tells which.
+        let is_g_force = |column: &usize| self.headings[*column].is_g_force();
+        if found.iter().any(is_g_force) && !found.iter().all(is_g_force) {
+            let in_g = options.units.as_ref().is_some_and(|units| units.acceleration.0.size > 1.0);
+            found.retain(|column| is_g_force(column) == in_g);
+        }
         if found.is_empty() {
             let unknown: Vec<usize> = rest
                 .iter()
@@ -357,7 +416,7 @@ impl Preview {
                 )))
             }
             (Some(unit), spelled, _) => Ok((unit, spelled.clone().unwrap_or_default())),
-            (None, _, Some((unit, name))) => Ok((*unit, name.clone())),
+            (None, _, Some((unit, name))) => Ok((unit.times(heading.factor), name.clone())),
             (None, Some(spelled), None) => {
                 let is_number = spelled.starts_with(|c: char| c.is_ascii_digit());
                 let hint = if is_number { "; its number may be a range: write x1000 for a factor" } else { "" };

@@ -88,11 +88,13 @@ impl Times<'_> {
         found.iter().find(|found| found.exact).or(found.first()).map(|found| found.step_s).or_else(|| self.coarse(mean))
     }
 
-    /// The step of times in whole units not much shorter than a step, if one rate explains every digit: all are rounded, or all are cut
-    /// off.
+    /// The step of times in whole units not much shorter than a step, if one rate explains every digit: all are rounded, halves either
+    /// way, or all are cut off. A record that begins at zero begins there exactly; of another the first digits are rounded as well.
     fn coarse(&self, mean: f64) -> Option<f64> {
-        /// Where fewer steps are the long ones, samples are missing.
+        /// Where fewer steps are the long ones, and the first time is rounded, samples are missing.
         const LONG: f64 = 1.0 / 6.0;
+        /// Of fewer long steps no one can tell that they come at one rate.
+        const REGULAR: f64 = 4.0;
         /// Samples that show a rate.
         const LEAST: usize = 32;
         let unit = 10_f64.powi(self.printed.finest) * self.unit_s;
@@ -110,6 +112,25 @@ impl Times<'_> {
             long += units.round() - 1.0;
         }
         let steps = float(count - 1);
+        if long < REGULAR {
+            return None;
+        }
+        if self.start_s == 0.0 {
+            // Rounded, cut off, and rounded up.
+            let bounds = [[-0.5, 0.5], [-1.0, 0.0], [0.0, 1.0]];
+            let found = bounds.into_iter().find_map(|bounds| {
+                let [low, high] = bounds.map(|bound| bound * unit * (1.0 + 1e-9));
+                let mut within = Within::default();
+                for (i, time) in self.since_s.iter().enumerate().skip(1) {
+                    within.low = within.low.max((time - high) / float(i));
+                    within.high = within.high.min((time - low) / float(i));
+                }
+                (within.low <= within.high).then(|| within.simplest()).flatten()
+            });
+            if found.is_some() {
+                return found;
+            }
+        }
         if long < LONG * steps {
             return None;
         }
@@ -124,7 +145,7 @@ impl Times<'_> {
             }
             high - low
         };
-        let explains = |step: f64| spread(step) < unit * (1.0 - 1e-9);
+        let explains = |step: f64| spread(step) <= unit * (1.0 + 1e-9);
         let (mut low, mut high) = (mean - unit / steps, mean + unit / steps);
         let ends = (low, high);
         for _ in 0..60 {
@@ -333,7 +354,21 @@ mod tests {
         let missing =
             |is: &dyn Fn(i32) -> bool| (0..300).filter(|i| !is(*i)).map(|i| format!("{i}")).collect::<Vec<_>>();
         assert_eq!(step_of(&missing(&|i| i == 77)), None, "one");
-        assert_eq!(step_of(&missing(&|i| i % 10 == 9)), None, "every tenth");
+        // Milliseconds of 900 Hz, cut off, are the same: there every sample is where it is printed.
+        let cut = step_of(&missing(&|i| i % 10 == 9)).expect("900 Hz");
+        assert!((cut * 0.9 - 1.0).abs() < 1e-12, "{cut}");
+        assert_eq!(step_of(&missing(&|i| i % 10 == 7)), None, "every tenth, but not as times from zero on are cut");
+        // Halves either way, from zero on and from within.
+        let halves = |from: i32| {
+            (from..300)
+                .map(|i| {
+                    let (whole, odd) = (5 * i / 4, 5 * i % 4);
+                    let up = odd == 3 || odd == 2 && (i / 2) % 2 == 1;
+                    format!("{}", whole + i32::from(up))
+                })
+                .collect::<Vec<_>>()
+        };
+        assert_eq!([0, 7].map(|from| step_of(&halves(from))), [Some(1.25); 2]);
         assert_eq!(step_of(&missing(&|i| i % 4 == 3 && i < 150)), None, "every fourth of one half");
     }
 

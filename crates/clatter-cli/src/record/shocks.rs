@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use clatter_record::{Channel, Record};
 use clatter_shock::Shocks;
 
+use super::begin_s;
 use crate::numbers::{digits, figures};
 use crate::text;
 
@@ -25,8 +26,7 @@ pub(super) fn table(channel: &Channel, name: &str, found: &Shocks, out: &mut dyn
     line(out, ["start", "peak", "at", "duration", "velocity change"])?;
     line(out, ["s", "m/s2", "s", "s", "m/s"])?;
     for shock in &found.shocks {
-        let [start, at] =
-            [shock.start_s, shock.peak_time_s].map(|since_s| figures(channel.times().start_s() + since_s));
+        let [start, at] = [shock.start_s, shock.peak_time_s].map(|since_s| figures(begin_s(channel.times()) + since_s));
         let [peak, duration, velocity] = [shock.peak_m_s2, shock.duration_s, shock.velocity_change_m_s].map(figures);
         line(out, [&start, &peak, &at, &duration, &velocity])?;
     }

@@ -10,6 +10,8 @@ impl Preview {
         const SURE: usize = 6;
         /// So many columns may be two records side by side, or, without times, one channel that goes on from line to line.
         const MANY: usize = 4;
+        /// No logger has more without a name.
+        const CHANNELS: usize = 33;
         let count = self.headings.len();
         let rises = |column: usize| self.steps(column).all(|(a, b)| a < b);
         let is_like = |column: &usize| {
@@ -24,6 +26,11 @@ impl Preview {
                  --acceleration",
                 other + 1,
                 time.unwrap_or(0) + 1
+            )));
+        }
+        if count > CHANNELS && !self.cells.is_empty() {
+            return Err(Error::Columns(format!(
+                "{count} numbers a line without names are hardly {count} channels: name the channels, by --acceleration=1 and so on"
             )));
         }
         if time.is_none() && count >= MANY && !self.cells.is_empty() {

@@ -73,6 +73,13 @@ impl Form {
             .or_else(|| moment::seconds(cell, self.order))
             .or_else(|| self.whole(&self.ungrouped(cell)?))
             .or_else(|| self.whole(&short(cell, self.point)?))
+            .or_else(|| self.whole(&powered(cell)?))
+            .or_else(|| {
+                // A sign apart from its digits.
+                let (sign, digits) = cell.split_at_checked(1)?;
+                let digits = digits.strip_prefix(' ').filter(|_| matches!(sign, "-" | "+"))?.trim_start();
+                digits.starts_with(|c: char| c.is_ascii_digit()).then(|| self.number(&format!("{sign}{digits}")))?
+            })
             .or_else(|| {
                 // A minus sign as it is set in print.
                 let signs = ['−', '–'];
@@ -147,6 +154,14 @@ pub(super) fn is_beyond(cell: &str) -> bool {
     is_among(BEYOND, cell)
 }
 
+/// A number with its power as Fortran writes one of three digits, without the letter: `1.2345-110`.
+fn powered(cell: &str) -> Option<String> {
+    let (digits, power) = cell.split_at_checked(cell.len().checked_sub(4)?)?;
+    let is_power = power.starts_with(['-', '+']) && power[1..].bytes().all(|c| c.is_ascii_digit());
+    (is_power && digits.contains(['.', ',']) && digits.ends_with(|c: char| c.is_ascii_digit()))
+        .then(|| format!("{digits}e{power}"))
+}
+
 /// A number of more digits than are kept, cut to those that floats can tell apart.
 fn short(cell: &str, point: u8) -> Option<String> {
     if cell.len() <= 19 || !cell.ends_with(|c: char| c.is_ascii_digit()) {
@@ -186,6 +201,12 @@ mod tests {
             ("'123", None),
             ("12:00:01", Some(43_201.0)),
             ("0.12345678901234567890123", Some(0.123_456_789_012_345_68)),
+            ("1.2345-110", Some(1.2345e-110)),
+            ("-1.2345+101", Some(-1.2345e101)),
+            ("12345-110", None),
+            ("+ 0.5", Some(0.5)),
+            ("-  1.5", Some(-1.5)),
+            ("- x", None),
             ("1.5e", None),
             ("abc", None),
         ] {

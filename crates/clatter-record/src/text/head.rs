@@ -64,18 +64,19 @@ pub(super) fn numbers(line: &str) -> usize {
 /// Words that a line of a sampling rate begins with.
 const RATES: &str = "\
     sample rate, samplerate, sampling rate, samplingrate, sample frequency, sampling frequency, sampling freq, sample \
-    freq, sample_rate, sampling_rate, sampling_frequency, samples per second, abtastrate, abtastfrequenz, messrate, \
+    freq, samples per second, abtastrate, abtastfrequenz, messrate, \
     update rate, scan rate, data rate, output data rate, fs, frecuencia de muestreo, fréquence d'échantillonnage";
 /// The same of the time between samples.
 const INTERVALS: &str = "\
-    sample interval, sampling interval, sample_interval, sampling_interval, sample period, sampling period, time \
-    interval, time step, timestep, delta t, delta_t, dt, interval, abtastintervall, abtastzeit, abtastperiode";
+    sample interval, sampling interval, sample period, sampling period, time interval, time step, timestep, delta t, \
+    dt, interval, x-axis delta, abtastintervall, abtastzeit, abtastperiode";
 
-/// The time between samples that lines above the numbers tell, and the line, from 1; nothing where they tell several.
+/// The time between samples that lines above the numbers tell, and the line, from 1; nothing where they tell several, or in a way that
+/// [may be read twice](in_groups).
 pub(super) fn step(lines: &[String]) -> Option<(f64, usize)> {
     let mut found: Option<(f64, usize)> = None;
     for (i, line) in lines.iter().enumerate() {
-        let Some(step_s) = step_of(line) else { continue };
+        let Some(step_s) = step_of(line).filter(|_| !in_groups(line)) else { continue };
         if found.is_some_and(|(other, _)| (other / step_s - 1.0).abs() > 1e-6) {
             return None;
         }
@@ -84,8 +85,30 @@ pub(super) fn step(lines: &[String]) -> Option<(f64, usize)> {
     found
 }
 
+/// Returns whether a rate in hertz has three digits behind one point, which may stand between thousands: `10.000 Hz`.
+pub(super) fn in_groups(line: &str) -> bool {
+    let is_rate = step_of(line).is_some_and(|step_s| step_s < 1.0) && !line.to_lowercase().contains("khz");
+    let grouped = |word: &str| {
+        let (whole, fraction) = word.split_once('.').unwrap_or_default();
+        let is = |text: &str| text.bytes().all(|c| c.is_ascii_digit());
+        fraction.len() == 3 && (1..=3).contains(&whole.len()) && !whole.starts_with('0') && is(whole) && is(fraction)
+    };
+    is_rate && !told_as_time(line) && line.split(|c: char| !c.is_ascii_digit() && c != '.').any(grouped)
+}
+
+/// Returns whether a line tells a time between samples, and no rate.
+fn told_as_time(line: &str) -> bool {
+    let text = text_of(line);
+    INTERVALS.split(", ").any(|key| text.starts_with(key))
+}
+
+/// A line as keys are sought in it.
+fn text_of(line: &str) -> String {
+    uncommented(line).0.trim_start_matches([';', '"', '*', ' ']).to_lowercase().replace('_', " ")
+}
+
 fn step_of(line: &str) -> Option<f64> {
-    let text = uncommented(line).0.trim_start_matches([';', '"', '*', ' ']).to_lowercase();
+    let text = text_of(line);
     let key = |keys: &str| {
         let ends = |rest: &&str| rest.starts_with(|c: char| !c.is_alphanumeric() && c != '_');
         keys.split(", ").filter_map(|key| text.strip_prefix(key)).find(ends).map(str::to_owned)
@@ -188,8 +211,8 @@ pub(super) fn axes(lines: &[String]) -> Option<[String; 2]> {
 /// The units of time and acceleration that lines such as `Units: g` and `Time unit: ms` tell; empty where one is not told.
 pub(super) fn units(lines: &[String]) -> Option<[String; 2]> {
     const KEYS: &str = "\
-        unit, units, einheit, acceleration unit, acceleration units, unit of acceleration, units of acceleration, \
-        time unit, time units";
+        unit, units, unitname, einheit, acceleration unit, acceleration units, unit of acceleration, units of acceleration, \
+        amplitude unit, time unit, time units, x-axis unit";
     let mut found = [String::new(), String::new()];
     for line in lines.iter().take(60) {
         let text = uncommented(line).0;
@@ -222,6 +245,11 @@ mod tests {
             ("Sample Interval,1.0e-04", Some(1e4)),
             ("dt [ms]=0.1", Some(1e4)),
             ("DT=   .0001 SEC", Some(1e4)),
+            ("SAMPLING_INTERVAL_S: 0.000100", Some(1e4)),
+            ("X-Axis delta:\t1.000000E-004", Some(1e4)),
+            ("Abtastrate: 10.000 Hz", None),
+            ("Sample rate: 10.000 kHz", Some(1e4)),
+            ("dt: 1.000 ms", Some(1e3)),
             ("Sample rate: 100 Hz, 200 Hz", None),
             ("interval of calibration: 12 months", None),
             ("fsk 12", None),

@@ -5,9 +5,10 @@ use std::borrow::Cow;
 use super::block::{Numbers, begin};
 use super::cells::{ARROW, Form};
 use super::head;
+use super::told::{self, Told};
 use crate::Error;
 use crate::heading::{Heading, Named, unbracketed};
-use crate::unit::Unit;
+use crate::unit::{Kind, Unit};
 
 /// The layout of a text, as its beginning tells it.
 #[derive(Debug, Default)]
@@ -22,6 +23,10 @@ pub(super) struct Layout {
     pub(super) sampled_s: Option<[f64; 2]>,
     /// Time between samples that a line above tells, and the number of the line, from 1.
     pub(super) told_s: Option<(f64, usize)>,
+    /// What else lines above tell of all numbers.
+    pub(super) told: Told,
+    /// A line whose rate may be read in two ways.
+    pub(super) unclear: Option<usize>,
     /// How many samples there are by a line above, from 1, that is one number.
     pub(super) count: Option<(usize, usize)>,
     /// Columns in which the unit stands behind each number.
@@ -89,6 +94,8 @@ impl Layout {
             form,
             begin,
             told_s: head::step(&lines[..begin]),
+            told: told::of(&lines[..begin], form),
+            unclear: lines[..begin].iter().position(|line| head::in_groups(line)),
             measured: found.measured.clone(),
             ..Self::default()
         };
@@ -98,6 +105,13 @@ impl Layout {
         for (column, heading) in layout.headings.iter_mut().enumerate() {
             heading.is_text = !found.columns.contains(&column);
         }
+        // Numbers that have a unit of their own have been calibrated.
+        if layout.told.unit.is_none()
+            || layout.headings.iter().any(|heading| heading.kind() == Some(Kind::Acceleration))
+        {
+            layout.told.slope = None;
+        }
+        layout.take_told(found.counts);
         layout.read_scope(lines);
         let first: Vec<Cow<'_, str>> = form.cells(&lines[begin]);
         for (column, heading) in layout.headings.iter_mut().enumerate() {
@@ -110,6 +124,38 @@ impl Layout {
             }
         }
         Ok(layout)
+    }
+
+    /// Takes names and units from the lines that tell them, for columns that have none, or for those behind the time, which may stand
+    /// behind the number of the row.
+    fn take_told(&mut self, counts: bool) {
+        let Told { names, units, .. } = &self.told;
+        let count = self.headings.len();
+        let first = count.saturating_sub(names.len());
+        if !self.named && !names.is_empty() && (first < 2 || first == 2 && counts) {
+            if let Some(time) = first.checked_sub(1) {
+                self.headings[time] = Heading { is_text: self.headings[time].is_text, ..Heading::of("time") };
+            }
+            for (heading, name) in self.headings[first..].iter_mut().zip(names) {
+                let told = Heading::of(name);
+                *heading = Heading {
+                    unit: told.unit.or(heading.unit),
+                    is_text: heading.is_text,
+                    spelled: told.spelled.or(heading.spelled.take()),
+                    ..told
+                };
+            }
+            self.named = true;
+        }
+        // One unit is that of all channels, by `read_scope`.
+        let first = count.saturating_sub(units.len());
+        if units.len() > 1 && first < 2 {
+            for (heading, unit) in
+                self.headings[first..].iter_mut().zip(units).filter(|(heading, _)| heading.spelled.is_none())
+            {
+                *heading = heading.clone().with_unit(unit);
+            }
+        }
     }
 
     /// Of a file whose settings stand beside the numbers.
@@ -214,6 +260,18 @@ impl Layout {
             if separator_line(text).is_some() {
                 continue;
             }
+            // Names one a line: the time, and below it a channel.
+            let other = |line: &String| Heading::of(uncommented(line).0);
+            if columns == 2
+                && names.is_none()
+                && self.form.separator.is_none()
+                && let Some(above) = number.checked_sub(1).map(|above| other(&lines[above]))
+                && above.is_time()
+                && above.name.to_lowercase().starts_with("time")
+            {
+                names = Some(vec![above, other(line)]);
+                break;
+            }
             let listed = text.split_once(':').filter(|(word, _)| {
                 ["unit", "units", "einheit", "einheiten"].contains(&word.trim().to_lowercase().as_str())
             });
@@ -288,14 +346,23 @@ impl Layout {
         let types = ["float64", "float32", "double", "single", "int16", "int32", "real", "float", "f64", "smp", "avg"];
         let is_type = |cell: &String| types.contains(&cell.to_lowercase().as_str());
         let is_number = |cell: &String| self.form.number(cell).is_some() || self.form.measured(cell).is_some();
+        // One cell of a key and its value names no column; of several it may be `Chart: a`.
+        let alone = cells.len() == 1;
         let is_labelled = |cell: &String| {
             let told = cell.split_once([':', '=']).map(|(_, told)| told.trim()).filter(|told| !told.is_empty());
-            told.is_some_and(|told| self.form.number(told).is_some() || self.form.measured(told).is_some())
+            told.is_some_and(|told| {
+                alone && !Heading::of(cell).is_telling()
+                    || self.form.number(told).is_some()
+                    || self.form.measured(told).is_some()
+            })
         };
         let is_rule = |cell: &String| cell.len() > 1 && cell.chars().all(|c| matches!(c, '-' | '+' | '=' | '_' | ':'));
         let filled = || cells.iter().filter(|cell| !cell.is_empty());
         let numbers = filled().filter(|cell| is_number(cell)).count();
-        filled().all(|cell| is_type(cell) || is_labelled(cell) || is_rule(cell))
+        // `Range=` and what stands behind it.
+        let is_key = cells.len() > 1 && cells[0].len() > 1 && cells[0].ends_with(['=', ':']);
+        is_key
+            || filled().all(|cell| is_type(cell) || is_labelled(cell) || is_rule(cell))
             || numbers > 0 && !filled().any(|cell| !is_number(cell) && Heading::of(cell).is_telling())
     }
 }

@@ -3,8 +3,16 @@
 use super::head;
 use crate::Error;
 
-/// So many lines of numbers make a record.
+/// So many lines of numbers make a record,
 const LEAST: usize = 2;
+/// and so many whose first numbers rise make sure that these are times.
+const SURE: usize = 8;
+
+/// The number that a line begins with.
+fn first_number(line: &[u8]) -> Option<f64> {
+    let (number, _) = crate::decimal::Decimal::scan(line.trim_ascii_start(), b'.')?;
+    Some(number.float())
+}
 
 /// The text of one record, from 1: all other lines empty, but for the heading of the first, whose names and units count where a
 /// record has none of its own. And how many lines were not empty before.
@@ -29,15 +37,33 @@ pub(super) fn only(text: &[u8], number: usize) -> Result<(Vec<u8>, usize), Error
     Ok((kept, hidden))
 }
 
-/// The lines of each record: from its heading to the heading of the next.
+/// The lines of each record: from its heading to the heading of the next, or to where its times begin again.
 fn parts(lines: &[&[u8]]) -> Vec<(usize, usize)> {
     let (mut begins, mut numbers, mut text) = (vec![0], 0, None);
+    // The first number of the record and of the line before, as long as they rise.
+    let mut rising: Option<(f64, f64)> = None;
     for (i, line) in lines.iter().enumerate() {
         if is_numbers(line) {
+            let first = first_number(line);
             numbers += 1;
+            if let (Some((begin, last)), Some(first)) = (rising, first)
+                && first.to_bits() == begin.to_bits()
+                && last > begin
+                && numbers > SURE
+                && text.is_none()
+            {
+                begins.push(i);
+                numbers = 1;
+            }
+            rising = match (rising.filter(|_| numbers > 1), first) {
+                (None, Some(first)) if numbers == 1 => Some((first, first)),
+                (Some((begin, last)), Some(first)) if first > last => Some((begin, first)),
+                _ => None,
+            };
             if let Some(begin) = text.take().filter(|_| numbers > LEAST) {
                 begins.push(begin);
                 numbers = 1;
+                rising = first_number(line).map(|first| (first, first));
             }
         } else if !line.trim_ascii().is_empty() && text.is_none() && numbers >= LEAST {
             text = Some(i);
@@ -60,6 +86,14 @@ fn is_numbers(line: &[u8]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn times_that_begin_again_are_another_record() {
+        let times = || (0..10).map(|k| format!("{}.5,{k}\n", k - 3));
+        let text = format!("Segments,2\nt,a\n{}{}", times().collect::<String>(), times().collect::<String>());
+        let lines: Vec<&[u8]> = text.as_bytes().split(|byte| *byte == b'\n').collect();
+        assert_eq!(parts(&lines), [(0, 12), (12, 23)]);
+    }
 
     #[test]
     fn each_record_below_its_heading() {

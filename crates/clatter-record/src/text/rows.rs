@@ -12,9 +12,10 @@ use crate::account::Lines;
 use crate::decimal::Decimal;
 use crate::error::Bad;
 use crate::moment::{CLOCK, DAY_S};
-use crate::roles::Roles;
+use crate::roles::{Role, Roles};
 use crate::times::Printed;
 use crate::{At, Error, Options};
+use clatter_shock::samples::float;
 use row::Row;
 pub(super) use shape::Shape;
 
@@ -30,6 +31,8 @@ enum Use {
     Checked,
     /// The date of a time of day.
     Date,
+    /// The fraction of a second.
+    Fraction,
     /// A word that has to be the same in every line.
     Word(usize),
     Acceleration(usize),
@@ -53,6 +56,8 @@ pub(crate) struct Rows {
     row: Vec<f64>,
     time: Option<Decimal>,
     day: Option<Decimal>,
+    fraction: Option<Decimal>,
+    first_fraction: Option<Decimal>,
     first_time: Option<Decimal>,
     first_day: Option<Decimal>,
     /// The first date of which day and month may be either.
@@ -63,6 +68,8 @@ pub(crate) struct Rows {
     text: Bad,
     /// The first of them that is a heading.
     heading: Option<usize>,
+    /// The last time above a heading that came again.
+    again: Option<f64>,
     /// The last empty line, and how many there are between lines of numbers.
     empty: Option<usize>,
     breaks: (usize, usize),
@@ -91,6 +98,7 @@ impl Rows {
         let mut used: Vec<(usize, Use)> =
             shape.words.iter().enumerate().map(|(i, word)| (word.column, Use::Word(i))).collect();
         used.extend(shape.date.map(|column| (column, Use::Date)));
+        used.extend(shape.fraction.map(|(column, _)| (column, Use::Fraction)));
         used.extend(roles.checked.map(|(column, _)| (column, Use::Checked)));
         used.extend(roles.time.map(|(column, _)| (column, Use::Time)));
         used.extend(roles.channels.iter().enumerate().map(|(k, role)| (role.column, Use::Acceleration(k))));
@@ -155,7 +163,11 @@ impl Rows {
     pub(crate) fn below(&self) -> &Bad {
         &self.text
     }
-    /// Time between samples that a line above the numbers tells, and the line, where there are times as well.
+    /// Time between samples that a line above the numbers tells, and the line.
+    pub(crate) fn rate(&self) -> Option<(f64, usize)> {
+        self.shape.told
+    }
+    /// The same where there are times as well.
     pub(crate) fn told(&self) -> Option<(f64, usize)> {
         self.shape.told.filter(|_| !self.times.is_empty())
     }
@@ -228,6 +240,11 @@ impl Rows {
                     self.line
                 )));
             }
+            if self.again.is_none() && self.text.count == 0 && self.shape.heading.as_deref() == Some(text) {
+                self.again = Some(self.times.last().copied().unwrap_or(f64::INFINITY));
+                self.lines.heading += 1;
+                return Ok(());
+            }
             if self.heading.is_none() && Self::is_heading(&cells) {
                 self.heading = Some(self.line);
             }
@@ -236,6 +253,15 @@ impl Rows {
         }
         let is_used = |column: &usize| !matches!(self.uses[*column], Use::Nothing);
         let is_empty = |column: usize| cells.get(column).is_none_or(|cell| cell.is_empty() || is_missing(cell));
+        let is_channel = |column: &usize| matches!(self.uses[*column], Use::Acceleration(_));
+        if self.shape.by_other && (0..self.uses.len()).filter(is_channel).all(is_empty) {
+            let others = (0..self.shape.columns)
+                .filter(|column| self.uses.get(*column).is_none_or(|use_of| matches!(use_of, Use::Nothing)));
+            if others.into_iter().any(|column| cells.get(column).is_some_and(|cell| form.number(cell).is_some())) {
+                self.lines.others += 1;
+                return Ok(());
+            }
+        }
         if self.ends_early && (0..self.uses.len()).filter(is_used).all(is_empty) {
             // Without times a number that follows would be of another one.
             if self.uses.iter().any(|use_of| matches!(use_of, Use::Time)) {
@@ -288,6 +314,7 @@ impl Rows {
 
     /// Checks that all lines that were read go together.
     pub(super) fn close(&mut self) -> Result<(), Error> {
+        self.drop_counts();
         let has_point = self.digits.iter().any(Digits::has_point);
         for (k, digits) in self.digits.iter().enumerate() {
             let values = k.checked_sub(1).map(|k| (&mut self.channels[k], self.sizes[k]));
@@ -313,6 +340,26 @@ impl Rows {
         self.lines.bad = self.bad.count;
         self.lines.all = self.line;
         Ok(())
+    }
+
+    /// Leaves out a first line that says of each channel how many samples follow.
+    fn drop_counts(&mut self) {
+        let samples = self.channels[0].len();
+        let is_count =
+            |(channel, size): (&Vec<f64>, &f64)| channel[0].to_bits() == (float(samples - 1) * size).to_bits();
+        if samples < 3 || !self.times.is_empty() || !self.channels.iter().zip(&self.sizes).all(is_count) {
+            return;
+        }
+        for channel in &mut self.channels {
+            channel.remove(0);
+        }
+        let first = self.numbering.first().map(|(_, at)| at.after(1));
+        self.numbering = first
+            .into_iter()
+            .map(|at| (0, at))
+            .chain(self.numbering.iter().skip(1).map(|(sample, at)| (sample - 1, *at)))
+            .collect();
+        (self.lines.rows, self.lines.heading) = (self.lines.rows - 1, self.lines.heading + 1);
     }
 
     /// Notes a row at the time of the one before whose line is the same.
@@ -353,8 +400,17 @@ impl Rows {
                 self.days_s += DAY_S;
                 since_s += DAY_S;
             }
+            let mut printed = time;
+            if let Some((fraction, (_, size))) = self.fraction.zip(self.shape.fraction) {
+                since_s += fraction.above(*self.first_fraction.get_or_insert(fraction)) * size;
+                // As exact as the fraction is, wherever the seconds are.
+                printed = Decimal { digits: CLOCK, ..fraction };
+            }
+            if self.again.take().is_some_and(|last| since_s <= last) {
+                return Err(self.another_record(self.line - 1));
+            }
             self.times.push(since_s);
-            self.printed.note(time);
+            self.printed.note(printed);
         }
         for (channel, value) in self.channels.iter_mut().zip(&self.row) {
             channel.push(*value);
@@ -365,12 +421,14 @@ impl Rows {
         Ok(())
     }
 
+    fn another_record(&self, line: usize) -> Error {
+        Error::Records(format!("line {line} begins another record: --record=1 reads the first, --record=2 the next"))
+    }
+
     /// Numbers follow on lines of text: those are no footer, or another record begins.
     fn go_on(&mut self) -> Result<(), Error> {
         if let Some(line) = self.heading.take().filter(|_| !self.skip_bad && !self.channels[0].is_empty()) {
-            return Err(Error::Records(format!(
-                "line {line} begins another record: --record=1 reads the first, --record=2 the next"
-            )));
+            return Err(self.another_record(line));
         }
         let text = std::mem::take(&mut self.text);
         for (at, what) in &text.first {
@@ -382,10 +440,21 @@ impl Rows {
 
     /// Time of the first sample in seconds.
     pub(crate) fn start_s(&self) -> f64 {
-        self.first_time.map_or(0.0, |time| time.float() * self.time_size)
+        let fraction =
+            self.first_fraction.zip(self.shape.fraction).map_or(0.0, |(part, (_, size))| part.float() * size);
+        self.first_time.map_or(0.0, |time| time.float() * self.time_size) + fraction
     }
-    /// The size of the unit of time, in seconds.
+    /// The size of the unit of time in which its last digit is, in seconds.
     pub(crate) fn time_size(&self) -> f64 {
-        self.time_size
+        self.shape.fraction.map_or(self.time_size, |(_, size)| size)
+    }
+    /// What lines above the numbers tell that does not go with them.
+    pub(crate) fn against_told(&self, channels: &[Role]) -> Vec<String> {
+        let own: Vec<_> = channels.iter().map(|role| (role.name.clone(), role.unit.clone())).collect();
+        self.shape.all.against(self.lines.rows + self.lines.bad, &own)
+    }
+    /// The slope and the offset by which numbers without a unit of their own become accelerations, and the line that tells them.
+    pub(crate) fn slope(&self) -> Option<([f64; 2], usize)> {
+        self.shape.all.slope
     }
 }

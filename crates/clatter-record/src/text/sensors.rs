@@ -64,6 +64,14 @@ pub(super) fn words(layout: &Layout, rows: &[Vec<Cow<'_, str>>], options: &Optio
             }
             continue;
         }
+        let is_keyed = |cell: &&str| cell.split_once('=').is_some_and(|(_, value)| layout.form.number(value).is_some());
+        if all.iter().all(is_keyed) {
+            return Err(Error::Columns(format!(
+                "the numbers of column {} stand behind their names, as in '{}': write them alone, below a line of the names",
+                column + 1,
+                visible(first)
+            )));
+        }
         if all.len() > 1 {
             let name = heading.shown();
             let called = if name.is_empty() { String::new() } else { format!(" ({name})") };

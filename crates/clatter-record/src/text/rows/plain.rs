@@ -50,6 +50,8 @@ impl Rows {
                         return None;
                     }
                     self.row.push(value);
+                } else if let Use::Fraction = use_of {
+                    self.fraction = Some(number);
                 } else {
                     if self.open {
                         self.open = !self.digits[0].note(number, self.times.len());

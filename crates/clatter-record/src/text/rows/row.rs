@@ -54,7 +54,7 @@ impl Rows {
     fn called(&self, column: usize) -> String {
         match self.uses[column] {
             Use::Acceleration(k) => format!("column {} ({})", column + 1, visible(&self.names[k])),
-            Use::Time | Use::Checked => format!("column {} (time)", column + 1),
+            Use::Time | Use::Checked | Use::Fraction => format!("column {} (time)", column + 1),
             _ => format!("column {}", column + 1),
         }
     }
@@ -94,7 +94,7 @@ impl Rows {
             let (number, unit) = form.measured(cell)?;
             Some((number, Some(unit)))
         });
-        let is_used = |number: &Decimal| number.float().is_finite() || !matches!(use_of, Use::Time);
+        let is_used = |number: &Decimal| number.float().is_finite() || !matches!(use_of, Use::Time | Use::Fraction);
         let Some((number, unit)) = found.filter(|(number, _)| is_used(number)) else {
             let called = self.called(column);
             return match use_of {
@@ -111,6 +111,10 @@ impl Rows {
             Use::Date => {
                 self.day = Some(number);
                 self.date_of(cell)
+            }
+            Use::Fraction => {
+                self.fraction = Some(number);
+                None
             }
             Use::Acceleration(k) => self.acceleration(cell, number, unit, column, k),
             _ => self.time_of(cell, number, unit, column),
@@ -220,7 +224,7 @@ impl Rows {
     /// Returns whether a text is a heading by which a column goes on in another unit.
     pub(super) fn is_other_unit(&self, cell: &str, use_of: Use) -> bool {
         let (kind, size) = match use_of {
-            Use::Nothing | Use::Word(_) | Use::Date => return false,
+            Use::Nothing | Use::Word(_) | Use::Date | Use::Fraction => return false,
             Use::Time | Use::Checked => (Kind::Time, self.time_size),
             Use::Acceleration(k) => (Kind::Acceleration, self.sizes[k]),
         };

@@ -3,6 +3,7 @@
 use crate::text::cells::Form;
 use crate::text::encoding::Letters;
 use crate::text::sensors::Word;
+use crate::text::told::Told;
 
 /// The form of the lines of numbers.
 #[derive(Debug, Clone, Default)]
@@ -15,6 +16,14 @@ pub(in crate::text) struct Shape {
     pub(in crate::text) sampled_s: Option<[f64; 2]>,
     /// Time between samples that a line above tells, and the line.
     pub(in crate::text) told: Option<(f64, usize)>,
+    /// What else lines above tell.
+    pub(in crate::text) all: Told,
+    /// The line right above the numbers, where it names the columns: it may come again.
+    pub(in crate::text) heading: Option<String>,
+    /// The column of the fraction of a second, beside one of seconds, and the size of its unit.
+    pub(in crate::text) fraction: Option<(usize, f64)>,
+    /// Tells whether some channels were asked for, so that lines without a number of these are of others.
+    pub(in crate::text) by_other: bool,
     /// How many samples there are by a line above, and the line.
     pub(in crate::text) count: Option<(usize, usize)>,
     /// Columns in which a unit stands behind each number.

@@ -1,0 +1,149 @@
+//! What the lines above the numbers tell of all of them, a key and its value each: it is used, or held against the numbers.
+
+use super::cells::Form;
+use super::layout::uncommented;
+use crate::unit::{Kind, Unit};
+
+/// What the lines above the numbers tell; each with its line, from 1, where a message names it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Told {
+    /// How many samples there are.
+    pub(super) samples: Option<(usize, usize)>,
+    /// Time of the first sample, in seconds.
+    pub(super) start_s: f64,
+    /// Names of channels, or of all columns.
+    pub(super) names: Vec<String>,
+    /// Their units, by a list of as many.
+    pub(super) units: Vec<String>,
+    /// The unit of acceleration that is told for all.
+    pub(super) unit: Option<(String, usize)>,
+    /// The slope and the offset of a calibration, for numbers without a unit of their own, and the line.
+    pub(super) slope: Option<([f64; 2], usize)>,
+    /// Lines that tell a factor or an offset, of which nobody knows whether the numbers have it.
+    pub(super) scales: Vec<(String, usize)>,
+}
+
+const SAMPLES: &str = "\
+    number of samples, total samples, samples, sample count, no of samples, n samples, ndata, npts, number of points, \
+    points, data points, #pts, rows, record length, anzahl, anzahl werte, anzahl messwerte";
+const STARTS: &str = "time of first sample, x-axis offset, start time, t0, first sample time";
+const NAMES: &str = "\
+    channeltitle, channel title, channel titles, name of the channel, channel name, channel names, signal, signals";
+const UNITS: &str = "unit, units, unitname, unit name, einheit, acceleration unit, amplitude unit";
+const SCALES: &str = "\
+    slope, scale, scale factor, scaling factor, calibration factor, cal factor, gain, multiplier, sensitivity, offset, \
+    zero offset, intercept";
+
+/// The key of a line and what stands behind it.
+fn key_and_value(line: &str) -> Option<(String, &str)> {
+    let (text, _) = uncommented(line);
+    let text = text.trim_start_matches([';', '*', '"', ' ']);
+    let (key, value) = text.split_once([':', '=', '\t', ',', ';'])?;
+    let key = key.trim().trim_matches('"').replace('_', " ").to_lowercase();
+    Some((key, value.trim_start_matches([':', '=', '\t', ',', ';', ' ']).trim_end()))
+}
+
+/// Of lines above numbers.
+pub(super) fn of(lines: &[String], form: Form) -> Told {
+    let (mut told, mut offset) = (Told::default(), 0.0);
+    for (i, line) in lines.iter().enumerate() {
+        let Some((key, value)) = key_and_value(line) else { continue };
+        let is = |keys: &str| keys.split(", ").any(|other| other == key);
+        let number = || {
+            value.split(|c: char| c.is_whitespace() || matches!(c, ';' | '"')).find_map(|word| word.parse::<f64>().ok())
+        };
+        let listed = || -> Vec<String> {
+            let separator = form.separator.map_or('\t', char::from);
+            let cells = value.split(separator).map(|cell| cell.trim().trim_matches('"').to_owned());
+            cells.filter(|cell| !cell.is_empty()).collect()
+        };
+        if is(SAMPLES) {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "it is whole and in this range"
+            )]
+            let count = number().filter(|n| n.fract() == 0.0 && (1.0..1e12).contains(n)).map(|n| n as usize);
+            told.samples = told.samples.or_else(|| Some((count?, i + 1)));
+        } else if is(STARTS) {
+            told.start_s = value.parse().unwrap_or(told.start_s);
+        } else if is(NAMES) && told.names.is_empty() {
+            told.names = listed();
+        } else if is(UNITS) {
+            let all = listed();
+            let of = |unit: &String| Unit::of_kind(unit, Kind::Acceleration);
+            if let [unit, ..] = &all[..]
+                && of(unit).is_some()
+                && told.unit.is_none()
+            {
+                told.unit = all.iter().all(|other| of(other) == of(unit)).then(|| (unit.clone(), i + 1));
+                told.units = all;
+            }
+        } else if is(SCALES)
+            && let Some(value) = number()
+        {
+            match &key[..] {
+                "slope" => told.slope = told.slope.or(Some(([value, 0.0], i + 1))),
+                "offset" => offset = value,
+                _ => {}
+            }
+            let is_offset = key.ends_with("offset") || key == "intercept";
+            if value.to_bits() != (if is_offset { 0.0_f64 } else { 1.0 }).to_bits() {
+                told.scales.push((uncommented(line).0.trim_end().to_owned(), i + 1));
+            }
+        }
+    }
+    told.slope = told.slope.map(|([slope, _], line)| ([slope, offset], line));
+    told
+}
+
+impl Told {
+    /// Returns what does not go with the numbers that are read: so many rows, and channels in these units of their own.
+    pub(super) fn against(&self, rows: usize, own: &[(String, String)]) -> Vec<String> {
+        let mut found = Vec::new();
+        if let Some((samples, line)) = self.samples.filter(|(samples, _)| *samples != rows) {
+            found.push(format!("line {line} tells of {samples} samples, and there are {rows}"));
+        }
+        if let Some((unit, line)) = &self.unit {
+            let differs = |(_, spelled): &&(String, String)| {
+                let kind = Kind::Acceleration;
+                Unit::of_kind(spelled, kind).zip(Unit::of_kind(unit, kind)).is_some_and(|(a, b)| a != b)
+            };
+            if let Some((name, spelled)) = own.iter().find(differs) {
+                found.push(format!("{name} is in {spelled} by its heading, and in {unit} by line {line}"));
+            }
+        }
+        if self.slope.is_none() {
+            let told = |(text, line): &(String, usize)| {
+                format!("line {line} tells '{}', and the numbers are taken as they are", super::visible(text))
+            };
+            found.extend(self.scales.iter().map(told));
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_a_key_and_a_value() {
+        let lines = "# Total Samples: 600\nTime of first sample :-0.002\nChannelTitle=\tDeck\tRim\nUnitName=\tg\tg\nSlope,0.01\nOffset,0\nGain: 1\nStart time: 10:11:12"
+            .split('\n')
+            .map(str::to_owned)
+            .collect::<Vec<_>>();
+        let told = of(&lines, Form::new(Some(b'\t'), b'.'));
+        let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        let right = Told {
+            samples: Some((600, 1)),
+            start_s: -0.002,
+            names: names(&["Deck", "Rim"]),
+            units: names(&["g", "g"]),
+            unit: Some(("g".to_owned(), 4)),
+            slope: Some(([0.01, 0.0], 5)),
+            scales: vec![("Slope,0.01".to_owned(), 5)],
+        };
+        assert_eq!(told, right);
+    }
+}
