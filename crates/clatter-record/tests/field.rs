@@ -17,6 +17,8 @@ fn options(arguments: &Value) -> Options {
             "--sample-rate" => options.sample_rate_hz = Some(value.parse().expect(value)),
             "--time" => options.time = value.parse().ok(),
             "--acceleration" => options.accelerations.push(value.parse().expect(value)),
+            "--sensitivity" => options.sensitivity_v_s2_m = clatter_record::sensitivity(value).ok(),
+            "--record" => options.record = value.parse().ok(),
             "--skip-bad" => options.skip_bad = true,
             _ => panic!("{key}"),
         }
@@ -67,6 +69,50 @@ fn files_of_the_field() {
             let _ = writeln!(faults, "{name} {}: {fault}", one["args"]);
         }
     }
-    assert!(count > 60, "{count} files");
+    assert!(count > 110, "{count} files");
     assert!(faults.is_empty(), "of {count} files:\n{faults}");
+}
+
+/// What a file says and the numbers do not is told, by a word that names it, or refuses the file.
+#[test]
+fn what_does_not_go_together_is_told() {
+    let of = |name: &str, arguments: &[&str]| {
+        let bytes = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/field").join(name)).expect(name);
+        Record::read(&bytes[..], &options(&serde_json::json!(arguments)), |_| ())
+    };
+    for (name, arguments, word) in [
+        ("dyna.asc", &["--sample-rate=200"][..], "line 6 tells 10000 Hz, and the rate that is given is 200 Hz"),
+        ("total600.csv", &[], "line 1 tells of 600 samples, and there are 300"),
+        ("unit_conflict.csv", &[], "acc is in m/s2 by its heading, and in g by line 1"),
+        ("scale_head.csv", &[], "line 1 tells 'Scale factor: 9.80665', and the numbers are taken as they are"),
+        ("calib_head.csv", &[], "the numbers are taken times 0.01, plus 0, as line 3 tells"),
+        ("unit_first.csv", &[], "Frame"),
+        ("sent_m99999.csv", &[], "it may stand for no value"),
+        ("sent_1e20.csv", &[], "it may stand for no value"),
+        ("gaps.csv", &[], "samples are missing"),
+    ] {
+        let record = of(name, arguments).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let findings: Vec<String> = record.findings(10.0).iter().map(ToString::to_string).collect();
+        assert!(findings.iter().any(|finding| finding.contains(word)), "{name}: {findings:?}");
+    }
+    for (name, arguments, word) in [
+        ("excel_serial.csv", &["--units=s,g"][..], "days of a spreadsheet"),
+        ("en_rate_dot.csv", &[], "10.000 Hz"),
+        ("keyed.txt", &["--units=us,g"], "'x=0.0000'"),
+        ("row125.csv", &["--units=s,mg"], "hardly"),
+    ] {
+        let error = of(name, arguments).expect_err(name).to_string();
+        assert!(error.contains(word), "{name}: {error}");
+    }
+    let names =
+        |name: &str| of(name, &[]).expect(name).channels().iter().map(|one| one.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names("labchart.txt"), ["Deck", "Rim"]);
+    assert_eq!(names("start.001"), ["Rim acceleration X"]);
+    let start_s = of("start.001", &[]).expect("a record").channels()[0].times().start_s();
+    assert!((start_s + 0.002).abs() < 1e-15, "{start_s}");
+    let halves = of("xy_half.csv", &["--units=s,g"]).expect("a record");
+    let steps: Vec<f64> = halves.channels().iter().filter_map(|one| one.times().step_s()).collect();
+    assert!(matches!(steps[..], [a, b] if (a - 1e-4).abs() < 1e-12 && (b - 5e-5).abs() < 1e-12), "{steps:?}");
+    let summed = of("resultant1.csv", &[]).expect("a record");
+    assert!(summed.channels().iter().all(|one| one.name != "Vector sum" || one.is_resultant()));
 }
