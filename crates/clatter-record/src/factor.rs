@@ -52,7 +52,7 @@ pub(crate) fn beside(name: &str) -> Option<String> {
     let is_number = |word: &str| {
         word.starts_with(|c: char| c.is_ascii_digit() || c == '.') && word.replace(',', ".").parse::<f64>().is_ok()
     };
-    let is_sign = |word: &str| word.chars().all(|c| SIGNS.contains(&c) || matches!(c, '/' | '÷'));
+    let is_sign = |word: &str| word.chars().all(|c| SIGNS.contains(&c) || matches!(c, '/' | '÷' | '+'));
     for (i, word) in words.iter().enumerate() {
         let (before, next) = (i.checked_sub(1).map(|before| words[before]), words.get(i + 1).copied());
         let signed = word.strip_prefix(['-', '−', '+', '*', '×', '·', '⋅', '/', '÷', '^']).is_some_and(is_number);
@@ -64,8 +64,14 @@ pub(crate) fn beside(name: &str) -> Option<String> {
         let glued = led.len() < word.len() && is_number(led) && is_factor_word(&word[..word.len() - led.len()]);
         let times = word.strip_suffix(SIGNS).is_some_and(is_number) && i == 0 && next.is_some();
         let percent = word.trim_end_matches(['%', '‰']);
-        let found = percent.len() < word.len()
-            && (is_number(percent) || percent.is_empty() && before.is_some_and(is_number))
+        let is_percent = percent.len() < word.len() && (is_number(percent) || percent.is_empty());
+        let marked = word.strip_prefix('x').is_some_and(is_number) && before.is_some_and(is_factor_word);
+        let leads = i == 0 && word.contains('.') && is_number(word) && next.is_some();
+        let is_sensitivity = word.ends_with("v/g") || word.ends_with("c/g");
+        let found = is_percent
+            || marked
+            || leads
+            || is_sensitivity
             || before.is_some() && (signed || power)
             || glued
             || times
@@ -83,7 +89,8 @@ pub(crate) fn beside(name: &str) -> Option<String> {
 /// Returns whether a sign of arithmetic stands beside a number within a word: `10*acc`, `acc*10`, `a+1g`, `acc/9.81`, and not `run/3`.
 fn is_inside(word: &str) -> bool {
     let behind = word.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
-    if behind.len() < word.len() && behind.starts_with(['*', '×', '·', '⋅']) {
+    let over = behind.strip_prefix('/').is_some_and(|name| name.starts_with(char::is_alphabetic));
+    if behind.len() < word.len() && (over || behind.starts_with(['*', '×', '·', '⋅'])) {
         return true;
     }
     word.char_indices().skip(1).any(|(at, c)| {
@@ -93,7 +100,7 @@ fn is_inside(word: &str) -> bool {
         let round = plain.strip_prefix('1').is_some_and(|zeros| !zeros.is_empty() && zeros.bytes().all(|c| c == b'0'));
         match c {
             '*' | '×' | '·' | '⋅' | '÷' | '+' | '^' => number,
-            '/' => number && (plain.contains(['.', ',']) || round),
+            '/' => number && (plain.contains(['.', ',']) || round || word.starts_with("acc")),
             _ => false,
         }
     })
@@ -147,6 +154,9 @@ pub(crate) fn before(text: &str) -> Prefixed<'_> {
         };
     };
     let beside = Prefixed { name: name.trim(), factor, refused: None };
+    if name.ends_with(SIGNS) && !name.ends_with(['x', 'X']) {
+        return Prefixed { name, factor: 1.0, refused: Some(end) };
+    }
     if !end.starts_with(['x', 'X']) {
         return beside;
     }
@@ -210,6 +220,7 @@ mod tests {
             "acc x",
             "2 x",
             "sensor 12.5 mm",
+            "acc - 1",
         ] {
             assert_eq!(beside(name), None, "{name}");
         }

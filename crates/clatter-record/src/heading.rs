@@ -97,7 +97,7 @@ impl Heading {
         if words.is_empty() {
             return Named::Index;
         }
-        if let Some(coded) = coded(&name) {
+        if let Some(coded) = coded(&self.name) {
             return coded;
         }
         // A magnetic one, but for `field.acceleration.x`.
@@ -214,9 +214,9 @@ impl Heading {
 
 /// Returns what a channel code of ISO 13499 is of, by its 13th and 14th place; none of another name.
 fn coded(name: &str) -> Option<Named> {
-    let is_code = name.len() == 16 && name.starts_with(|c: char| c.is_ascii_digit());
-    let what = name.get(12..14).filter(|_| is_code && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'?'))?;
-    match what {
+    let is_code = |c: u8| c.is_ascii_uppercase() || c.is_ascii_digit() || c == b'?';
+    let what = name.get(12..14).filter(|_| name.len() == 16 && name.bytes().all(is_code))?.to_lowercase();
+    match &what[..] {
         "ac" => Some(Named::Acceleration),
         what => lists(CODED, what).then_some(Named::Other),
     }

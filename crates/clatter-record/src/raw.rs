@@ -113,15 +113,17 @@ impl Raw {
         Ok(Record { channels, read: self.found, account: None })
     }
 
-    /// Refuses days since 1900, as spreadsheets keep dates, that are read as seconds: a few parts of a day after 20 000 of them.
+    /// Refuses days since 1900, since the year 0 or since 4713 BC, as programs keep dates, that are read as seconds: parts of a day after
+    /// very many.
     fn refuse_dates(&self) -> Result<(), Error> {
         let (span_s, count) = (self.since_s.last().copied().unwrap_or(0.0), float(self.since_s.len().max(2) - 1));
-        let is_date = self.unit_s == 1.0 && (2e4..8e4).contains(&self.start_s) && span_s > 0.0 && span_s < 1e-6 * count;
+        let is_day = [2e4..8e4, 7e5..8e5, 2.4e6..2.5e6].iter().any(|days| days.contains(&self.start_s));
+        let is_date = self.unit_s == 1.0 && is_day && span_s > 0.0 && span_s < 1e-6 * count;
         if !is_date {
             return Ok(());
         }
         Err(Error::Columns(format!(
-            "times from {} on, {:.3e} apart, are days of a spreadsheet and not seconds: --units=d and that of the acceleration",
+            "times from {} on, {:.3e} apart, are days, as spreadsheets count them, and not seconds: --units=d and that of the acceleration",
             self.start_s,
             span_s / count
         )))

@@ -143,6 +143,9 @@ impl Preview {
         if !self.named {
             return self.time_by_place(none);
         }
+        if let Some((whole, ..)) = self.fraction().filter(|_| !none) {
+            return Ok(Some(whole));
+        }
         let is_named = |heading: &Heading| heading.named() == Named::Time;
         let is_unit = |heading: &Heading| heading.kind() == Some(Kind::Time);
         let fits = |heading: &Heading| matches!(heading.kind(), None | Some(Kind::Time));
@@ -179,6 +182,27 @@ impl Preview {
                 self.all()
             ))),
         }
+    }
+
+    /// A column of whole seconds, or of a clock without their fraction, and one of the fraction beside it, with the size of its unit: both
+    /// are one time.
+    pub(crate) fn fraction(&self) -> Option<(usize, usize, f64)> {
+        let size =
+            |column: usize| self.headings[column].unit.filter(|unit| unit.kind == Kind::Time).map(|unit| unit.size);
+        let all =
+            |column: usize, is: &dyn Fn(f64) -> bool| self.numbers(column).count() > 1 && self.numbers(column).all(is);
+        let columns = || 0..self.headings.len();
+        // A date alone is none.
+        let is_number = |column: usize| {
+            self.cells.get(column).is_some_and(|cell| cell.contains(':') || cell.parse::<f64>().is_ok())
+        };
+        let is_whole = |column: usize| size(column) == Some(1.0) && all(column, &|number| number.fract() == 0.0);
+        let whole = columns().find(|column| is_number(*column) && is_whole(*column))?;
+        let part = columns().find(|column| {
+            let below = |size: f64| size < 1.0 && all(*column, &|number| (0.0..1.0).contains(&(number * size)));
+            size(*column).is_some_and(below) && self.numbers(*column).any(|number| number != 0.0)
+        })?;
+        Some((whole, part, size(part)?))
     }
 
     /// Takes the unit of times that have none from the time between samples that the file tells.
@@ -252,6 +276,16 @@ impl Preview {
         is_open && before_values() && self.rises_evenly(column)
     }
 
+    /// Returns whether a column of which nothing is known rises by just as much as the times do.
+    fn rises_with(&self, column: usize, time: Option<usize>) -> bool {
+        let heading = &self.headings[column];
+        let is_open = heading.unit.is_none() && heading.named() == Named::Unknown && !heading.is_text;
+        let same = |(own, span): (f64, f64)| (own / span - 1.0).abs() < 1e-6;
+        is_open
+            && self.rises_evenly(column)
+            && time.is_some_and(|time| self.span(column).zip(self.span(time)).is_some_and(same))
+    }
+
     /// Returns whether the first rows of a column rise by steps that are all alike, and are enough to tell.
     fn rises_evenly(&self, column: usize) -> bool {
         /// Rows that tell a time from a signal that rises.
@@ -291,7 +325,9 @@ impl Preview {
             return options.accelerations.iter().map(|pick| self.picked(pick, "acceleration")).collect();
         }
         // Times of other channels are none.
-        let is_time = |column: usize| Some(column) == time || self.named && self.is_time(column);
+        let is_time = |column: usize| {
+            Some(column) == time || self.named && (self.is_time(column) || self.rises_with(column, time))
+        };
         let rest: Vec<usize> = (0..self.headings.len()).filter(|column| !is_time(*column)).collect();
         if !self.named {
             self.refuse_unclear(time)?;

@@ -21,7 +21,6 @@ use std::io::Read;
 use crate::error::Bad;
 use crate::heading::Heading;
 use crate::roles::{Preview, Roles};
-use crate::unit::Kind;
 use crate::{At, Error, Options};
 use encoding::Letters;
 use layout::Layout;
@@ -208,7 +207,7 @@ fn shape(
         form.number(cell).or_else(|| Some(form.measured(cell)?.0)).map_or(f64::NAN, crate::decimal::Decimal::float)
     };
     // A rate that is told stands for times that are not there.
-    let told_s = layout.told_s.map(|(step_s, _)| [layout.told.start_s, step_s]);
+    let told_s = layout.told_s.map(|(step_s, _)| [layout.told.start_s.map_or(0.0, |(start_s, _)| start_s), step_s]);
     let named = layout.named.then(|| lines[..layout.begin].iter().rev().find(|line| !line.trim().is_empty())).flatten();
     let mut seen = Preview {
         headings: layout.headings,
@@ -231,15 +230,14 @@ fn shape(
         )),
         _ => error,
     })?;
-    let fraction = fraction(&seen, &parts, options);
-    if let Some((whole, column, _)) = fraction {
+    let fraction = if options.time.is_none() { seen.fraction() } else { None };
+    let is_one = |whole: usize| matches!(&parts[..], [roles] if roles.time == Some((whole, 1.0)));
+    let fraction = fraction.filter(|(whole, ..)| is_one(*whole));
+    if let Some((_, column, _)) = fraction {
+        let called = seen.called(column);
         for roles in &mut parts {
-            roles.time = Some((whole, 1.0));
-            for column in [whole, column] {
-                let called = seen.called(column);
-                roles.left_out.retain(|other| *other != called);
-                "time".clone_into(&mut roles.columns[column].1);
-            }
+            roles.left_out.retain(|other| *other != called);
+            "time".clone_into(&mut roles.columns[column].1);
         }
     }
     let date = parts.iter().find_map(|roles| sensors::date(&seen, roles, form));
@@ -270,29 +268,6 @@ fn shape(
         words,
     };
     Ok((shape, parts))
-}
-
-/// A column of whole seconds, or of a clock without them, and one of the fraction of the second beside it with the size of its unit: both
-/// are one time.
-fn fraction(seen: &Preview, parts: &[Roles], options: &Options) -> Option<(usize, usize, f64)> {
-    let [roles] = parts else { return None };
-    if options.time.is_some() || roles.time.is_none() {
-        return None;
-    }
-    let size = |column: usize| seen.headings[column].unit.filter(|unit| unit.kind == Kind::Time).map(|unit| unit.size);
-    let all =
-        |column: usize, is: &dyn Fn(f64) -> bool| seen.numbers(column).count() > 1 && seen.numbers(column).all(is);
-    let columns = || 0..seen.headings.len();
-    // A date alone is none.
-    let is_number =
-        |column: usize| seen.cells.get(column).is_some_and(|cell| cell.contains(':') || cell.parse::<f64>().is_ok());
-    let is_whole = |column: usize| size(column) == Some(1.0) && all(column, &|number| number.fract() == 0.0);
-    let whole = columns().find(|column| is_number(*column) && is_whole(*column))?;
-    let part = columns().find(|column| {
-        let below = |size: f64| size < 1.0 && all(*column, &|number| (0.0..1.0).contains(&(number * size)));
-        size(*column).is_some_and(below) && seen.numbers(*column).any(|number| number != 0.0)
-    })?;
-    Some((whole, part, size(part)?))
 }
 
 /// All of an input, as far as it may hold what is read at most.

@@ -96,7 +96,7 @@ fn what_does_not_go_together_is_told() {
         assert!(findings.iter().any(|finding| finding.contains(word)), "{name}: {findings:?}");
     }
     for (name, arguments, word) in [
-        ("excel_serial.csv", &["--units=s,g"][..], "days of a spreadsheet"),
+        ("excel_serial.csv", &["--units=s,g"][..], "days, as spreadsheets count them"),
         ("en_rate_dot.csv", &[], "10.000 Hz"),
         ("keyed.txt", &["--units=us,g"], "'x=0.0000'"),
         ("row125.csv", &["--units=s,mg"], "hardly"),

@@ -20,7 +20,7 @@ pub(super) struct Form {
 }
 
 /// Cells that stand for no value.
-const MISSING: &str = "nan na n/a #n/a #nv null none nil -nan -nan(ind)";
+const MISSING: &str = "- -- nan na n/a #n/a #nv null none nil -nan -nan(ind)";
 /// Cells that stand for a value beyond the range of an instrument.
 const BEYOND: &str = "inf -inf +inf infinity -infinity ∞ -∞ ol -ol over overload overflow overrange";
 /// The arrow between time and numbers.

@@ -65,11 +65,11 @@ pub(super) fn numbers(line: &str) -> usize {
 const RATES: &str = "\
     sample rate, samplerate, sampling rate, samplingrate, sample frequency, sampling frequency, sampling freq, sample \
     freq, samples per second, abtastrate, abtastfrequenz, messrate, \
-    update rate, scan rate, data rate, output data rate, fs, frecuencia de muestreo, fréquence d'échantillonnage";
+    update rate, scan rate, data rate, output data rate, rate, fs, frecuencia de muestreo, fréquence d'échantillonnage";
 /// The same of the time between samples.
 const INTERVALS: &str = "\
-    sample interval, sampling interval, sample period, sampling period, time interval, time step, timestep, delta t, \
-    dt, interval, x-axis delta, abtastintervall, abtastzeit, abtastperiode";
+    sample interval, sampling interval, sample period, sampling period, time interval, time step, time increment, timestep, delta \
+    t, dt, interval, x-axis delta, abtastintervall, abtastzeit, abtastperiode";
 
 /// The time between samples that lines above the numbers tell, and the line, from 1; nothing where they tell several, or in a way that
 /// [may be read twice](in_groups).

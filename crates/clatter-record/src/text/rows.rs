@@ -451,7 +451,8 @@ impl Rows {
     /// What lines above the numbers tell that does not go with them.
     pub(crate) fn against_told(&self, channels: &[Role]) -> Vec<String> {
         let own: Vec<_> = channels.iter().map(|role| (role.name.clone(), role.unit.clone())).collect();
-        self.shape.all.against(self.lines.rows + self.lines.bad, &own)
+        let start_s = self.first_time.map(|_| self.start_s());
+        self.shape.all.against(self.lines.rows + self.lines.bad, start_s, &own)
     }
     /// The slope and the offset by which numbers without a unit of their own become accelerations, and the line that tells them.
     pub(crate) fn slope(&self) -> Option<([f64; 2], usize)> {

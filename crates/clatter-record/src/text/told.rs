@@ -10,7 +10,9 @@ pub(super) struct Told {
     /// How many samples there are.
     pub(super) samples: Option<(usize, usize)>,
     /// Time of the first sample, in seconds.
-    pub(super) start_s: f64,
+    pub(super) start_s: Option<(f64, usize)>,
+    /// The number that stands for none.
+    pub(super) fill: Option<f64>,
     /// Names of channels, or of all columns.
     pub(super) names: Vec<String>,
     /// Their units, by a list of as many.
@@ -27,6 +29,7 @@ const SAMPLES: &str = "\
     number of samples, total samples, samples, sample count, no of samples, n samples, ndata, npts, number of points, \
     points, data points, #pts, rows, record length, anzahl, anzahl werte, anzahl messwerte";
 const STARTS: &str = "time of first sample, x-axis offset, start time, t0, first sample time";
+const FILLS: &str = "fill value, fillvalue, missing value, no data, nodata, nodata value, missing data, nan value";
 const NAMES: &str = "\
     channeltitle, channel title, channel titles, name of the channel, channel name, channel names, signal, signals";
 const UNITS: &str = "unit, units, unitname, unit name, einheit, acceleration unit, amplitude unit";
@@ -66,7 +69,10 @@ pub(super) fn of(lines: &[String], form: Form) -> Told {
             let count = number().filter(|n| n.fract() == 0.0 && (1.0..1e12).contains(n)).map(|n| n as usize);
             told.samples = told.samples.or_else(|| Some((count?, i + 1)));
         } else if is(STARTS) {
-            told.start_s = value.parse().unwrap_or(told.start_s);
+            let seconds = value.trim_end_matches('s').trim_end().parse().ok();
+            told.start_s = told.start_s.or_else(|| Some((seconds?, i + 1)));
+        } else if is(FILLS) {
+            told.fill = told.fill.or_else(&number);
         } else if is(NAMES) && told.names.is_empty() {
             told.names = listed();
         } else if is(UNITS) {
@@ -98,11 +104,17 @@ pub(super) fn of(lines: &[String], form: Form) -> Told {
 }
 
 impl Told {
-    /// Returns what does not go with the numbers that are read: so many rows, and channels in these units of their own.
-    pub(super) fn against(&self, rows: usize, own: &[(String, String)]) -> Vec<String> {
+    /// Returns what does not go with the numbers that are read: so many rows, times from a first one on, and channels in these units of
+    /// their own.
+    pub(super) fn against(&self, rows: usize, start_s: Option<f64>, own: &[(String, String)]) -> Vec<String> {
         let mut found = Vec::new();
         if let Some((samples, line)) = self.samples.filter(|(samples, _)| *samples != rows) {
             found.push(format!("line {line} tells of {samples} samples, and there are {rows}"));
+        }
+        if let Some(((told_s, line), start_s)) =
+            self.start_s.zip(start_s).filter(|((a, _), b)| (a - b).abs() > 1e-6 * a.abs())
+        {
+            found.push(format!("line {line} tells of a first sample at {told_s} s, and its time is {start_s} s"));
         }
         if let Some((unit, line)) = &self.unit {
             let differs = |(_, spelled): &&(String, String)| {
@@ -129,7 +141,7 @@ mod tests {
 
     #[test]
     fn lines_of_a_key_and_a_value() {
-        let lines = "# Total Samples: 600\nTime of first sample :-0.002\nChannelTitle=\tDeck\tRim\nUnitName=\tg\tg\nSlope,0.01\nOffset,0\nGain: 1\nStart time: 10:11:12"
+        let lines = "# Total Samples: 600\nTime of first sample :-0.002\nChannelTitle=\tDeck\tRim\nUnitName=\tg\tg\nSlope,0.01\nOffset,0\nGain: 1\nStart time: 10:11:12\nFill value: -999"
             .split('\n')
             .map(str::to_owned)
             .collect::<Vec<_>>();
@@ -137,7 +149,8 @@ mod tests {
         let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         let right = Told {
             samples: Some((600, 1)),
-            start_s: -0.002,
+            start_s: Some((-0.002, 2)),
+            fill: Some(-999.0),
             names: names(&["Deck", "Rim"]),
             units: names(&["g", "g"]),
             unit: Some(("g".to_owned(), 4)),

@@ -46,7 +46,7 @@ impl Rows {
                     }
                     let number = number.float();
                     let value = number * self.sizes[*k];
-                    if value.abs() > LARGEST || number.abs() >= NO_VALUE {
+                    if value.abs() > LARGEST || number.abs() >= NO_VALUE || self.shape.all.fill == Some(number) {
                         return None;
                     }
                     self.row.push(value);

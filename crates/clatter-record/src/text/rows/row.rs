@@ -145,6 +145,9 @@ impl Rows {
         if (NO_VALUE..1e38).contains(&number.float().abs()) {
             return Some(format!("{} is what instruments write for no value", what()));
         }
+        if self.shape.all.fill == Some(number.float()) {
+            return Some(format!("{} stands for no value, by a line above", what()));
+        }
         if value.abs() > LARGEST {
             return Some(format!("{} is beyond {LARGEST:e} m/s²", what()));
         }
