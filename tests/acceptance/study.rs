@@ -124,7 +124,7 @@ fn a_part_that_is_there_is_left_as_it_is() {
     assert!(fs::read(&path).unwrap() == bytes);
     for (name, torn) in [("text.parquet", &b"time_s\n0\n"[..]), ("torn.parquet", &bytes[..bytes.len() / 2])] {
         fs::write(folder.at(name), torn).unwrap();
-        refused(&folder.part("2/3", name), &[name, "is not this shard"]);
+        refused(&folder.part("2/3", name), &[name, "no part that can be read", "--force"]);
         assert_eq!(fs::read(folder.at(name)).unwrap(), torn);
     }
 }
@@ -164,8 +164,16 @@ fn what_is_no_whole_study_is_refused_with_its_file() {
         &mixed,
         &["other.parquet is of another study than", "1of3.parquet", "`seed = 8` where that has `seed = 7`"],
     );
-    // Nothing was lost by all that.
+    // Nothing was lost by all that; a folder stands for the parts in it.
     assert_eq!(merge(&parts, &[]).exit, Exit::Done);
+    refused(&merge(&[folder.at("")], &[]), &["cut.parquet: Parquet file"]);
+    fs::create_dir(folder.at("all")).unwrap();
+    for (i, part) in parts.iter().enumerate() {
+        fs::copy(part, folder.at(&format!("all/{i}.parquet"))).unwrap();
+    }
+    assert_eq!(merge(&[folder.at("all")], &[]).stdout, merge(&parts, &[]).stdout);
+    fs::create_dir(folder.at("none")).unwrap();
+    refused(&merge(&[folder.at("none")], &[]), &["no file in", "ends in .parquet"]);
 }
 
 #[test]

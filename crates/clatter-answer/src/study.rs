@@ -57,6 +57,9 @@ pub enum Error {
         "product {0} of the grid goes through other drops than the first; allowed: the same list for all, as the columns tell them"
     )]
     Drops(u64),
+    /// A text that is no product file at all, none of whose lines is told.
+    #[error("{0} is no product file: it has no [product]")]
+    NoProduct(String),
     /// A shard that there is not.
     #[error("shard {index}/{of} is none: the plan has {rows} rows, in shards from 1/N to N/N with N from 1 to {rows}")]
     Shard {
@@ -97,6 +100,10 @@ impl Study {
     /// # Errors
     /// [`Error`].
     pub fn new(plan: Plan, product: &str, origin: &str) -> Result<Self, Error> {
+        let begins = |line: &str| line.trim_start().trim_start_matches('[').trim_start().starts_with("product");
+        if !product.lines().any(begins) {
+            return Err(Error::NoProduct(origin.to_owned()));
+        }
         let family = plan.family(product, origin)?;
         let first = family.member(0)?;
         let (drawn, drop_names, components) = (Vec::new(), Vec::new(), first.components.clone());
@@ -291,6 +298,43 @@ impl Study {
             }
         }
         if group[0].is_empty() { Ok(()) } else { flush(&mut group) }
+    }
+
+    /// Returns the rows of a shard that are drawn again as it is merged: its first, its last and one between, of a search the very first.
+    #[must_use]
+    pub fn again(&self, rows: &Range<u64>) -> Vec<u64> {
+        let count = rows.end - rows.start;
+        if self.plan.search || count == 0 {
+            return if rows.start == 0 && count > 0 { vec![0] } else { Vec::new() };
+        }
+        // Another one in each shard: by Fibonacci hashing, Knuth, The Art of Computer Programming 3, 6.4.
+        let between = rows.start + rows.end.wrapping_mul(0x9e37_79b9_7f4a_7c15) % count;
+        let mut again = vec![rows.start, between, rows.end - 1];
+        again.sort_unstable();
+        again.dedup();
+        again
+    }
+
+    /// Draws a row again and holds it against what a file has, to the last bit.
+    ///
+    /// # Errors
+    /// [`Error::Parts`] where it has another row: another program made it, or it is damaged.
+    pub fn check(&self, row: u64, told: &[f64]) -> Result<(), Error> {
+        let mut drawn: Vec<Vec<f64>> = vec![Vec::new(); self.fields().len()];
+        let file = self.family.member(row / self.rows_a_member())?;
+        if self.plan.search {
+            let assessed = crate::assess::answer(&file, &Accuracy::default())?;
+            push(&mut drawn, self.place(row).chain(found(&assessed.assessment)));
+        } else {
+            self.draw(&self.sampler(&file, NO_INTERVAL)?, row..row + 1, &|_| (), &mut drawn);
+        }
+        let same = |(drawn, told): (&Vec<f64>, &f64)| {
+            drawn[0].to_bits() == told.to_bits() || drawn[0].is_nan() && told.is_nan()
+        };
+        if drawn.len() == told.len() && drawn.iter().zip(told).all(same) {
+            return Ok(());
+        }
+        Err(Error::Parts(format!("row {row} is not what is drawn here: it was changed, or another program made it")))
     }
 
     /// Draws rows of one product.

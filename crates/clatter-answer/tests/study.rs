@@ -207,11 +207,65 @@ fn parts_are_held_against_each_other() {
     };
     let version = told(&[("a", a.clone()), ("old", with("clatter.version", "0.0.9"))]);
     assert!(version.starts_with("old is of clatter 0.0.9, and this is clatter 0.1.0: merge it"), "{version}");
-    let product = told(&[("a", a.clone()), ("x", with("clatter.product", &EXAMPLE.replace("140 mm", "150 mm")))]);
+    let longer = EXAMPLE.replace("140 mm", "150 mm");
+    let plan = Plan::read("product = \"p.toml\"\nsamples = 1000", "plan.toml").expect("a plan");
+    let longer = Study::new(plan, &longer, "p.toml").expect("a study");
+    let product = told(&[("a", a.clone()), ("x", notes(&longer, 2, 3))]);
     assert!(product.starts_with("x is of another study than a: its product has `length"), "{product}");
     assert_eq!(told(&[("x", Vec::new())]), "x is no part of a study: it has no clatter.version");
-    assert_eq!(told(&[("x", with("clatter.rows", "333:")), ("a", a)]), "x is no part of a study: its rows are none");
-    assert_eq!(told(&[("x", with("clatter.rows", "333:665"))]), "x is damaged: shard 2/3 has other rows than 333..665");
+    // A lone part that was changed.
+    for (key, note) in
+        [("clatter.rows", "333:665"), ("clatter.seed", "8"), ("clatter.check", "0"), ("clatter.shard", "1/3")]
+    {
+        assert_eq!(told(&[("x", with(key, note))]), "x is damaged: what it says of itself is not as it was written");
+    }
+    // All that is missing is told.
+    let tenth = |index| notes(&one, index, 10);
+    assert_eq!(
+        told(&[("x", tenth(2)), ("y", tenth(3)), ("z", tenth(6))]),
+        "no part has rows 0 to 99 of 1000: make shard 1/10; no part has rows 300 to 499 of 1000: make shards 4/10 to 5/10; \
+         no part has rows 600 to 999 of 1000: make shards 7/10 to 10/10"
+    );
+}
+
+/// What a row says of one part goes together, and a few rows of each part are drawn again.
+#[test]
+fn rows_are_held_against_each_other_and_against_those_drawn_again() {
+    let study = study("samples = 100");
+    let rows = groups(&study, Shard { index: 1, of: 1 }).remove(0);
+    let at = |what: &str| study.fields().iter().position(|field| field.name == what).expect("a column");
+    let refused = |column: &str, value: f64| {
+        let mut rows = rows.clone();
+        rows[at(column)][7] = value;
+        let mut merge = Merge::new(&study, 0.95).expect("a confidence");
+        take(&mut merge, &study, &rows).expect_err("changed").to_string()
+    };
+    let exceeds = study.fields().iter().find(|field| field.name.starts_with("exceeds")).expect("a limit").name.clone();
+    let part = exceeds.rsplit(" of ").next().expect("a part");
+    let flipped = 1.0 - rows[at(&exceeds)][7];
+    assert!(refused(&exceeds, flipped).contains("contradict"));
+    assert!(refused(&format!("utilization of {part}"), 1.0 + flipped).contains("contradict"));
+    assert!(refused(&format!("open of {part}"), 0.5).contains("neither 0 nor 1"));
+    assert_eq!(study.again(&(0..100)).len(), 3);
+    for row in study.again(&(0..100)) {
+        let i = usize::try_from(row).expect("small");
+        let mut told: Vec<f64> = rows.iter().map(|column| column[i]).collect();
+        study.check(row, &told).expect("as it was drawn");
+        told[1] = told[1].next_up();
+        assert!(study.check(row, &told).is_err(), "row {row}");
+    }
+    let search = self::study("search = true\n[grid]\nproduct.restitution = [0.2, 0.3]");
+    let rows = groups(&search, Shard { index: 1, of: 1 }).remove(0);
+    assert_eq!((search.again(&(0..2)), search.again(&(1..2))), (vec![0], Vec::new()));
+    search.check(0, &rows.iter().map(|column| column[0]).collect::<Vec<_>>()).expect("as it was searched");
+}
+
+/// The lines of what is no product file are not told.
+#[test]
+fn what_is_no_product_is_told_without_its_lines() {
+    let plan = Plan::read("product = \"p.toml\"\nsamples = 10", "plan.toml").expect("a plan");
+    let error = Study::new(plan, "password = \"x\"\n", "secret.txt").expect_err("no product").to_string();
+    assert_eq!(error, "secret.txt is no product file: it has no [product]");
 }
 
 /// What the grid sets is among the columns of the drops, though it is one value in each product; what is one value in all is not.

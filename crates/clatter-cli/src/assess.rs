@@ -155,15 +155,16 @@ impl Args {
         }
         // The answer does not wait for its print, which may take long or fail, nor the print for a reader of the answer.
         let holds = answers.iter().all(|answer| answer.assessment.verdict <= Verdict::Reliable);
-        let exit = if holds { Exit::Done } else { Exit::Unsafe };
+        let mut exit = if holds { Exit::Done } else { Exit::Unsafe };
         if let (Some(pdf), [answer]) = (&self.output, &answers[..]) {
             let flushed = streams.out.flush(); // whoever writes next sees the same failure, and tells
             let unwritten = format!("{} is not written", text::path(pdf));
             if !is_standard(pdf) && !budget::go_on() {
                 streams.note("warning", format_args!("--time-limit is over: {unwritten}"));
+                exit = Exit::Unprinted;
             } else {
                 if shown.is_ok() && flushed.is_ok() && !is_standard(pdf) {
-                    budget::is_told(exit, unwritten);
+                    budget::is_told(unwritten);
                 }
                 self.print(answer, pdf, streams)?;
             }

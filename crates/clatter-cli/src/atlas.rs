@@ -11,6 +11,7 @@ use crate::input::is_standard;
 use crate::inputs::{FallingBody, OffCenterArgs, RowFormat};
 use crate::numbers::{digits, figures, given};
 use crate::output::Files;
+use crate::progress::Counted;
 use crate::{Failure, Streams, output};
 
 /// List what every direction of tilt of a plate leads to: its words of corners, and the worst of all
@@ -55,7 +56,9 @@ impl Args {
                 "an atlas is that of a plate: give --gyration-ratio=KX,KY, its two gyration ratios",
             ));
         };
+        let working = Counted::begin("following every direction of tilt", 0);
         let atlas = plate.atlas(self.limit).map_err(Failure::flag("--limit"))?;
+        drop(working);
         let answer = Answer::of(&plate, self.limit, &atlas);
         if let Some(path) = &self.output {
             let svg = clatter_figures::ring(&plate, &atlas)?;

@@ -4,7 +4,7 @@
 //! over, searches and samples stop: their answer covers the work done by then, and is undecided where that is not enough.
 //! Where they don't stop, where other work goes on, or where the memory is used up, temporary files are removed, the command says
 //! why it stopped, how far it had come and how to use less, and the process ends with exit code 2; where the answer is complete
-//! and only extra work was cut, the process ends with the exit code of the answer.
+//! and only extra work was cut, the process ends with exit code 4.
 
 use std::io::{self, Write as _};
 use std::panic::resume_unwind;
@@ -39,8 +39,8 @@ static OVER: AtomicBool = AtomicBool::new(false);
 static CUT: AtomicBool = AtomicBool::new(false);
 /// The memory of the command that runs.
 static MEMORY: OnceLock<u64> = OnceLock::new();
-/// The exit code of an answer that is complete, and the words for the extra work after it that may still be cut.
-static BESIDE: Mutex<Option<(Exit, String)>> = Mutex::new(None);
+/// The words for the extra work after an answer that is complete, which may still be cut.
+static BESIDE: Mutex<Option<String>> = Mutex::new(None);
 /// The memory unless another limit is given: 1 GiB.
 const DEFAULT: u64 = 1 << 30;
 /// Time between two checks, and checks between two pictures of the progress.
@@ -73,13 +73,13 @@ pub(crate) fn was_cut() -> bool {
     CUT.load(Ordering::Relaxed)
 }
 
-fn told() -> Option<(Exit, String)> {
+fn told() -> Option<String> {
     BESIDE.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-/// Notes that the answer is complete, with its exit code; extra work may still be cut, with these words.
-pub(crate) fn is_told(exit: Exit, beside: String) {
-    *BESIDE.lock().unwrap_or_else(PoisonError::into_inner) = Some((exit, beside));
+/// Notes that the answer is complete; extra work may still be cut, with these words.
+pub(crate) fn is_told(beside: String) {
+    *BESIDE.lock().unwrap_or_else(PoisonError::into_inner) = Some(beside);
 }
 
 /// Returns the result of work that cannot be interrupted; none where the time is over first, and then the work is abandoned. Where no
@@ -170,11 +170,11 @@ impl Budget {
 
 /// Ends the process where its answer is complete and only extra work is cut.
 fn leave_beside() {
-    let Some((answer, beside)) = told() else { return };
+    let Some(beside) = told() else { return };
     clatter_report::remove_leftovers();
     let so_far = progress::so_far();
     let _ = writeln!(io::stderr(), "warning: stopped, --time-limit is over: {so_far}{beside}; the answer is whole");
-    exit(answer as i32)
+    exit(Exit::Unprinted as i32)
 }
 
 fn stop(what: &str, less: &str) -> ! {

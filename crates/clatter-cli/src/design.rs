@@ -23,7 +23,7 @@ use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
 use crate::output::Files;
 use crate::progress::Counted;
-use crate::{Failure, Streams, assess, budget, output, quantities, text};
+use crate::{Exit, Failure, Streams, assess, budget, output, quantities, text};
 
 /// Tell which q and e meet the limits, and what would make each failing part safe
 ///
@@ -176,17 +176,17 @@ impl Args {
         }
     }
 
-    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         match &self.product {
             Some(path) => {
                 let file = assess::read(path, &self.files(), streams)?;
                 self.of_product(&file, streams)
             }
-            None => self.of_goals(streams),
+            None => self.of_goals(streams).map(|()| Exit::Done),
         }
     }
 
-    fn of_product(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<(), Failure> {
+    fn of_product(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         let bounds = Bounds {
             q: self.q,
             e: self.e,
@@ -211,7 +211,9 @@ impl Args {
             };
             self.output.as_ref().filter(|_| budget::go_on()).and_then(of).transpose()?
         };
+        let mut exit = Exit::Done;
         if let (Some(path), None) = (&self.output, &plane) {
+            exit = Exit::Unprinted;
             streams.note("warning", format_args!("--time-limit is over: {} is not written", text::path(path)));
         }
         if let (Some(path), Some(plane)) = (&self.output, &plane) {
@@ -224,6 +226,7 @@ impl Args {
             RowFormat::Table => found.table(streams.out).map_err(Failure::Answer),
             RowFormat::Csv => found.csv(streams.out).map_err(Failure::Answer),
             RowFormat::Json => streams.json(&answer),
-        }
+        }?;
+        Ok(exit)
     }
 }

@@ -291,7 +291,7 @@ impl DropArgs {
     ) -> Result<DropInputs, Failure> {
         let si = |typed, plain| either(typed, plain).map(|quantity| quantity.si);
         let degrees =
-            |typed: Option<Quantity>, plain: Option<f64>| plain.or(typed.map(|angle| neat(angle.si.to_degrees())));
+            |typed: Option<Quantity>, plain: Option<f64>| plain.or(typed.map(|angle| quantities::degrees(angle.si)));
         let [length_m, width_m, thickness_m] = self.sizes().map(|size| size.map(|size| size.si));
         let length_m = match (length_m, &file) {
             (Some(length_m), Some(file)) => Some(file.length_of(length_m)?),

@@ -56,7 +56,8 @@ to parting; 'clatter init -' tells what is known of it, and of e. A file named
 Exit status: 0 done; 1 'assess' found a component unsafe or could not decide,
 'scatter' missed its target, or 'spectrum' found its limit exceeded; 2 bad
 input, or an output that cannot be written; 3 typst, which prints the reports,
-is missing or failed.";
+is missing or failed; 4 the answer is whole, and the file of '-o' is not made,
+as --time-limit is over.";
 
 /// How the mass lies, and how the ends rebound.
 #[derive(Debug, clap::Args)]

@@ -132,6 +132,8 @@ pub enum Exit {
     BadInput = 2,
     /// 3: an outside program is missing or failed.
     Outside = 3,
+    /// 4: the answer is whole, and the file beside it that was asked for is not made, as the time was over.
+    Unprinted = 4,
 }
 
 impl From<Exit> for ExitCode {
@@ -220,6 +222,7 @@ impl Command {
             Self::Scatter(args) => return args.run(streams),
             Self::Study(args) => return args.run(force, streams),
             Self::Assess(args) => return args.run(streams),
+            Self::Design(args) => return args.run(streams),
             Self::Spectrum(args) => return args.run(streams),
             Self::Impacts(args) => args.run(streams),
             Self::Zone(args) => args.run(streams),
@@ -228,7 +231,6 @@ impl Command {
             Self::Simulate(args) => args.run(streams),
             Self::Respond(args) => args.run(streams),
             Self::Record(args) => args.run(streams),
-            Self::Design(args) => args.run(streams),
             Self::Explain(args) => args.run(streams),
             Self::Tradeoff(args) => args.run(streams),
             Self::Fit(args) => args.run(streams),

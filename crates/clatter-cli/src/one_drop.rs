@@ -164,12 +164,12 @@ impl OneDrop {
             let notes = if is_given(row.input) { None } else { Some(&mut *notes) };
             let value = take(notes, row.words, spread, row.hardest, row.unit);
             height_m = if row.input == Input::Height { Some(value) } else { height_m };
-            if row.input.is_angle() { as_typed(value) } else { value }
+            value
         });
         if drop.body.is_wide() {
             drop.direction_rad = match &self.file.drop.direction_rad {
                 _ if is_given(Input::Direction) => 0.0,
-                Some(spread) => as_typed(take(Some(notes), "direction", spread, 0.5, "rad")),
+                Some(spread) => take(Some(notes), "direction", spread, 0.5, "rad"),
                 None => {
                     notes.push("it may rise to any direction: taken is 45 deg, corner a first".to_owned());
                     45_f64.to_radians()
@@ -278,11 +278,6 @@ impl PartSetup {
         }
         Ok(())
     }
-}
-
-/// Converts an angle that was read in degrees, without the digits that the conversion adds.
-fn as_typed(angle_rad: f64) -> f64 {
-    neat(angle_rad.to_degrees()).to_radians()
 }
 
 /// Returns the value at a share of a range, from 0 to 1, and notes which value of a range it is.

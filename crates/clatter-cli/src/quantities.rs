@@ -50,6 +50,14 @@ pub(crate) fn tilt(text: &str) -> Result<Quantity, String> {
     checked(&ANGLE, text, |si| part_of(neat(si.to_degrees()), inputs::tilt_of).map(|_| si))
 }
 
+/// Returns the degrees that an angle was typed in: the fewest digits that are the same angle in radians.
+pub(crate) fn degrees(angle_rad: f64) -> f64 {
+    let close = angle_rad.to_degrees();
+    let same = |degrees: &f64| degrees.to_radians().to_bits() == angle_rad.to_bits();
+    let shortest = (0..17).filter_map(|digits| format!("{close:.digits$e}").parse().ok()).find(same);
+    shortest.or_else(|| [close.next_up(), close.next_down()].into_iter().find(same)).unwrap_or(close)
+}
+
 pub(crate) fn direction(text: &str) -> Result<Quantity, String> {
     ANGLE.read(text)
 }
@@ -376,6 +384,26 @@ impl Shown {
         match self.angle.filter(|unit| unit.name == "rad") {
             Some(unit) => Show { unit: Some(unit), name: "rad" }.given(degrees.to_radians()),
             None => format!("{} degrees", given(degrees)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Degrees in all of their digits, and in few.
+    #[test]
+    fn degrees_are_those_that_were_typed() {
+        let mut state = 1_u64;
+        for n in 0..20_000 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            #[expect(clippy::cast_precision_loss, reason = "any number")]
+            let any = 90.0 * (state >> 11) as f64 / 2_f64.powi(53);
+            let typed: f64 = if n % 2 == 0 { any } else { format!("{any:.4}").parse().unwrap() };
+            let read = tilt(&format!("{typed:?}deg")).unwrap().si;
+            assert_eq!(degrees(read).to_radians().to_bits(), typed.to_radians().to_bits(), "{typed:?}");
+            assert!(n % 2 == 0 || degrees(read).to_bits() == typed.to_bits(), "{typed:?}, {:?}", degrees(read));
         }
     }
 }

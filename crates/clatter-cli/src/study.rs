@@ -150,11 +150,12 @@ fn read(path: &Path, output: &Path, force: bool, streams: &mut Streams<'_>) -> R
     let product = path.parent().unwrap_or(Path::new("")).join(&plan.product);
     Files { reads: vec![path, &product], writes: vec![output] }.check(force)?;
     let (text, origin) = (text_of(&product)?, input::name(&product));
+    let study = Study::new(plan, &text, &origin)?;
     let odd = ProductFile::read_warned(&text, &origin).map_err(|faults| Failure::Product(faults.to_string()))?.1;
     if !odd.warnings().is_empty() {
         streams.beside(&format!("{odd}\n"));
     }
-    Ok(Study::new(plan, &text, &origin)?)
+    Ok(study)
 }
 
 /// Reads the text of a file, of a size that product files have.
@@ -170,9 +171,13 @@ fn text_of(path: &Path) -> Result<String, Failure> {
 /// Returns whether a file holds this very part; refuses to write over any other file.
 fn is_there(path: &Path, notes: &[(&str, String)], rows: u64) -> Result<bool, Failure> {
     let Ok(file) = File::open(path) else { return Ok(false) };
-    let same = RowGroups::new(file).is_ok_and(|part| {
-        let all: u64 = part.rows().iter().map(|rows| *rows as u64).sum();
-        all == rows && notes.iter().all(|(name, note)| part.note(name) == Some(note))
-    });
+    let part = RowGroups::new(file).map_err(|reason| {
+        Failure::Wrong(format!(
+            "{} is there already, and no part that can be read: --force makes it anew ({reason})",
+            text::path(path)
+        ))
+    })?;
+    let all: u64 = part.rows().iter().map(|rows| *rows as u64).sum();
+    let same = all == rows && notes.iter().all(|(name, note)| part.note(name) == Some(note));
     if same { Ok(true) } else { Err(Failure::OtherPart(path.to_owned())) }
 }

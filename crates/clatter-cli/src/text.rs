@@ -52,9 +52,14 @@ fn runs_left(c: char) -> bool {
     matches!(c, '\u{590}'..='\u{8ff}' | '\u{fb1d}'..='\u{fdff}' | '\u{fe70}'..='\u{feff}' | '\u{10800}'..='\u{10fff}' | '\u{1e800}'..='\u{1efff}')
 }
 
-/// Writes a cell of a CSV file that is text: [`visible`], in quotes where it has to be (RFC 4180), and never computed.
+/// Writes a cell of a CSV file that is text: [`visible`], in quotes where it has to be (RFC 4180), and never computed: a quantity such as
+/// -40 mm stands as it is.
 pub(crate) fn field(text: &str) -> String {
-    let computed = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    let quantity = text.strip_prefix(['-', '+']).is_some_and(|rest| {
+        let plain = |c: char| c.is_alphanumeric() || matches!(c, '.' | ' ' | '°' | '²' | '%' | '/');
+        rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') && rest.chars().all(plain)
+    });
+    let computed = !quantity && text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     let text = visible(text);
     if computed || text.contains(['"', ',']) {
         format!("\"{}{}\"", if computed { "'" } else { "" }, text.replace('"', "\"\""))

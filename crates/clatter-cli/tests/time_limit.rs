@@ -51,7 +51,7 @@ fn a_report_that_is_cut_leaves_a_whole_answer() {
                 let name = if step.starts_with("setting") { "p.pdf" } else { "q.pdf" };
                 command.args(["assess", "p.toml", "-o", name, "--time-limit=8s"]).envs(set);
                 let (code, stdout, stderr) = told(&command.output().unwrap());
-                assert_eq!((code, &stdout), (Some(0), &alone.1), "{stderr}");
+                assert_eq!((code, &stdout), (Some(4), &alone.1), "{stderr}");
                 let cut = "warning: stopped, --time-limit is over: making the printed report was cut (";
                 assert!(stderr.starts_with(cut) && stderr.contains(step) && stderr.lines().count() == 1, "{stderr}");
                 assert!(stderr.ends_with(&format!("{name} is not written; the answer is whole\n")), "{stderr}");
@@ -88,7 +88,7 @@ fn design_tells_the_part_of_its_answer_that_it_has() {
     fs::write(dir.path().join("long.toml"), long()).unwrap();
     let design = ["design", "long.toml", "-o", "plane.svg", "--time-limit=4s"];
     let (code, stdout, stderr) = told(&clatter(dir.path()).args(design).output().unwrap());
-    assert_eq!(code, Some(0), "{stderr}");
+    assert_eq!(code, Some(4), "{stderr}");
     assert!(stdout.contains("40 of 40 parts are not safe"), "{stdout}");
     assert!(stdout.contains("not known: the time was over before"), "{stdout}");
     assert!(stderr.contains("warning: --time-limit is over: plane.svg is not written\n"), "{stderr}");

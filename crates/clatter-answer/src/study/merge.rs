@@ -58,7 +58,12 @@ impl<'a> Merge<'a> {
                 self.searched(&mut cells)?;
             } else {
                 asked.clear();
-                asked.extend(self.study.asked().map(|(component, _)| of_part(component, &mut cells)));
+                for (component, _) in self.study.asked() {
+                    let told = of_part(component, &mut cells);
+                    asked.push(
+                        told.map_err(|what| Error::Parts(format!("row {}: {what} of {}", self.next, component.name)))?,
+                    );
+                }
                 self.counted(&asked)?;
             }
             self.next += 1;
@@ -132,13 +137,22 @@ impl<'a> Merge<'a> {
     }
 }
 
-/// Reads the cells of a part from a row.
-fn of_part(component: &Component, cells: &mut impl Iterator<Item = f64>) -> Option<PartRow> {
+/// Reads the cells of a part from a row, or says what of them does not go together: a limit is exceeded where its utilization is above 1.
+fn of_part(component: &Component, cells: &mut impl Iterator<Item = f64>) -> Result<Option<PartRow>, &'static str> {
     let mut cell = || cells.next().unwrap_or(f64::NAN);
-    let (utilization, open) = (cell(), cell() > 0.0);
+    let flag =
+        |value: f64| if value.to_bits() == 1.0_f64.to_bits() { Some(true) } else { (value == 0.0).then_some(false) };
+    let utilization = cell();
+    let open = flag(cell()).ok_or("a flag that is neither 0 nor 1")?;
     let mut exceeded = [false; LimitKind::ALL.len()];
     for exceeded in exceeded.iter_mut().take(component.limits.kinds().len()) {
-        *exceeded = cell() > 0.0;
+        *exceeded = flag(cell()).ok_or("a flag that is neither 0 nor 1")?;
     }
-    (!utilization.is_nan()).then_some(PartRow { utilization, open, exceeded })
+    if utilization.is_nan() {
+        return Ok(None);
+    }
+    if utilization < 0.0 || exceeded.contains(&true) != (utilization > 1.0) {
+        return Err("a utilization that its exceeded limits contradict");
+    }
+    Ok(Some(PartRow { utilization, open, exceeded }))
 }

@@ -37,23 +37,35 @@ const PRODUCT: &str = "clatter.product";
 const SEED: &str = "clatter.seed";
 const SHARD: &str = "clatter.shard";
 const ROWS: &str = "clatter.rows";
+const CHECK: &str = "clatter.check";
+
+/// Returns a sum over all that a shard says of itself: FNV-1a of 64 bits, of each name and each note.
+fn check(notes: &[(&str, &str)]) -> String {
+    let bytes = notes.iter().flat_map(|(name, note)| name.bytes().chain([0]).chain(note.bytes()).chain([0]));
+    let hash = bytes
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3));
+    format!("{hash:016x}")
+}
 
 impl Study {
     /// Returns the notes in the file of a shard, by name: plan and product as they were read, the version, the seed, the shard and its
-    /// rows, of which the last one is left out.
+    /// rows, of which the last one is left out, and a sum over these.
     ///
     /// # Errors
     /// [`Error::Shard`] where there is no such shard.
     pub fn notes(&self, shard: Shard) -> Result<Vec<(&'static str, String)>, Error> {
         let Range { start, end } = self.rows_of(shard)?;
-        Ok(vec![
+        let mut notes = vec![
             (VERSION_NOTE, VERSION.to_owned()),
             (PLAN, self.plan.text().to_owned()),
             (PRODUCT, self.family.product().to_owned()),
             (SEED, self.plan.seed.to_string()),
             (SHARD, shard.to_string()),
             (ROWS, format!("{start}:{end}")),
-        ])
+        ];
+        let told: Vec<(&str, &str)> = notes.iter().map(|(name, note)| (*name, note.as_str())).collect();
+        notes.push((CHECK, check(&told)));
+        Ok(notes)
     }
 }
 
@@ -79,6 +91,11 @@ impl Parts {
             return Err(Error::Parts(format!(
                 "{name} is of clatter {version}, and this is clatter {VERSION}: {again}"
             )));
+        }
+        let names = [VERSION_NOTE, PLAN, PRODUCT, SEED, SHARD, ROWS];
+        let all = names.into_iter().map(|key| Ok((key, told(key)?))).collect::<Result<Vec<_>, Error>>()?;
+        if told(CHECK)? != check(&all) {
+            return Err(Error::Parts(format!("{name} is damaged: what it says of itself is not as it was written")));
         }
         let (plan, product) = (told(PLAN)?, told(PRODUCT)?);
         let (shard, rows) = (told(SHARD)?.parse(), told(ROWS)?.split_once(':'));
@@ -133,23 +150,36 @@ impl Parts {
         if next < study.rows() {
             missing.push(next..study.rows());
         }
-        if let Some(first) = missing.first() {
-            return Err(Error::Parts(self.lacks(study, first)));
+        if !missing.is_empty() {
+            const SHOWN: usize = 8;
+            let mut all: Vec<String> = missing.iter().take(SHOWN).map(|rows| self.lacks(study, rows)).collect();
+            all.extend((missing.len() > SHOWN).then(|| format!("and {} more gaps", missing.len() - SHOWN)));
+            return Err(Error::Parts(all.join("; ")));
         }
         Ok(order.into_iter().map(|i| (i, self.list[i].2.clone())).collect())
     }
 
-    /// Names the missing part: the rows, and the first shard that has them where all shards are of one size.
+    /// Names what is missing: the rows, and the shards that have them where all shards are of one size.
     fn lacks(&self, study: &Study, rows: &Range<u64>) -> String {
         let all = study.rows();
         let mut of = self.list.iter().map(|(_, shard, _)| shard.of);
         let one = of.next().filter(|first| of.all(|other| other == *first));
-        let begins = |of: u64| {
-            let before = (u128::from(rows.start) * u128::from(of)).div_ceil(u128::from(all));
-            let shard = Shard { index: u64::try_from(before).ok()? + 1, of };
-            study.rows_of(shard).is_ok_and(|found| found.start == rows.start).then_some(shard)
+        let at = |of: u64, row: u64| {
+            let before = (u128::from(row) * u128::from(of)).div_ceil(u128::from(all));
+            u64::try_from(before).ok().filter(|before| {
+                let shard = Shard { index: before + 1, of };
+                row == all || study.rows_of(shard).is_ok_and(|found| found.start == row)
+            })
         };
-        let again = one.and_then(begins).map_or_else(String::new, |shard| format!(": make shard {shard}"));
+        let again = |of: u64| {
+            let (first, last) = (at(of, rows.start)? + 1, at(of, rows.end)?);
+            Some(if first == last {
+                format!(": make shard {first}/{of}")
+            } else {
+                format!(": make shards {first}/{of} to {last}/{of}")
+            })
+        };
+        let again = one.and_then(again).unwrap_or_default();
         format!("no part has rows {} to {} of {all}{again}", rows.start, rows.end - 1)
     }
 }

@@ -213,7 +213,15 @@ impl Reader {
         let sections = self.tables(section, "masses");
         let mut masses = Vec::with_capacity(sections.len());
         let count = sections.len();
+        let mut names: Vec<String> = Vec::new();
         for piece in sections {
+            if let Some(name) = piece.table.get("name").and_then(|name| name.get_ref().as_str()) {
+                if names.iter().any(|other| other == name) {
+                    let message = format!("two masses are named {name:?}");
+                    self.fault(piece.span.clone(), message, "the second", "give each mass a name of its own");
+                }
+                names.push(name.to_owned());
+            }
             masses.extend(self.mass(&piece, sides_m));
         }
         (count > 0 && masses.len() == count).then_some(At { value: masses, span })
