@@ -134,6 +134,7 @@ impl TableBuilder {
         }
     }
     /// Adds a column without a rate of its own, or names it where it is none of numbers.
+    #[cfg(feature = "parquet")]
     fn add(&mut self, name: &str, unit: Option<String>, values: Result<Values, String>) {
         match values {
             Ok(values) => self.extend("", [column(name, unit, values)]),

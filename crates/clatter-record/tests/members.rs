@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use clatter_record::{Error, Kind, Options, Record, Table, Values, read};
+use clatter_record::{Error, Kind, Table, Values, read};
 
 const N: u32 = 40;
 
@@ -128,6 +128,7 @@ fn data_sets_of_universal_files_are_named() {
 #[cfg(feature = "parquet")]
 #[test]
 fn durations_and_clocks_keep_their_unit() {
+    use clatter_record::{Options, Record};
     for (name, step_s) in [("duration.parquet", 1e-3), ("clock.parquet", 1e-6)] {
         let record =
             Record::read(&*file(name), &Options::default(), |_| ()).unwrap_or_else(|error| panic!("{name}: {error}"));

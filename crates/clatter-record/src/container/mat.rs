@@ -32,11 +32,7 @@ fn numbers(name: &str, matrix: Matrix<'_>, is_complex: bool, table: &mut TableBu
     match values {
         None | Some(0) => table.leave_out(name, "empty"),
         _ if is_complex => table.leave_out(name, COMPLEX),
-        Some(1) => {
-            if let Values::Float(values) = number.values(bytes, big_endian) {
-                table.number(group, own, name, values[0]);
-            }
-        }
+        Some(1) => table.number(group, own, name, number.values(bytes, big_endian).float(0)),
         Some(_) => {
             table.take(&[rows, columns])?;
             table.extend(group, matrix.split(name, Naming::Matlab));
@@ -151,8 +147,8 @@ fn variable<'a>(
     const IS_TRUTH: u32 = 0x0200;
     let mut bytes = Bytes::new(data, PART);
     bytes.big_endian = big_endian;
-    // An empty cell or field.
     if data.is_empty() {
+        table.leave_out(given.unwrap_or("variable without a name"), "empty");
         return Ok(());
     }
     let flags = Element::read(&mut bytes)?.data;
@@ -210,6 +206,9 @@ fn fields(bytes: &mut Bytes, name: &str, depth: usize, table: &mut TableBuilder)
     let length = bytes.part(length, "MAT file, the fields of a structure").u32()?;
     let length = usize::try_from(length).unwrap_or(usize::MAX).max(1);
     let names = Element::read(bytes)?.data;
+    if names.is_empty() {
+        table.leave_out(name, "a structure without members");
+    }
     for field in names.chunks(length) {
         let end = field.iter().position(|byte| *byte == 0).unwrap_or(field.len());
         let field = String::from_utf8_lossy(&field[..end]);

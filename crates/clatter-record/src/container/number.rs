@@ -19,6 +19,7 @@ pub(super) enum Number {
     Float(u8, u8, u8),
     /// A whole number of so many bytes, in tens to the power of minus its scale; the bytes of some files are big-endian whatever
     /// else is.
+    #[cfg(feature = "parquet")]
     Decimal {
         bytes: u8,
         scale: i32,
@@ -63,7 +64,9 @@ impl Number {
             Self::I16 | Self::U16 => 2,
             Self::I32 | Self::U32 | Self::F32 => 4,
             Self::I64 | Self::U64 | Self::F64 => 8,
-            Self::Float(bytes, ..) | Self::Decimal { bytes, .. } => bytes.into(),
+            Self::Float(bytes, ..) => bytes.into(),
+            #[cfg(feature = "parquet")]
+            Self::Decimal { bytes, .. } => bytes.into(),
         }
     }
     /// All numbers of the bytes; what is left at the end is no number.
@@ -97,6 +100,7 @@ impl Number {
                 let each = bytes.chunks(stride.max(1)).filter_map(|chunk| chunk.get(..size.into())).take(length);
                 Values::Float(each.map(|bytes| float(whole(bytes, big_endian)[0], exponent, fraction)).collect())
             }
+            #[cfg(feature = "parquet")]
             Self::Decimal { bytes: size, scale, big_endian: always } => {
                 let each = bytes.chunks(stride.max(1)).filter_map(|chunk| chunk.get(..size.into())).take(length);
                 Values::Float(each.map(|bytes| decimal(bytes, scale, big_endian || always)).collect())
@@ -165,6 +169,7 @@ fn float(bits: u128, exponent: u8, fraction: u8) -> f64 {
 }
 
 /// The number that stands for its whole number in tens to the power of minus the scale, to the nearest float.
+#[cfg(feature = "parquet")]
 pub(super) fn decimal(bytes: &[u8], scale: i32, big_endian: bool) -> f64 {
     let [low, high] = whole(bytes, big_endian).map(u128::cast_signed);
     if high == low >> 127 {

@@ -141,11 +141,13 @@ impl Chunk<'_> {
     /// A page as it was before it was compressed.
     fn unpacked<'b>(&self, packed: &'b [u8]) -> Result<Cow<'b, [u8]>, Fault> {
         let rows = self.shape.rows;
-        // The text of a number has some digits, and its length before it.
-        let width = if let Kept::Texts(_) = self.shape.kept { 32 } else { self.shape.width() };
+        // The text of a number has some digits, and its length before it; other text may be longer.
+        let (width, part) = match self.shape.kept {
+            Kept::Texts(_) => (32, "is long"),
+            _ => (self.shape.width(), "is damaged"),
+        };
         // A page that holds all rows, its levels, and heads of their runs.
         let most = rows.saturating_mul(width + 8).saturating_add(1 << 16);
-        let part = "is damaged";
         let unpacked = match self.told.codec {
             CompressionCodec::UNCOMPRESSED => return Ok(packed.into()),
             CompressionCodec::SNAPPY => codec::snappy(packed, most, part),
