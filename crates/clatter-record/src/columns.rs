@@ -85,9 +85,8 @@ impl Record {
         if !unused.is_empty() {
             record.read.insert(0, Finding::LeftOut(unused));
         }
-        let left_out = left_out.into_iter().map(|what| format!("nothing is made of {what}"));
-        let notes = left_out.chain(notes);
-        record.read.extend(notes.map(Finding::Note));
+        let left_out = (!left_out.is_empty()).then(|| format!("nothing is made of {}", left_out.join("; ")));
+        record.read.extend(left_out.into_iter().chain(notes).map(Finding::Note));
         Ok(record)
     }
 }

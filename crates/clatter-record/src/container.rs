@@ -36,8 +36,11 @@ use std::collections::HashMap;
 /// At most `most` values are read, all columns together. A column keeps the name, the unit and the rate that the file
 /// gives it; numbers are not converted. Columns may differ in length where the file has channels of several lengths.
 /// Single numbers beside them are left out, save those that name a rate (`fs`, `dt` …): they become
-/// [`Column::sampled_s`]. 64-bit integers beyond 2⁵³ and points in time stay [`Values::Integer`], the latter in
-/// nanoseconds; all else are floats, exactly.
+/// [`Column::sampled_s`]. 64-bit integers beyond 2⁵³, points in time, times of day and durations stay [`Values::Integer`],
+/// times in nanoseconds, which are their unit; all else are floats, exactly where floats hold them. Numbers that are kept as
+/// text, in dictionaries or as sparse matrices are read as well.
+///
+/// Every column, array or channel is one of [`Table::columns`] or named in [`Table::left_out`].
 ///
 /// # Errors
 /// [`Error::File`] where the bytes are torn or not as the kind has to be, hold more than `most` values, hold no numbers,
@@ -73,10 +76,12 @@ pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
         #[cfg(not(all(feature = "hdf5", feature = "parquet")))]
         other => return Err(refuse(format!("this build does not read {other}"))),
     }
+    let named = table.left_out.iter().map(|(reason, names)| format!("{} ({reason})", names.join(", ")));
+    table.table.left_out = named.collect();
     let Table { columns, left_out, .. } = &table.table;
     if columns.is_empty() {
-        let why =
-            left_out.first().map_or_else(|| "no column of numbers".to_owned(), |one| format!("nothing but {one}"));
+        let all = left_out.join("; ");
+        let why = if all.is_empty() { "no column of numbers".to_owned() } else { format!("nothing but {all}") };
         return Err(refuse(format!("{kind}: it holds {why}")));
     }
     Ok(std::mem::take(&mut table.table))
@@ -90,6 +95,8 @@ fn refuse(message: impl Into<String>) -> Error {
 #[derive(Debug, Default)]
 struct TableBuilder {
     table: Table,
+    /// What is no column of numbers: each reason, and the names.
+    left_out: Vec<(String, Vec<String>)>,
     /// How many values may still be read.
     left: usize,
     most: usize,
@@ -118,15 +125,30 @@ impl TableBuilder {
         let columns = columns.into_iter().map(|column| Column { group: group.to_owned(), ..column });
         self.table.columns.extend(columns);
     }
-    fn leave_out(&mut self, what: String) {
-        self.table.left_out.push(what);
+    /// Names what is no column of numbers.
+    fn leave_out(&mut self, name: &str, reason: impl AsRef<str>) {
+        let (name, reason) = (format!("{name:?}"), reason.as_ref());
+        match self.left_out.iter_mut().find(|(known, _)| known == reason) {
+            Some((_, names)) => names.push(name),
+            None => self.left_out.push((reason.to_owned(), vec![name])),
+        }
+    }
+    /// Adds a column without a rate of its own, or names it where it is none of numbers.
+    #[cfg(feature = "parquet")]
+    fn add(&mut self, name: &str, unit: Option<String>, values: Result<Values, String>) {
+        match values {
+            Ok(values) => self.extend("", [column(name, unit, values)]),
+            Err(reason) => self.leave_out(name, reason),
+        }
     }
 
     /// Takes in a single number of a group, which may tell the time between samples of its columns.
-    fn number(&mut self, group: &str, name: &str, value: f64) {
+    fn number(&mut self, group: &str, name: &str, path: &str, value: f64) {
         if let Some(interval_s) = interval_s(name, value) {
             let told = agreed(self.intervals_s.get(group).copied(), interval_s);
             self.intervals_s.insert(group.to_owned(), told);
+        } else {
+            self.leave_out(path, "a single number");
         }
     }
     /// Columns without a time between samples get that of their group, or of the nearest one around it. The names of groups
@@ -163,6 +185,9 @@ fn equal_length(columns: &[&[f64]]) -> Result<usize, Error> {
         ))),
     }
 }
+
+/// Why complex numbers are left out.
+const COMPLEX: &str = "complex; a record is real: save its real part";
 
 /// How the columns of a matrix are told apart by name.
 #[derive(Debug, Clone, Copy)]
@@ -219,6 +244,47 @@ impl Matrix<'_> {
             })
             .collect()
     }
+}
+
+/// Adds the columns of a matrix of which the file keeps what is not zero: row, column and number of each, counted from 0.
+fn sparse(
+    name: &str,
+    [rows, columns]: [usize; 2],
+    kept: impl Iterator<Item = Option<(usize, usize, f64)>>,
+    table: &mut TableBuilder,
+) -> Result<(), Error> {
+    let mut dense = vec![0.0_f64; table.take(&[rows, columns])?];
+    for number in kept {
+        let place = number.filter(|(row, column, _)| *row < rows && *column < columns);
+        let (row, column, number) = place.ok_or_else(|| {
+            refuse(format!("{name:?} is sparse, and has a number beyond its size; the file is damaged"))
+        })?;
+        dense[column * rows + row] = number;
+    }
+    if dense.is_empty() {
+        table.leave_out(name, "empty");
+        return Ok(());
+    }
+    let group = name.rsplit_once(['.', '/']).map_or("", |(group, _)| group);
+    let bytes: Vec<u8> = dense.into_iter().flat_map(f64::to_le_bytes).collect();
+    let matrix =
+        Matrix { rows, columns, column_by_column: true, bytes: &bytes, number: Number::F64, big_endian: false };
+    table.extend(group, matrix.split(name, Naming::Matlab));
+    Ok(())
+}
+
+/// The numbers of a sparse matrix that is kept column by column: the row of each, and where in these each column begins.
+fn by_column<'a>(
+    rows: &'a [i64],
+    starts: &'a [i64],
+    numbers: &'a Values,
+) -> impl Iterator<Item = Option<(usize, usize, f64)>> {
+    let whole = |number: i64| usize::try_from(number).unwrap_or(usize::MAX);
+    let of_column = move |(column, ends): (usize, &[i64])| {
+        let row = move |i| rows.get(i).filter(|_| i < numbers.len()).map(|row| (whole(*row), column, numbers.float(i)));
+        (whole(ends[0])..whole(ends[1])).map(row)
+    };
+    starts.windows(2).enumerate().flat_map(of_column)
 }
 
 /// Seconds between samples, by the name and the value of a number beside the columns: `fs` or `sample_rate` in Hz, `dt`

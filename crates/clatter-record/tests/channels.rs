@@ -63,7 +63,7 @@ fn containers_keep_the_times_of_each_channel() {
     }
     let spectrum = read(file("rates.tdms"), &Options::default()).expect("a record");
     let found: Vec<String> = spectrum.findings(10.0).iter().map(ToString::to_string).collect();
-    assert_eq!(found[0], "nothing is made of spectrum, whose abscissa is in Hz: it is no record over time");
+    assert_eq!(found[0], "nothing is made of \"spectrum\" (over an abscissa in Hz: it is no record over time)");
 }
 
 #[cfg(feature = "hdf5")]

@@ -97,7 +97,7 @@ fn npy() {
             ("when", Some("ns"), None, integers(ns)),
         ],
     );
-    assert!(fault("complex.npy").contains("\"<c16\""));
+    assert!(fault("complex.npy").contains("\"array\" (complex;"));
     assert!(fault("objects.npy").contains("\"|O\""));
 }
 
@@ -137,7 +137,7 @@ fn mat() {
         );
     }
     holds("big_endian.mat", vec![plain("a", c)]);
-    assert!(fault("complex.mat").contains("\"z\", which is complex"));
+    assert!(fault("complex.mat").contains("\"z\" (complex;"));
     holds("level4.mat", vec![plain("t", t)]);
     holds("level4_big.mat", vec![at("a", a), at("m(:,1)", c), at("m(:,2)", b)]);
 }
@@ -308,8 +308,8 @@ fn columnar() {
         "plain.parquet",
     ] {
         let found = table(file).columns;
-        // Lists are left out; of a pair with a number Parquet has a column.
-        let found: Vec<&Column> = found.iter().filter(|column| column.name != "pair.x").collect();
+        // A pair of a number and the text of one is two columns.
+        let found: Vec<&Column> = found.iter().filter(|column| !column.name.starts_with("pair.")).collect();
         let names: Vec<&str> = found.iter().map(|column| column.name.as_str()).collect();
         assert_eq!(names, expected.iter().map(|column| column.0).collect::<Vec<_>>(), "{file}");
         for (found, (name, unit, values)) in found.iter().zip(&expected) {

@@ -10,6 +10,7 @@ mod channels;
 mod container;
 mod field;
 mod integrate;
+mod members;
 mod notations;
 mod text;
 mod times;

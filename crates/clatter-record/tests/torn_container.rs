@@ -56,11 +56,7 @@ fn torn_files_are_read_or_refused() {
     let (mut refused, mut kept) = (0_u32, 0_u32);
     for file in files {
         let whole = fs::read(&file).expect("a file");
-        let Ok(Kind::Npy | Kind::Wav | Kind::Mat5 | Kind::Hdf5 | Kind::Tdms | Kind::Uff | Kind::Parquet | Kind::Arrow) =
-            Kind::of(&whole)
-        else {
-            continue;
-        };
+        let Some(_) = Kind::of(&whole).ok().filter(|kind| *kind != Kind::Text) else { continue };
         for variant in 0..VARIANTS {
             let bytes = torn(&whole, &mut chance);
             let taken = allocation_counter::measure(|| {

@@ -69,7 +69,7 @@ const NO_RECORD: &str = "a record is numbers: save them as CSV";
 const SHEET: &str = "save it as CSV";
 
 /// Kinds that are not read: place, bytes, what it is, what to do.
-const REFUSED: [(usize, &[u8], &str, &str); 36] = [
+const REFUSED: [(usize, &[u8], &str, &str); 39] = [
     (0, b"PK\x03\x04", "a spreadsheet, an NPZ or another ZIP file", "save a spreadsheet as CSV, unpack what is packed"),
     (0, b"PK\x05\x06", "an empty ZIP file", NO_RECORD),
     (0, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an old Excel or other OLE file", SHEET),
@@ -106,7 +106,12 @@ const REFUSED: [(usize, &[u8], &str, &str); 36] = [
     (0, b"CDF\x02", "a NetCDF file of version 3", "save it as NetCDF 4, HDF5 or CSV"),
     (0, b"FEA1", "a Feather file of version 1", "save it as Parquet or Feather of version 2"),
     (0, b"Obj\x01", "an Avro file", SHEET),
+    (0, b"\xffBIOSEMI", "a BDF file of BioSemi", "export the channels as CSV"),
+    (0, b"\xc3\x40\xf1", "a SEG-Y file", "export the traces as CSV"),
+    (0, b"MS\x03", "a miniSEED file", WITH_OBSPY),
 ];
+
+const WITH_OBSPY: &str = "export the channel as CSV, for example with ObsPy";
 
 impl Kind {
     /// Bytes from the beginning of a file that suffice to know what it is.
@@ -186,6 +191,28 @@ fn refused_text(beginning: &[u8]) -> Option<(&'static str, &'static str)> {
 /// Kinds whose first bytes are few, or lie in several places.
 fn refused_binary(beginning: &[u8]) -> Option<(&'static str, &'static str)> {
     // Protocols 2 to 5: the opcode PROTO, its number, and from 4 on the opcode FRAME.
-    let pickle = matches!(beginning, [0x80, 2 | 3, ..] | [0x80, 4 | 5, 0x95, ..]);
-    if pickle { Some(("a pickle of Python", "save the array with numpy.save or as CSV")) } else { None }
+    if matches!(beginning, [0x80, 2 | 3, ..] | [0x80, 4 | 5, 0x95, ..]) {
+        return Some(("a pickle of Python", "save the array with numpy.save or as CSV"));
+    }
+    // The block of the parameters, and the key of the format.
+    if matches!(beginning, [2..=8, 0x50, ..]) {
+        return Some(("a C3D file", "export the analog channels as CSV"));
+    }
+    // A number of six digits, the quality and a blank; then the names of the station and the network.
+    if let Some((number, [b'D' | b'R' | b'Q' | b'M' | b'V' | b'A' | b'S' | b'T', b' ' | 0, names @ ..])) =
+        beginning.split_at_checked(6)
+        && number.iter().all(u8::is_ascii_digit)
+        && names.get(..12).is_some_and(|names| names.iter().all(|c| c.is_ascii_alphanumeric() || *c == b' '))
+    {
+        return Some(("a SEED or miniSEED file", WITH_OBSPY));
+    }
+    // Version 0, texts of 80 letters for patient and record, then date and time with points.
+    let points = [170, 173, 178, 181].iter().all(|at| beginning.get(*at) == Some(&b'.'));
+    if points && beginning.starts_with(b"0       ") && !beginning[..181].contains(&b'\n') {
+        return Some(("an EDF file", "export the channels as CSV, for example with EDFbrowser"));
+    }
+    // Floats of four bytes, of which those that no one uses are -12345.
+    let unused = beginning.get(4 * 63..4 * 70).map(|words| words.as_chunks::<4>().0);
+    let untold = |word: &[u8; 4]| [f32::from_le_bytes(*word), f32::from_be_bytes(*word)].contains(&-12345.0);
+    unused.is_some_and(|words| words.iter().all(untold)).then_some(("a SAC file", WITH_OBSPY))
 }

@@ -6,12 +6,15 @@ pub(super) mod level4;
 
 use super::bytes::Bytes;
 use super::number::Number;
-use super::{Matrix, Naming, TableBuilder, codec, refuse};
+use super::{COMPLEX, Matrix, Naming, TableBuilder, by_column, codec, column, refuse, sparse};
 use crate::{Error, Values};
 
 const PART: &str = "MAT file";
 const MATRIX: u32 = 14;
 const COMPRESSED: u32 = 15;
+const UTF8: u32 = 16;
+const UTF16: u32 = 17;
+const UTF32: u32 = 18;
 /// Structures in structures.
 const DEEPEST: usize = 8;
 
@@ -27,19 +30,36 @@ fn numbers(name: &str, matrix: Matrix<'_>, is_complex: bool, table: &mut TableBu
     }
     let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
     match values {
-        None | Some(0) => {}
-        Some(1) => {
-            if let Values::Float(values) = number.values(bytes, big_endian) {
-                table.number(group, own, values[0]);
-            }
-        }
-        Some(_) if is_complex => {
-            table.leave_out(format!("{name:?}, which is complex; a record is real: save its real part"));
-        }
+        None | Some(0) => table.leave_out(name, "empty"),
+        _ if is_complex => table.leave_out(name, COMPLEX),
+        Some(1) => table.number(group, own, name, number.values(bytes, big_endian).float(0)),
         Some(_) => {
             table.take(&[rows, columns])?;
             table.extend(group, matrix.split(name, Naming::Matlab));
         }
+    }
+    Ok(())
+}
+
+/// Adds the numbers that the rows of a matrix of letters are, or names it as text.
+fn letters(name: &str, matrix: Matrix<'_>, table: &mut TableBuilder) -> Result<(), Error> {
+    let Matrix { rows, columns, bytes, number, big_endian, .. } = matrix;
+    let fits = rows.checked_mul(columns).and_then(|count| count.checked_mul(number.size())) == Some(bytes.len());
+    if !fits || rows < 2 {
+        table.leave_out(name, "text");
+        return Ok(());
+    }
+    let codes = number.values(bytes, big_endian).into_integers();
+    let letter = |code: i64| u8::try_from(code).unwrap_or(b'?');
+    let texts =
+        (0..rows).map(|row| codes.iter().skip(row).step_by(rows).map(|code| letter(*code)).collect::<Vec<u8>>());
+    match super::number::numbers(texts) {
+        Some(values) => {
+            table.take(&[rows])?;
+            let group = name.rsplit_once('.').map_or("", |(group, _)| group);
+            table.extend(group, [column(name, None, Values::Float(values))]);
+        }
+        None => table.leave_out(name, "text"),
     }
     Ok(())
 }
@@ -97,11 +117,11 @@ impl<'a> Element<'a> {
     fn number(self) -> Option<Number> {
         Some(match self.kind {
             1 => Number::I8,
-            2 => Number::U8,
+            2 | UTF8 => Number::U8,
             3 => Number::I16,
-            4 => Number::U16,
+            4 | UTF16 => Number::U16,
             5 => Number::I32,
-            6 => Number::U32,
+            6 | UTF32 => Number::U32,
             7 => Number::F32,
             9 => Number::F64,
             12 => Number::I64,
@@ -112,29 +132,29 @@ impl<'a> Element<'a> {
 }
 
 /// Adds the columns of one variable; one that holds no numbers adds none.
-fn variable(
-    data: &[u8],
+fn variable<'a>(
+    data: &'a [u8],
     big_endian: bool,
     given: Option<&str>,
     depth: usize,
     table: &mut TableBuilder,
 ) -> Result<(), Error> {
     const STRUCTURE: u32 = 2;
+    const LETTERS: u32 = 4;
+    const SPARSE: u32 = 5;
     const OPAQUE: u32 = 17;
-    const COMPLEX: u32 = 0x0800;
+    const IS_COMPLEX: u32 = 0x0800;
+    const IS_TRUTH: u32 = 0x0200;
     let mut bytes = Bytes::new(data, PART);
     bytes.big_endian = big_endian;
-    // An empty cell or field.
     if data.is_empty() {
+        table.leave_out(given.unwrap_or("variable without a name"), "empty");
         return Ok(());
     }
     let flags = Element::read(&mut bytes)?.data;
     let flags = bytes.part(flags, "MAT file, the flags of a variable").u32()?;
     let class = flags & 0xff;
-    if class == OPAQUE {
-        return Ok(());
-    }
-    let sides = Element::read(&mut bytes)?;
+    let sides = if class == OPAQUE { None } else { Some(Element::read(&mut bytes)?) };
     let own = Element::read(&mut bytes)?.data;
     let own = String::from_utf8_lossy(own);
     let name = given.unwrap_or(&own);
@@ -142,36 +162,42 @@ fn variable(
     if name.is_empty() {
         return Ok(());
     }
-    let sides = match Number::I32.values(sides.data, big_endian) {
-        Values::Float(sides) => sides,
-        Values::Integer(_) => Vec::new(),
+    let Some(sides) = sides else {
+        table.leave_out(name, "an object of MATLAB, such as a table or a string");
+        return Ok(());
     };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "32-bit integers; negative ones are refused"
-    )]
-    let sides: Vec<usize> = sides.iter().filter(|side| **side >= 0.0).map(|side| *side as usize).collect();
+    let sides = Number::I32.values(sides.data, big_endian).into_integers();
+    let sides: Vec<usize> = sides.iter().filter_map(|side| usize::try_from(*side).ok()).collect();
     let &[rows, columns] = sides.as_slice() else {
-        // More than two dimensions are no record.
-        return if sides.len() > 2 {
-            Ok(())
-        } else {
-            Err(refuse(format!("MAT file: the size of {name:?} is damaged")))
-        };
+        if sides.len() < 2 {
+            return Err(refuse(format!("MAT file: the size of {name:?} is damaged")));
+        }
+        table.leave_out(name, format!("of {} dimensions", sides.len()));
+        return Ok(());
+    };
+    let matrix = |bytes: &mut Bytes<'a>| -> Result<Matrix<'a>, Error> {
+        let Element { kind, data } = Element::read(bytes)?;
+        let number = Element { kind, data }.number();
+        let number = number.ok_or_else(|| refuse(format!("MAT file: {name:?} has no numbers of a known kind")))?;
+        Ok(Matrix { rows, columns, column_by_column: true, bytes: data, number, big_endian })
     };
     match class {
-        STRUCTURE if rows == 1 && columns == 1 && depth < DEEPEST => fields(&mut bytes, name, depth, table),
-        6..=15 => {
-            let real = Element::read(&mut bytes)?;
-            let number =
-                real.number().ok_or_else(|| refuse(format!("MAT file: {name:?} has no numbers of a known kind")))?;
-            let matrix = Matrix { rows, columns, column_by_column: true, bytes: real.data, number, big_endian };
-            numbers(name, matrix, flags & COMPLEX != 0, table)
+        STRUCTURE if rows == 1 && columns == 1 && depth < DEEPEST => return fields(&mut bytes, name, depth, table),
+        LETTERS => return letters(name, matrix(&mut bytes)?, table),
+        SPARSE | 6..=15 if flags & IS_TRUTH != 0 => table.leave_out(name, "truths"),
+        SPARSE if flags & IS_COMPLEX != 0 => table.leave_out(name, COMPLEX),
+        SPARSE => {
+            let [places, starts, numbers] = [matrix(&mut bytes)?, matrix(&mut bytes)?, matrix(&mut bytes)?]
+                .map(|Matrix { bytes, number, .. }| number.values(bytes, big_endian));
+            let [places, starts] = [places, starts].map(Values::into_integers);
+            return sparse(name, [rows, columns], by_column(&places, &starts, &numbers), table);
         }
-        // Text, cells, sparse matrices, arrays of structures.
-        _ => Ok(()),
+        6..=15 => return numbers(name, matrix(&mut bytes)?, flags & IS_COMPLEX != 0, table),
+        1 => table.leave_out(name, "cells"),
+        STRUCTURE => table.leave_out(name, "an array of structures"),
+        _ => table.leave_out(name, "an object of MATLAB"),
     }
+    Ok(())
 }
 
 /// The fields of one structure: the length of a name, the names, then a variable each.
@@ -180,6 +206,9 @@ fn fields(bytes: &mut Bytes, name: &str, depth: usize, table: &mut TableBuilder)
     let length = bytes.part(length, "MAT file, the fields of a structure").u32()?;
     let length = usize::try_from(length).unwrap_or(usize::MAX).max(1);
     let names = Element::read(bytes)?.data;
+    if names.is_empty() {
+        table.leave_out(name, "a structure without members");
+    }
     for field in names.chunks(length) {
         let end = field.iter().position(|byte| *byte == 0).unwrap_or(field.len());
         let field = String::from_utf8_lossy(&field[..end]);

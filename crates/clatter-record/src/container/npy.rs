@@ -3,9 +3,9 @@
 //! Source: NEP 1 and `numpy.lib.format`, versions 1 to 3.
 
 use super::bytes::Bytes;
-use super::number::Number;
-use super::{Matrix, Naming, TableBuilder, column, refuse};
-use crate::{Column, Error, Values};
+use super::number::{Number, numbers};
+use super::{COMPLEX, Matrix, Naming, TableBuilder, column, refuse};
+use crate::{Error, Values};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// A hundred times what NumPy itself reads.
@@ -28,89 +28,140 @@ pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> 
     let header = Header::read(header)?;
     let [rows, columns] = header.shape()?;
     let (fields, size) = header.fields()?;
-    let values = table.take(&[rows, columns, fields.len()])?;
     // As many bytes as the header says: all of them are there, or the file is refused.
     let count = rows.checked_mul(columns).and_then(|count| count.checked_mul(size)).unwrap_or(usize::MAX);
     let data = bytes.take(count)?;
-    if values == 0 {
-        return Ok(());
-    }
-    if let [Field { name, element, .. }] = fields.as_slice()
-        && name.is_empty()
-        && element.tick_ns.is_none()
-    {
-        let Element { number, big_endian, .. } = *element;
-        let column_by_column = header.fortran_order();
-        let matrix = Matrix { rows, columns, column_by_column, bytes: data, number, big_endian };
-        table.extend("", matrix.split("", Naming::None));
-        return Ok(());
-    }
-    for field in fields {
-        table.extend("", [field.column(data, size, rows * columns)?]);
+    let length = rows.saturating_mul(columns);
+    for Field { name, offset, element } in fields {
+        let shown = if name.is_empty() { "array" } else { name.as_str() };
+        let (big_endian, kept) = match element {
+            Ok(element) if length > 0 => element,
+            other => {
+                table.leave_out(shown, other.err().unwrap_or("empty"));
+                continue;
+            }
+        };
+        let whole = name.is_empty();
+        let matrix = |bytes: &[u8], number, column_by_column, big_endian| {
+            Matrix { rows, columns, column_by_column, bytes, number, big_endian }.split("", Naming::None)
+        };
+        let order = header.fortran_order();
+        table.take(&[rows, columns])?;
+        let found = match kept {
+            Element::Number(number) if whole => matrix(data, number, order, big_endian),
+            Element::Number(number) => {
+                vec![column(name, None, number.placed(data, big_endian, offset, size, length))]
+            }
+            Element::Time(number, tick) => {
+                let values = number.placed(data, big_endian, offset, size, length);
+                vec![column(name.as_str(), Some("ns".to_owned()), times(values, tick, &name)?)]
+            }
+            Element::Text(letters, each) => {
+                let rows =
+                    data.chunks(size.max(1)).filter_map(|row| row.get(offset..offset.checked_add(letters * each)?));
+                let Some(values) = numbers(rows.map(|text| narrow(text, each, big_endian))) else {
+                    table.left += length;
+                    table.leave_out(shown, "text");
+                    continue;
+                };
+                if whole {
+                    let bytes: Vec<u8> = values.into_iter().flat_map(f64::to_le_bytes).collect();
+                    matrix(&bytes, Number::F64, order, false)
+                } else {
+                    vec![column(name, None, Values::Float(values))]
+                }
+            }
+        };
+        table.extend("", found);
     }
     Ok(())
 }
 
-/// A number of a row.
+/// A part of a row.
 #[derive(Debug, Clone)]
 struct Field {
+    /// Empty for an array that is no table.
     name: String,
     offset: usize,
-    element: Element,
+    element: Kept,
 }
+
+/// Whether it is big-endian, and how a number is stored; else what it is.
+type Kept = Result<(bool, Element), &'static str>;
 
 /// How a number is stored.
 #[derive(Debug, Clone, Copy)]
-struct Element {
-    number: Number,
-    big_endian: bool,
-    /// Nanoseconds of one, where it is a time.
-    tick_ns: Option<i64>,
+enum Element {
+    Number(Number),
+    /// In ticks of so many nanoseconds.
+    Time(Number, i64),
+    /// So many letters of so many bytes.
+    Text(usize, usize),
 }
 
-impl Element {
-    /// From a name such as `<f8`, `|i1`, `>M8[ns]`.
-    fn named(text: &str) -> Result<Self, Error> {
-        let not_known = || not_known(text);
-        let (order, rest) = text.split_at_checked(1).ok_or_else(not_known)?;
-        let (kind, size) = rest.split_at_checked(1).ok_or_else(not_known)?;
-        let (size, tick) = match size.split_once('[') {
-            Some((size, tick)) => (size, tick.strip_suffix(']')),
-            None => (size, None),
-        };
-        let size: u64 = size.parse().map_err(|_| not_known())?;
-        let number = match kind {
-            "f" => Number::float(size),
-            "i" | "M" | "m" => Number::integer(size, true),
-            "u" | "b" => Number::integer(size, false),
-            _ => None,
-        };
-        let tick_ns = match (kind, tick) {
-            ("M" | "m", Some("s")) => Some(1_000_000_000),
-            ("M" | "m", Some("ms")) => Some(1_000_000),
-            ("M" | "m", Some("us")) => Some(1000),
-            ("M" | "m", Some("ns")) => Some(1),
-            ("M" | "m", _) => return Err(not_known()),
-            _ => None,
-        };
-        Ok(Self { number: number.ok_or_else(not_known)?, big_endian: order == ">", tick_ns })
-    }
+/// The element of a name such as `<f8`, `|i1`, `>M8[ns]`, and its bytes.
+fn element(text: &str) -> Result<(Kept, usize), Error> {
+    let not_known = || not_known(text);
+    let (order, rest) = text.split_at_checked(1).ok_or_else(not_known)?;
+    let (kind, size) = rest.split_at_checked(1).ok_or_else(not_known)?;
+    let (size, tick) = match size.split_once('[') {
+        Some((size, tick)) => (size, tick.strip_suffix(']')),
+        None => (size, None),
+    };
+    let size: usize = size.parse().map_err(|_| not_known())?;
+    let number = match kind {
+        "f" => Number::float(size as u64),
+        "i" | "M" | "m" => Number::integer(size as u64, true),
+        "u" => Number::integer(size as u64, false),
+        _ => None,
+    };
+    let tick_ns = match (kind, tick) {
+        ("m", Some("D")) => Some(86_400_000_000_000),
+        ("m", Some("h")) => Some(3_600_000_000_000),
+        ("m", Some("m")) => Some(60_000_000_000),
+        (_, Some("s")) => Some(1_000_000_000),
+        (_, Some("ms")) => Some(1_000_000),
+        (_, Some("us")) => Some(1000),
+        (_, Some("ns")) => Some(1),
+        _ => None,
+    };
+    let letter = if kind == "U" { 4 } else { 1 };
+    let bytes = size.checked_mul(letter).ok_or_else(not_known)?;
+    let element = match (kind, number, tick_ns) {
+        ("M" | "m", Some(number), Some(tick)) => Ok(Element::Time(number, tick)),
+        ("M" | "m", Some(_), None) => Err("times in a unit that is not read; save them in ns"),
+        (_, Some(number), _) => Ok(Element::Number(number)),
+        ("S" | "U", ..) => Ok(Element::Text(size, letter)),
+        ("b", ..) => Err("truths"),
+        ("c", ..) => Err(COMPLEX),
+        ("V", ..) => Err("bytes"),
+        // It is another one on other machines.
+        ("f", ..) => Err("a long double; save it as float64"),
+        _ => return Err(not_known()),
+    };
+    Ok((element.map(|element| (order == ">", element)), bytes))
 }
 
-impl Field {
-    fn column(&self, data: &[u8], size: usize, length: usize) -> Result<Column, Error> {
-        let Element { number, big_endian, tick_ns } = self.element;
-        let values = number.placed(data, big_endian, self.offset, size, length);
-        let Some(tick) = tick_ns else { return Ok(column(self.name.as_str(), None, values)) };
-        let mut times = values.into_integers();
-        for time in &mut times {
-            // The smallest integer stands for no time at all.
-            *time = time.checked_mul(tick).filter(|time| *time != i64::MIN).ok_or_else(|| {
-                refuse(format!("NPY file: column {:?} holds a time that is none, or beyond 2262", self.name))
-            })?;
-        }
-        Ok(column(self.name.as_str(), Some("ns".to_owned()), Values::Integer(times)))
+/// Nanoseconds from times in ticks.
+fn times(values: Values, tick_ns: i64, name: &str) -> Result<Values, Error> {
+    let mut times = values.into_integers();
+    for time in &mut times {
+        // The smallest integer stands for no time at all.
+        *time = time
+            .checked_mul(tick_ns)
+            .filter(|time| *time != i64::MIN)
+            .ok_or_else(|| refuse(format!("NPY file: column {name:?} holds a time that is none, or beyond 2262")))?;
     }
+    Ok(Values::Integer(times))
+}
+
+/// A text of letters of so many bytes, with a question mark for one that no number has.
+fn narrow(text: &[u8], letter: usize, big_endian: bool) -> Vec<u8> {
+    if letter == 1 {
+        return text.to_vec();
+    }
+    let codes = Number::U32.values(text, big_endian).into_integers();
+    codes.into_iter().map(|code| u8::try_from(code).unwrap_or(b'?')).collect()
 }
 
 /// A literal of Python, as far as headers use them.
@@ -178,17 +229,6 @@ fn not_known(text: &str) -> Error {
     refuse(format!("NPY file: numbers of the type {text:?} are not read; save them as float64, float32 or int"))
 }
 
-/// Bytes of text and padding, which have a length and no numbers: `|V4`, `<U8` (4 bytes a letter).
-fn skipped(text: &str) -> Option<Result<usize, Error>> {
-    let each = match text.get(1..2)? {
-        "V" | "S" => 1,
-        "U" => 4,
-        _ => return None,
-    };
-    let count = text.get(2..).and_then(|digits| digits.parse::<usize>().ok());
-    Some(count.and_then(|count| count.checked_mul(each)).ok_or_else(|| not_known(text)))
-}
-
 /// How often a field stands in a row: the product of its shape.
 fn repeats(shape: &[Literal]) -> Result<usize, Error> {
     let sides = match shape {
@@ -214,9 +254,9 @@ fn flatten(descr: &Literal, name: &str, offset: &mut usize, fields: &mut Vec<Fie
             if fields.len() == MOST_FIELDS {
                 return Err(too_many());
             }
-            let element = Element::named(text)?;
+            let (element, bytes) = element(text)?;
             fields.push(Field { name: name.to_owned(), offset: *offset, element });
-            *offset = offset.checked_add(element.number.size()).ok_or_else(damaged)?;
+            *offset = offset.checked_add(bytes).ok_or_else(damaged)?;
         }
         Literal::List(list) => {
             for field in list {
@@ -233,11 +273,10 @@ fn flatten(descr: &Literal, name: &str, offset: &mut usize, fields: &mut Vec<Fie
                 };
                 let full = if name.is_empty() { own.clone() } else { format!("{name}.{own}") };
                 let count = repeats(shape)?;
-                if let Literal::Text(text) = descr
-                    && let Some(size) = skipped(text)
-                {
-                    let size = size?.checked_mul(count).ok_or_else(damaged)?;
-                    *offset = offset.checked_add(size).ok_or_else(damaged)?;
+                // Without a name it fills up a row.
+                if let (Literal::Text(text), "") = (descr, own.as_str()) {
+                    let bytes = element(text)?.1.checked_mul(count).ok_or_else(damaged)?;
+                    *offset = offset.checked_add(bytes).ok_or_else(damaged)?;
                     continue;
                 }
                 match (descr, shape) {

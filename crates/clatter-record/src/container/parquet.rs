@@ -9,7 +9,7 @@
 //!
 //! | | here | `parquet`, `arrow-ipc` |
 //! |---|---|---|
-//! | lines, with `stored` and `codec` | 1345 | 525 |
+//! | lines, with `stored` and `codec`; before text and dictionaries were read 1345 | 1815 | 525 |
 //! | packages in Cargo.lock | 251 | 286 |
 //! | processor time to build the crate from clean | 151 s | 470 s |
 //! | panics in torn variants of each Parquet file of the tests | 0 of 2000 | up to 27 of 20 000 |
@@ -34,9 +34,10 @@ mod write;
 pub use groups::RowGroups;
 pub use write::{RowGroupWriter, Series, write};
 
-use super::number::Number;
+use super::arrow::Told;
+use super::number::{HALF, Number};
 use super::stored::Stored;
-use super::{TableBuilder, arrow, column, refuse};
+use super::{TableBuilder, arrow, refuse};
 use crate::{Error, Values};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -54,26 +55,58 @@ const DEEPEST: usize = 32;
 
 pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
     let metadata = metadata(bytes)?;
-    let units = units(metadata.key_value_metadata.as_deref().unwrap_or_default());
+    let told = told(metadata.key_value_metadata.as_deref().unwrap_or_default());
     for (place, leaf) in leaves(&metadata.schema)?.into_iter().enumerate() {
-        let Some(stored) = leaf.stored() else { continue };
-        let name = leaf.path;
-        let mut values = Values::Float(Vec::new());
-        for group in &metadata.row_groups {
-            let chunk = group.columns.get(place).and_then(|chunk| chunk.meta_data.as_ref());
-            let chunk = chunk.ok_or_else(|| refuse(format!("Parquet file: a row group lacks column {name:?}")))?;
-            let rows = group.num_rows;
-            let rows =
-                usize::try_from(rows).map_err(|_| refuse(format!("Parquet file: {rows} is no number of rows")))?;
-            table.take(&[rows])?;
-            let shape = pages::Shape { rows, width: stored.width(), bits: false, levels: leaf.levels };
-            let rows = pages::read(bytes, chunk, shape, &name)?;
-            values.append(rows.values(stored, &name)?);
+        let Told { unit, tick_ns } = told.get(&leaf.path).cloned().unwrap_or_default();
+        let kept = match (leaf.kept(), tick_ns) {
+            (Ok(Kept::Stored(Stored::Number(Number::I64))), Some(tick)) => {
+                Ok(Kept::Stored(Stored::Time(Number::I64, tick)))
+            }
+            (kept, _) => kept,
+        };
+        let unit = kept.ok().and_then(Kept::unit).or(unit);
+        let left = table.left;
+        let values = match kept {
+            Ok(kept) => column(bytes, &metadata, place, &leaf, kept, table)?,
+            Err(reason) => Err(reason.to_owned()),
+        };
+        if values.is_err() {
+            table.left = left;
         }
-        let unit = stored.unit().or_else(|| units.get(&name).cloned());
-        table.extend("", [column(name, unit, values)]);
+        table.add(&leaf.path, unit, values);
     }
     Ok(())
+}
+
+/// The numbers of a column in all row groups; within, why it has none, as text that is no number.
+fn column(
+    bytes: &[u8],
+    metadata: &FileMetaData,
+    place: usize,
+    leaf: &Leaf<'_>,
+    kept: Kept,
+    table: &mut TableBuilder,
+) -> Result<Result<Values, String>, Error> {
+    let name = &leaf.path;
+    let mut values = Values::Float(Vec::new());
+    for group in &metadata.row_groups {
+        let chunk = group.columns.get(place).and_then(|chunk| chunk.meta_data.as_ref());
+        let chunk = chunk.ok_or_else(|| refuse(format!("Parquet file: a row group lacks column {name:?}")))?;
+        let rows = group.num_rows;
+        let rows = usize::try_from(rows).map_err(|_| refuse(format!("Parquet file: {rows} is no number of rows")))?;
+        table.take(&[rows])?;
+        let shape = pages::Shape { rows, kept, levels: leaf.levels };
+        match (pages::read(bytes, chunk, shape), kept) {
+            (Ok(rows), _) => values.append(rows.values(kept.stored(), name)?),
+            (Err(fault), Kept::Texts(what)) if fault == pages::NO_NUMBER => return Ok(Err(what.to_owned())),
+            (Err(fault), Kept::Texts(what)) => return Ok(Err(format!("{what} that {fault}"))),
+            (Err(fault), _) => return Err(refuse(format!("Parquet file: column {name:?} {fault}"))),
+        }
+    }
+    Ok(match (&values, kept) {
+        (Values::Float(found), Kept::Texts(what)) if found.iter().all(|number| number.is_nan()) => Err(what.to_owned()),
+        _ => Ok(values),
+    })
 }
 
 fn damaged(error: impl std::fmt::Display) -> Error {
@@ -99,11 +132,37 @@ fn metadata(bytes: &[u8]) -> Result<FileMetaData, Error> {
     FileMetaData::read_from_in_protocol(&mut TCompactInputProtocol::new(&rest[start..], most)).map_err(damaged)
 }
 
-/// Units of the columns by name, as Arrow keeps them. They are no part of the numbers: damaged ones are none.
-fn units(entries: &[KeyValue]) -> HashMap<String, String> {
+/// What the schema of Arrow tells of the columns by name. It is no part of the numbers: a damaged one tells nothing.
+fn told(entries: &[KeyValue]) -> HashMap<String, Told> {
     let schema = entries.iter().find(|entry| entry.key == ARROW_SCHEMA).and_then(|entry| entry.value.as_ref());
     let message = schema.and_then(|schema| STANDARD.decode(schema).ok()).unwrap_or_default();
-    arrow::units(&message).unwrap_or_default().into_iter().collect()
+    arrow::told(&message).unwrap_or_default()
+}
+
+/// How a column of the file is read.
+#[derive(Debug, Clone, Copy)]
+enum Kept {
+    Stored(Stored),
+    /// Flags, of which a plain page has eight in a byte.
+    Flags,
+    /// Bytes of any length, which may be the text of numbers; else what they are.
+    Texts(&'static str),
+    /// Whole numbers of any length, in tens to the power of minus the scale.
+    Decimals(i32),
+}
+
+impl Kept {
+    /// How its numbers come from the pages.
+    fn stored(self) -> Stored {
+        match self {
+            Self::Stored(stored) => stored,
+            Self::Flags => Stored::Number(Number::U8),
+            Self::Texts(_) | Self::Decimals(_) => Stored::Number(Number::F64),
+        }
+    }
+    fn unit(self) -> Option<String> {
+        self.stored().unit()
+    }
 }
 
 /// A column of the file: what the tree of the schema ends in.
@@ -154,33 +213,69 @@ fn leaves(schema: &[SchemaElement]) -> Result<Vec<Leaf<'_>>, Error> {
 }
 
 impl Leaf<'_> {
-    /// None for what holds no numbers: text, lists, decimals, dates.
-    fn stored(&self) -> Option<Stored> {
-        let size = match self.element.type_ {
-            _ if self.repeated => return None,
-            Some(Type::DOUBLE) => return Some(Stored::Number(Number::F64)),
-            Some(Type::FLOAT) => return Some(Stored::Number(Number::F32)),
-            Some(Type::INT96) => return Some(Stored::Int96),
+    /// How its numbers are kept; else what it is.
+    fn kept(&self) -> Result<Kept, &'static str> {
+        let SchemaElement { logical_type: logical, converted_type: converted, .. } = self.element;
+        let decimal = match logical {
+            Some(LogicalType::DECIMAL(decimal)) => Some(decimal.scale),
+            None if *converted == Some(ConvertedType::DECIMAL) => Some(self.element.scale.unwrap_or(0)),
+            _ => None,
+        };
+        let time = |number, tick| Ok(Kept::Stored(Stored::Time(number, tick)));
+        let number = |number| Ok(Kept::Stored(Stored::Number(number)));
+        let whole = match self.element.type_ {
+            _ if self.repeated => return Err("a list"),
+            Some(Type::DOUBLE) => return number(Number::F64),
+            Some(Type::FLOAT) => return number(Number::F32),
+            Some(Type::INT96) => return Ok(Kept::Stored(Stored::Int96)),
+            Some(Type::BOOLEAN) => return Err("truths"),
             Some(Type::INT64) => 8,
             Some(Type::INT32) => 4,
-            _ => return None,
+            Some(Type::BYTE_ARRAY) => {
+                let text = matches!(logical, Some(LogicalType::STRING(_))) || *converted == Some(ConvertedType::UTF8);
+                return Ok(decimal.map_or(Kept::Texts(if text { "text" } else { "bytes" }), Kept::Decimals));
+            }
+            Some(Type::FIXED_LEN_BYTE_ARRAY) => {
+                let length = self.element.type_length.and_then(|length| u8::try_from(length).ok());
+                return match (decimal, length, logical) {
+                    (Some(scale), Some(bytes @ 1..=32), _) => {
+                        number(Number::Decimal { bytes, scale, big_endian: true })
+                    }
+                    (None, Some(2), Some(LogicalType::FLOAT16(_))) => number(HALF),
+                    _ => Err("bytes"),
+                };
+            }
+            _ => return Err("of a type that is not known"),
         };
-        let integer = |signed| Number::integer(size, signed).map(Stored::Number);
-        match (&self.element.logical_type, self.element.converted_type) {
-            (Some(LogicalType::TIMESTAMP(stamp)), _) if size == 8 => Some(Stored::Time(match stamp.unit {
-                TimeUnit::MILLIS(_) => 1_000_000,
-                TimeUnit::MICROS(_) => 1000,
-                TimeUnit::NANOS(_) => 1,
-            })),
+        let integer =
+            |signed| Number::integer(whole.into(), signed).ok_or("of a type that is not known").and_then(number);
+        let signed = Number::integer(whole.into(), true).unwrap_or(Number::I64);
+        let unit = match logical {
+            Some(LogicalType::TIMESTAMP(stamp)) => Some(&stamp.unit),
+            Some(LogicalType::TIME(time)) => Some(&time.unit),
+            _ => None,
+        };
+        match (logical, *converted) {
+            _ if let Some(scale) = decimal => number(Number::Decimal { bytes: whole, scale, big_endian: false }),
+            _ if let Some(unit) = unit => time(
+                signed,
+                match unit {
+                    TimeUnit::MILLIS(_) => 1_000_000,
+                    TimeUnit::MICROS(_) => 1000,
+                    TimeUnit::NANOS(_) => 1,
+                },
+            ),
+            (Some(LogicalType::DATE(_)), _) | (None, Some(ConvertedType::DATE)) => Err("dates"),
+            (Some(LogicalType::UNKNOWN(_)), _) => Err("without values"),
             (Some(LogicalType::INTEGER(kind)), _) => integer(kind.is_signed),
-            (None, Some(ConvertedType::TIMESTAMP_MILLIS)) => Some(Stored::Time(1_000_000)),
-            (None, Some(ConvertedType::TIMESTAMP_MICROS)) => Some(Stored::Time(1000)),
+            (None, Some(ConvertedType::TIMESTAMP_MILLIS | ConvertedType::TIME_MILLIS)) => time(signed, 1_000_000),
+            (None, Some(ConvertedType::TIMESTAMP_MICROS | ConvertedType::TIME_MICROS)) => time(signed, 1000),
             (None, Some(kind)) if (ConvertedType::UINT_8.0..=ConvertedType::UINT_64.0).contains(&kind.0) => {
                 integer(false)
             }
             (None, Some(kind)) if (ConvertedType::INT_8.0..=ConvertedType::INT_64.0).contains(&kind.0) => integer(true),
             (None, None) => integer(true),
-            _ => None,
+            _ => Err("of a type that is not known"),
         }
     }
 }

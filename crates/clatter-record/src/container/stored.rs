@@ -8,8 +8,8 @@ use crate::{Error, Values};
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Stored {
     Number(Number),
-    /// Times in ticks of so many nanoseconds.
-    Time(i64),
+    /// Times in ticks of so many nanoseconds, which are integers of 4 or 8 bytes.
+    Time(Number, i64),
     /// Nanoseconds of the day and the day, as old programs write times.
     Int96,
 }
@@ -18,8 +18,7 @@ impl Stored {
     /// Bytes of one.
     pub(super) fn width(self) -> usize {
         match self {
-            Self::Number(number) => number.size(),
-            Self::Time(_) => 8,
+            Self::Number(number) | Self::Time(number, _) => number.size(),
             Self::Int96 => 12,
         }
     }
@@ -37,7 +36,7 @@ impl Stored {
     ) -> Result<Values, Error> {
         match self {
             Self::Number(number) => marked(number.values(bytes, big_endian), is_valid, name),
-            Self::Time(tick) => times(Number::I64.values(bytes, big_endian), tick, is_valid, name),
+            Self::Time(number, tick) => times(number.values(bytes, big_endian), tick, is_valid, name),
             Self::Int96 => {
                 let beyond = || refuse(format!("column {name:?}: a time is beyond the year 2262"));
                 let stamps = bytes.as_chunks::<12>().0;
@@ -63,6 +62,32 @@ fn marked(values: Values, is_valid: impl Fn(usize) -> bool, name: &str) -> Resul
             Some(row) => Err(missing(name, row)),
         },
     }
+}
+
+/// The numbers of a dictionary at these places, which are those of rows that have one.
+pub(super) fn looked_up(
+    dictionary: &Values,
+    places: Values,
+    is_valid: impl Fn(usize) -> bool,
+    name: &str,
+) -> Result<Values, Error> {
+    let places = places.into_integers();
+    let place = |row: usize| {
+        let place = usize::try_from(places[row]).ok().filter(|place| *place < dictionary.len());
+        place.ok_or_else(|| refuse(format!("column {name:?}, row {}: its place is beyond the dictionary", row + 1)))
+    };
+    let rows = 0..places.len();
+    Ok(match dictionary {
+        Values::Float(numbers) => {
+            let number = |row| if is_valid(row) { place(row).map(|place| numbers[place]) } else { Ok(f64::NAN) };
+            Values::Float(rows.map(number).collect::<Result<_, _>>()?)
+        }
+        Values::Integer(numbers) => {
+            let number =
+                |row| if is_valid(row) { place(row).map(|place| numbers[place]) } else { Err(missing(name, row)) };
+            Values::Integer(rows.map(number).collect::<Result<_, _>>()?)
+        }
+    })
 }
 
 /// Nanoseconds from times in ticks of so many.

@@ -7,6 +7,7 @@ mod meta;
 mod scale;
 
 use super::bytes::Bytes;
+use super::number::{Number, numbers};
 use super::{TableBuilder, column, refuse};
 use crate::unit::{Kind, Unit};
 use crate::{Column, Error, Values};
@@ -32,6 +33,8 @@ struct Object {
     properties: Properties,
     layout: Option<Layout>,
     values: Option<Values>,
+    /// What its data are, where they are no numbers.
+    other: Option<&'static str>,
     /// Where the data are raw ones of DAQmx, how they lie, and what was read of each source.
     daqmx: Option<Daqmx>,
     scalers: BTreeMap<u32, Values>,
@@ -221,15 +224,25 @@ impl File {
             offset = offset.saturating_add(if order.interleaved { size } else { layout.bytes });
             // Rows whose last one may be cut within.
             let count = if bytes.len() < size { 0 } else { ((bytes.len() - size) / stride + 1).min(layout.count) };
-            if let Stored::Skipped(_) = layout.kind {
+            let object = &mut self.objects[*object];
+            if let (Stored::Skipped(_, what), _) | (_, Some(what)) = (layout.kind, object.other) {
+                object.other = Some(what);
                 continue;
             }
             table.take(&[count])?;
             let values = match layout.kind {
                 Stored::Number(number) => number.placed(bytes, order.big_endian, 0, stride, count),
+                Stored::Text => {
+                    let Some(numbers) = texts(bytes, order.big_endian, layout.count) else {
+                        table.left += count + object.values.take().map_or(0, |values| values.len());
+                        object.other = Some("text");
+                        continue;
+                    };
+                    Values::Float(numbers)
+                }
                 _ => times(bytes, order.big_endian, stride, count)?,
             };
-            match &mut self.objects[*object].values {
+            match &mut object.values {
                 Some(before) => before.append(values),
                 none => *none = Some(values),
             }
@@ -256,14 +269,22 @@ impl File {
         let began = self.objects.iter().zip(&found).filter(|(_, values)| values.is_some());
         let first = began.filter_map(|(object, _)| object.began()).min();
         for (object, values) in self.objects.iter().zip(found) {
-            let Some((values, scalers)) = values else { continue };
             // A name that several groups have goes with its group.
-            let name = if count[object.name()] > 1 { object.path.join("/") } else { object.name().to_owned() };
+            let several = count.get(object.name()).is_some_and(|count| *count > 1);
+            let name = if several { object.path.join("/") } else { object.name().to_owned() };
+            if let Some(what) = object.other.or(values.is_none().then_some("without samples")) {
+                // A group or the file has none.
+                if object.path.len() > 1 {
+                    table.leave_out(&object.path.join("/"), what);
+                }
+                continue;
+            }
+            let Some((values, scalers)) = values else { continue };
             let group = object.path.split_last().map_or(&[][..], |(_, group)| group);
             let sampled_s = match object.sampled_s(first) {
                 Ok(sampled_s) => sampled_s,
                 Err(unit) => {
-                    table.leave_out(format!("{name}, whose abscissa is in {unit}: it is no record over time"));
+                    table.leave_out(&name, format!("over an abscissa in {unit}: it is no record over time"));
                     continue;
                 }
             };
@@ -274,7 +295,7 @@ impl File {
             let unit = || object.text("unit_string").or_else(|| object.text("NI_UnitDescription"));
             let unit = if time { Some("ns".to_owned()) } else { unit() };
             if values.is_empty() {
-                table.leave_out(format!("{name}, which has no samples"));
+                table.leave_out(&name, "without samples");
                 continue;
             }
             table.extend(&group.join("/"), [Column { sampled_s, ..column(name, unit, values) }]);
@@ -283,7 +304,7 @@ impl File {
     }
 }
 
-const NOTHING: Layout = Layout { kind: Stored::Skipped(None), count: 0, bytes: 0 };
+const NOTHING: Layout = Layout { kind: Stored::Skipped(0, "without samples"), count: 0, bytes: 0 };
 
 /// How a segment stores its chunks.
 #[derive(Debug, Clone, Copy)]
@@ -331,6 +352,15 @@ impl Object {
 fn parts(path: &str) -> Vec<String> {
     let inner = path.strip_prefix("/'").and_then(|path| path.strip_suffix('\''));
     inner.map(|path| path.split("'/'").map(|part| part.replace("''", "'")).collect()).unwrap_or_default()
+}
+
+/// The numbers of texts: where each of them ends, then all; none where one is no number.
+fn texts(bytes: &[u8], big_endian: bool, count: usize) -> Option<Vec<f64>> {
+    let (ends, all) = bytes.split_at_checked(count.checked_mul(4)?)?;
+    let ends = Number::U32.values(ends, big_endian).into_integers();
+    let ends = ends.into_iter().map(|end| usize::try_from(end).unwrap_or(usize::MAX));
+    let mut last = 0;
+    numbers(ends.map(|end| all.get(std::mem::replace(&mut last, end)..end).unwrap_or(b"?")))
 }
 
 /// Nanoseconds since 1970.

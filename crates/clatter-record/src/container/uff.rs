@@ -3,9 +3,9 @@
 //! Source: Universal File Dataset 58, Structural Dynamics Research Laboratory, University of Cincinnati.
 
 use super::number::Number;
-use super::{TableBuilder, column, refuse};
+use super::{COMPLEX, TableBuilder, column, refuse};
 use crate::unit::{Kind, Unit};
-use crate::{Column, Error, Table, Values};
+use crate::{Column, Error, Values};
 use std::borrow::Cow;
 
 pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> {
@@ -32,11 +32,13 @@ pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> 
             }
             table.extend(&if is_even { String::new() } else { groups.to_string() }, [values]);
         }
-        // Other data sets: to the line that ends them.
+        // Other data sets: to the line that ends them. Heads and units are beside records.
+        if !matches!(set, "58" | "151" | "164" | "") {
+            table.leave_out(&format!("data set {set}"), "of the universal file; 58 and 58b hold records");
+        }
         while lines.next().is_some_and(|line| line.trim() != "-1") {}
     }
-    let Table { columns, left_out, .. } = &table.table;
-    if columns.is_empty() && left_out.is_empty() {
+    if table.table.columns.is_empty() && table.left_out.is_empty() {
         return Err(refuse("universal file: it has no data set 58 or 58b, which holds records"));
     }
     Ok(())
@@ -116,8 +118,8 @@ fn block(
 ) -> Result<Option<(Option<Column>, Column)>, Error> {
     let head = match Head::read(lines)? {
         Ok(head) => head,
-        Err(reason) => {
-            table.leave_out(reason);
+        Err((line, reason)) => {
+            table.leave_out(&format!("data set with line {line}"), reason);
             // Its binary part may hold anything, a line of -1 too.
             if let Some(binary) = binary {
                 lines.take(Binary::read(binary, lines)?.bytes)?;
@@ -135,7 +137,7 @@ fn block(
 
 impl Head {
     /// The eleven lines before the numbers; within, why the data set is no record of times and left out.
-    fn read(lines: &mut Lines<'_>) -> Result<Result<Self, String>, Error> {
+    fn read(lines: &mut Lines<'_>) -> Result<Result<Self, (usize, String)>, Error> {
         for _ in 0..5 {
             lines.expect()?;
         }
@@ -169,9 +171,9 @@ impl Head {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and within 0 to 1e15")]
         let count = count as usize;
         let double = matches!(kind, 4.0 | 6.0);
-        let told = |fault: &str| Ok(Err(format!("the data set with line {at}: {fault}")));
+        let told = |fault: &str| Ok(Err((at, fault.to_owned())));
         if matches!(kind, 5.0 | 6.0) {
-            return told("the values are complex; a record is real");
+            return told(COMPLEX);
         }
         if !matches!(time.kind, 0 | TIME) {
             return told(&format!(

@@ -1,12 +1,15 @@
 //! The columns that a schema of Arrow describes.
 
 use super::damaged;
-use crate::container::number::Number;
+use crate::container::number::{HALF, Number};
 use crate::container::stored::Stored;
-use crate::container::{column, refuse};
-use crate::{Column, Error, Values};
+use crate::container::{TableBuilder, refuse};
+use crate::{Error, Values};
 use crate::{Field as WrittenField, FieldKind};
-use polars_arrow_format::ipc::{self, Endianness, FieldRef, Precision, SchemaRef, TimeUnit, TypeRef, UnionMode};
+use polars_arrow_format::ipc::{
+    self, Endianness, FieldRef, IntRef, Precision, SchemaRef, TimeUnit, TypeRef, UnionMode,
+};
+use std::collections::HashMap;
 
 /// Fields, those within fields too: more are no record.
 const MOST_FIELDS: usize = 10_000;
@@ -19,45 +22,106 @@ pub(super) struct Schema {
     pub(super) big_endian: bool,
 }
 
-/// One top-level column.
+/// A column, or a structure of columns.
 #[derive(Debug)]
 pub(super) struct Field {
+    /// With those of the structures it lies in.
     pub(super) name: String,
     unit: Option<String>,
-    /// None for what holds no numbers.
-    pub(super) stored: Option<Stored>,
+    pub(super) kept: Kept,
+    /// The dictionary in which its numbers are, and how places in it are stored.
+    pub(super) dictionary: Option<(i64, Number)>,
+    /// Its numbers so far; else why it has none.
+    pub(super) values: Result<Values, String>,
     /// Buffers that it takes in a batch, those of its children too.
     pub(super) buffers: usize,
     /// Columns of views in it, whose number of buffers each batch tells.
     pub(super) variadic: usize,
 }
 
-impl Field {
-    /// The column it becomes, where it holds numbers.
-    pub(super) fn empty_column(&self) -> Option<Column> {
-        let unit = self.stored?.unit().or_else(|| self.unit.clone());
-        Some(column(self.name.as_str(), unit, Values::Float(Vec::new())))
-    }
+/// How a column is kept.
+#[derive(Debug)]
+pub(super) enum Kept {
+    Stored(Stored),
+    /// Texts behind each other, and their ends in so many bytes each.
+    Texts(Number),
+    /// Texts in several buffers, the short ones beside their lengths.
+    Views,
+    Structure(Vec<Field>),
+    /// What holds no numbers.
+    Nothing,
 }
 
 impl Schema {
     pub(super) fn read(schema: SchemaRef<'_>) -> Result<Self, Error> {
         let mut left = MOST_FIELDS;
         let fields = schema.fields().map_err(damaged)?.into_iter().flatten();
-        let fields = fields.map(|field| read_field(field.map_err(damaged)?, &mut left)).collect::<Result<_, _>>()?;
+        let fields =
+            fields.map(|field| read_field(field.map_err(damaged)?, "", &mut left)).collect::<Result<_, _>>()?;
         Ok(Self { fields, big_endian: schema.endianness().map_err(damaged)? == Endianness::Big })
     }
 }
 
-fn read_field(field: FieldRef<'_>, left: &mut usize) -> Result<Field, Error> {
-    let name = field.name().map_err(damaged)?.unwrap_or_default().to_owned();
-    let encoded = field.dictionary().map_err(damaged)?.is_some();
-    let stored = match field.type_().map_err(damaged)? {
-        Some(kind) if !encoded => numbers(&kind)?,
-        _ => None,
-    };
+impl Field {
+    /// Adds the columns it becomes to the table, or names it.
+    pub(super) fn finish(self, table: &mut TableBuilder) {
+        let unit = if let Kept::Stored(stored) = self.kept { stored.unit() } else { None };
+        match (self.kept, self.values) {
+            (Kept::Structure(fields), _) if !fields.is_empty() => {
+                for field in fields {
+                    field.finish(table);
+                }
+            }
+            (Kept::Texts(_) | Kept::Views, Ok(Values::Float(all))) if all.iter().all(|number| number.is_nan()) => {
+                table.add(&self.name, None, Err("text".to_owned()));
+            }
+            (_, values) => table.add(&self.name, unit.or(self.unit), values),
+        }
+    }
+}
+
+fn read_field(field: FieldRef<'_>, above: &str, left: &mut usize) -> Result<Field, Error> {
+    let own = field.name().map_err(damaged)?.unwrap_or_default();
+    let name = if above.is_empty() { own.to_owned() } else { format!("{above}.{own}") };
     let (buffers, variadic) = count(&field, left, 0)?;
-    Ok(Field { unit: unit(&field)?, name, stored, buffers, variadic })
+    let kind = field.type_().map_err(damaged)?;
+    let encoded = field.dictionary().map_err(damaged)?;
+    let mut values = Ok(Values::Float(Vec::new()));
+    let kept = match &kind {
+        Some(TypeRef::Utf8(_)) => Kept::Texts(Number::I32),
+        Some(TypeRef::LargeUtf8(_)) => Kept::Texts(Number::I64),
+        Some(TypeRef::Utf8View(_)) => Kept::Views,
+        Some(TypeRef::Struct(_)) if encoded.is_none() => {
+            let children = field.children().map_err(damaged)?.into_iter().flatten();
+            // They have been counted.
+            let mut left = MOST_FIELDS;
+            let children = children.map(|child| read_field(child.map_err(damaged)?, &name, &mut left));
+            values = Err("a structure without members".to_owned());
+            Kept::Structure(children.collect::<Result<_, _>>()?)
+        }
+        Some(kind) => match numbers(kind)? {
+            Ok(stored) => Kept::Stored(stored),
+            Err(what) => {
+                values = Err(what.to_owned());
+                Kept::Nothing
+            }
+        },
+        // Refused when it was counted.
+        None => Kept::Nothing,
+    };
+    let dictionary = match encoded {
+        Some(encoding) => {
+            let places = encoding.index_type().map_err(damaged)?.map_or(Ok(Some(Number::I32)), |int| integer(&int))?;
+            Some((encoding.id().map_err(damaged)?, places.unwrap_or(Number::I32)))
+        }
+        None => None,
+    };
+    Ok(Field { unit: unit(&field)?, name, kept, dictionary, values, buffers, variadic })
+}
+
+fn integer(int: &IntRef<'_>) -> Result<Option<Number>, Error> {
+    let bits = u64::try_from(int.bit_width().map_err(damaged)?).unwrap_or_default();
+    Ok(Number::integer(bits / 8, int.is_signed().map_err(damaged)?))
 }
 
 /// The unit that the metadata of a field give.
@@ -72,29 +136,54 @@ fn unit(field: &FieldRef<'_>) -> Result<Option<String>, Error> {
     Ok(None)
 }
 
-/// How the numbers of a type are stored; none for what holds no numbers.
-fn numbers(kind: &TypeRef<'_>) -> Result<Option<Stored>, Error> {
-    let time = |unit| {
-        Some(Stored::Time(match unit {
-            TimeUnit::Second => 1_000_000_000,
-            TimeUnit::Millisecond => 1_000_000,
-            TimeUnit::Microsecond => 1000,
-            TimeUnit::Nanosecond => 1,
-        }))
-    };
+fn tick_ns(unit: TimeUnit) -> i64 {
+    match unit {
+        TimeUnit::Second => 1_000_000_000,
+        TimeUnit::Millisecond => 1_000_000,
+        TimeUnit::Microsecond => 1000,
+        TimeUnit::Nanosecond => 1,
+    }
+}
+
+/// How the numbers of a type are stored; else what it is.
+fn numbers(kind: &TypeRef<'_>) -> Result<Result<Stored, &'static str>, Error> {
+    let unknown = Err("of a type that is not known");
     Ok(match kind {
-        TypeRef::Int(int) => {
-            let bits = u64::try_from(int.bit_width().map_err(damaged)?).unwrap_or_default();
-            Number::integer(bits / 8, int.is_signed().map_err(damaged)?).map(Stored::Number)
-        }
-        TypeRef::FloatingPoint(float) => match float.precision().map_err(damaged)? {
-            Precision::Single => Some(Stored::Number(Number::F32)),
-            Precision::Double => Some(Stored::Number(Number::F64)),
-            Precision::Half => None,
+        TypeRef::Int(int) => integer(int)?.map(Stored::Number).map_or(unknown, Ok),
+        TypeRef::FloatingPoint(float) => Ok(Stored::Number(match float.precision().map_err(damaged)? {
+            Precision::Single => Number::F32,
+            Precision::Double => Number::F64,
+            Precision::Half => HALF,
+        })),
+        TypeRef::Decimal(decimal) => match (decimal.bit_width().map_err(damaged)?, decimal.scale().map_err(damaged)?) {
+            (bits @ (32 | 64 | 128 | 256), scale) => {
+                let bytes = u8::try_from(bits / 8).unwrap_or_default();
+                Ok(Stored::Number(Number::Decimal { bytes, scale, big_endian: false }))
+            }
+            _ => unknown,
         },
-        TypeRef::Timestamp(stamp) => time(stamp.unit().map_err(damaged)?),
-        TypeRef::Duration(duration) => time(duration.unit().map_err(damaged)?),
-        _ => None,
+        TypeRef::Timestamp(stamp) => Ok(Stored::Time(Number::I64, tick_ns(stamp.unit().map_err(damaged)?))),
+        TypeRef::Duration(duration) => Ok(Stored::Time(Number::I64, tick_ns(duration.unit().map_err(damaged)?))),
+        TypeRef::Time(time) => {
+            let number = if time.bit_width().map_err(damaged)? == 32 { Number::I32 } else { Number::I64 };
+            Ok(Stored::Time(number, tick_ns(time.unit().map_err(damaged)?)))
+        }
+        TypeRef::Date(_) => Err("dates"),
+        TypeRef::Bool(_) => Err("truths"),
+        TypeRef::Null(_) => Err("without values"),
+        TypeRef::Binary(_) | TypeRef::LargeBinary(_) | TypeRef::FixedSizeBinary(_) | TypeRef::BinaryView(_) => {
+            Err("bytes")
+        }
+        TypeRef::List(_)
+        | TypeRef::LargeList(_)
+        | TypeRef::FixedSizeList(_)
+        | TypeRef::ListView(_)
+        | TypeRef::LargeListView(_)
+        | TypeRef::Map(_) => Err("a list"),
+        TypeRef::Struct(_) => Err("a structure"),
+        TypeRef::Union(_) => Err("a union"),
+        TypeRef::Interval(_) => Err("a calendar interval"),
+        _ => unknown,
     })
 }
 
@@ -135,8 +224,16 @@ fn count(field: &FieldRef<'_>, left: &mut usize, depth: usize) -> Result<(usize,
     Ok((buffers, variadic))
 }
 
-/// Names and units of the columns of a schema in a message, as Parquet files carry it.
-pub(in crate::container) fn units(message: &[u8]) -> Result<Vec<(String, String)>, Error> {
+/// What a schema tells of a column beyond its numbers.
+#[derive(Debug, Clone, Default)]
+pub(in crate::container) struct Told {
+    pub(in crate::container) unit: Option<String>,
+    /// Nanoseconds of one, where it is a duration.
+    pub(in crate::container) tick_ns: Option<i64>,
+}
+
+/// What a schema in a message, as Parquet files carry it, tells of the columns by their names.
+pub(in crate::container) fn told(message: &[u8]) -> Result<HashMap<String, Told>, Error> {
     use ipc::planus::ReadAsRoot;
     // The mark and the length of the message may stand before it.
     let message = match message {
@@ -144,15 +241,31 @@ pub(in crate::container) fn units(message: &[u8]) -> Result<Vec<(String, String)
         _ => message,
     };
     let message = ipc::MessageRef::read_as_root(message).map_err(damaged)?;
-    let Some(ipc::MessageHeaderRef::Schema(schema)) = message.header().map_err(damaged)? else { return Ok(Vec::new()) };
-    let mut units = Vec::new();
-    for field in schema.fields().map_err(damaged)?.into_iter().flatten().take(MOST_FIELDS) {
-        let field = field.map_err(damaged)?;
-        if let (Some(name), Some(unit)) = (field.name().map_err(damaged)?, unit(&field)?) {
-            units.push((name.to_owned(), unit));
+    let mut told = HashMap::new();
+    if let Some(ipc::MessageHeaderRef::Schema(schema)) = message.header().map_err(damaged)? {
+        for field in schema.fields().map_err(damaged)?.into_iter().flatten() {
+            tell(&field.map_err(damaged)?, "", 0, &mut told)?;
         }
     }
-    Ok(units)
+    Ok(told)
+}
+
+/// Adds a field, and those of a structure.
+fn tell(field: &FieldRef<'_>, above: &str, depth: usize, told: &mut HashMap<String, Told>) -> Result<(), Error> {
+    let own = field.name().map_err(damaged)?.unwrap_or_default();
+    let name = if above.is_empty() { own.to_owned() } else { format!("{above}.{own}") };
+    if told.len() > MOST_FIELDS || depth > DEEPEST {
+        return Ok(());
+    }
+    for child in field.children().map_err(damaged)?.into_iter().flatten() {
+        tell(&child.map_err(damaged)?, &name, depth + 1, told)?;
+    }
+    let tick_ns = match field.type_().map_err(damaged)? {
+        Some(TypeRef::Duration(duration)) => Some(tick_ns(duration.unit().map_err(damaged)?)),
+        _ => None,
+    };
+    told.insert(name, Told { unit: unit(field)?, tick_ns });
+    Ok(())
 }
 
 /// The message of a schema: name, type and unit of each column.

@@ -2,11 +2,11 @@
 //!
 //! Source: MAT-File Format, The MathWorks, chapter 2 (Level 4).
 
-use super::numbers;
-use crate::Error;
+use super::{letters, numbers};
 use crate::container::bytes::Bytes;
 use crate::container::number::Number;
-use crate::container::{Matrix, TableBuilder, refuse};
+use crate::container::{COMPLEX, Matrix, TableBuilder, refuse, sparse};
+use crate::{Error, Values};
 
 const PART: &str = "MAT file of version 4";
 
@@ -81,12 +81,27 @@ pub(in crate::container) fn read(bytes: &[u8], table: &mut TableBuilder) -> Resu
         if head.is_complex {
             bytes.take(size)?;
         }
-        if head.class == 0 {
-            let Head { number, big_endian, is_complex, .. } = head;
-            let matrix = Matrix { rows, columns, column_by_column: true, bytes: real, number, big_endian };
-            numbers(&name, matrix, is_complex, table)?;
+        let Head { number, big_endian, is_complex, class, .. } = head;
+        let matrix = Matrix { rows, columns, column_by_column: true, bytes: real, number, big_endian };
+        match class {
+            0 => numbers(&name, matrix, is_complex, table)?,
+            1 => letters(&name, matrix, table)?,
+            _ if columns != 3 => table.leave_out(&name, COMPLEX),
+            _ => triplets(&name, &number.values(real, big_endian), rows, table)?,
         }
     }
     table.spread_intervals('.');
     Ok(())
+}
+
+/// Adds a sparse matrix: row, column and number of each that is not zero, and the size in the last row.
+fn triplets(name: &str, numbers: &Values, count: usize, table: &mut TableBuilder) -> Result<(), Error> {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and within 32 bits")]
+    let whole =
+        |place| Some(numbers.float(place)).filter(|n| n.fract() == 0.0 && (1.0..4e9).contains(n)).map(|n| n as usize);
+    let size = count.checked_sub(1).and_then(|last| Some((last, whole(last)?, whole(count + last)?)));
+    let (last, rows, columns) =
+        size.ok_or_else(|| refuse(format!("{PART}: {name:?} is sparse and tells no size; the file is damaged")))?;
+    let kept = (0..last).map(|i| Some((whole(i)? - 1, whole(count + i)? - 1, numbers.float(2 * count + i))));
+    sparse(name, [rows, columns], kept, table)
 }

@@ -62,13 +62,22 @@ pub(super) fn plain_bits(bytes: &[u8], count: usize) -> Option<Vec<u8>> {
     Some((0..count).map(|i| bytes[i / 8] >> (i % 8) & 1).collect())
 }
 
-/// Differences, in blocks of so many bits each.
-pub(super) fn delta(mut bytes: &[u8], width: usize, count: usize) -> Option<Vec<u8>> {
-    let bytes = &mut bytes;
-    let block = usize::try_from(whole(bytes)?).ok()?;
-    let parts = usize::try_from(whole(bytes)?).ok()?;
-    let told = usize::try_from(whole(bytes)?).ok()?;
-    let first = signed(bytes)?;
+/// Bytes of any length, each with its length before it, to the end; none where it is cut short.
+pub(super) fn plain_texts(mut bytes: &[u8]) -> impl Iterator<Item = Option<&[u8]>> {
+    std::iter::from_fn(move || {
+        (!bytes.is_empty()).then(|| {
+            let length = bytes.split_off(..4).and_then(<[u8]>::first_chunk);
+            length.and_then(|length| bytes.split_off(..u32::from_le_bytes(*length) as usize))
+        })
+    })
+}
+
+/// Differences, in blocks of so many bits each; and the bytes behind them.
+pub(super) fn delta(mut bytes: &[u8], count: usize) -> Option<(Vec<i64>, &[u8])> {
+    let block = usize::try_from(whole(&mut bytes)?).ok()?;
+    let parts = usize::try_from(whole(&mut bytes)?).ok()?;
+    let told = usize::try_from(whole(&mut bytes)?).ok()?;
+    let first = signed(&mut bytes)?;
     let in_part = block.checked_div(parts)?;
     if told < count || in_part == 0 || !in_part.is_multiple_of(8) {
         return None;
@@ -77,7 +86,7 @@ pub(super) fn delta(mut bytes: &[u8], width: usize, count: usize) -> Option<Vec<
     numbers.extend((count > 0).then_some(first));
     let mut last = first;
     while numbers.len() < count {
-        let least = signed(bytes)?;
+        let least = signed(&mut bytes)?;
         let widths = bytes.split_off(..parts)?;
         for width in widths {
             // Parts behind the last number are not there.
@@ -93,7 +102,7 @@ pub(super) fn delta(mut bytes: &[u8], width: usize, count: usize) -> Option<Vec<
             }
         }
     }
-    Some(numbers.iter().flat_map(|number| number.to_le_bytes().into_iter().take(width)).collect())
+    Some((numbers, bytes))
 }
 
 /// A whole number of 7 bits a byte.

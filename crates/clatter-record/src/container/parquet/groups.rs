@@ -1,9 +1,7 @@
 //! Parquet files read row group by row group: files that are larger than memory.
 
-use super::{ARROW_SCHEMA, Leaf, damaged, leaves, metadata, pages};
-use crate::container::number::Number;
+use super::{ARROW_SCHEMA, Kept, Leaf, damaged, leaves, metadata, pages};
 use crate::container::refuse;
-use crate::container::stored::Stored;
 use crate::{Error, Values};
 use polars_parquet_format::{FileMetaData, Type};
 use std::io::{Read, Seek, SeekFrom};
@@ -83,11 +81,11 @@ impl<R: Read + Seek> RowGroups<R> {
         let (start, size) = place.filter(|_| chunk.dictionary_page_offset.is_none()).ok_or_else(missing)?;
         let bytes = bytes_at(&mut self.input, self.length, start, size)?;
         chunk.data_page_offset = 0;
-        let bits = leaf.element.type_ == Some(Type::BOOLEAN);
-        let stored = if bits { Some(Stored::Number(Number::U8)) } else { leaf.stored() };
-        let stored = stored.ok_or_else(|| refuse(format!("Parquet file: column {:?} holds no numbers", leaf.path)))?;
-        let shape = pages::Shape { rows, width: stored.width(), bits, levels: leaf.levels };
-        match pages::read(&bytes, &chunk, shape, &leaf.path)?.values(stored, &leaf.path)? {
+        let kept = if leaf.element.type_ == Some(Type::BOOLEAN) { Ok(Kept::Flags) } else { leaf.kept() };
+        let fault = |fault| damaged(format!("column {:?} {fault}", leaf.path));
+        let kept = kept.map_err(|what| fault(format!("holds no numbers, but is {what}")))?;
+        let shape = pages::Shape { rows, kept, levels: leaf.levels };
+        match pages::read(&bytes, &chunk, shape).map_err(fault)?.values(kept.stored(), &leaf.path)? {
             Values::Float(values) if values.len() == rows => Ok(values),
             _ => Err(damaged(format!("column {:?} has numbers that no float holds", leaf.path))),
         }

@@ -1,8 +1,9 @@
 //! The pages of one column in one row group: unpacked, and its numbers as plain bytes.
 
-use super::encoding::{Dictionary, delta, hybrid, plain_bits, split_streams};
-use super::refuse;
+use super::Kept;
+use super::encoding::{Dictionary, delta, hybrid, plain_bits, plain_texts, split_streams};
 use crate::container::codec;
+use crate::container::number::{decimal, number};
 use crate::container::stored::Stored;
 use crate::{Error, Values};
 use polars_parquet_format::thrift::protocol::TCompactInputProtocol;
@@ -13,12 +14,29 @@ use std::borrow::Cow;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape {
     pub(super) rows: usize,
-    /// Bytes of a number.
-    pub(super) width: usize,
-    /// Tells whether a plain page has eight of them in a byte, as of flags.
-    pub(super) bits: bool,
+    pub(super) kept: Kept,
     /// Levels of a value that is there.
     pub(super) levels: u32,
+}
+
+impl Shape {
+    /// Bytes of a number.
+    fn width(self) -> usize {
+        self.kept.stored().width()
+    }
+    /// Bytes of any length as numbers; none where they are none.
+    fn numbers<'a>(self, mut texts: impl Iterator<Item = Option<&'a [u8]>>) -> Result<Vec<u8>, Fault> {
+        texts.try_fold(Vec::new(), |mut bytes, text| {
+            let text = text.ok_or(CUT)?;
+            let number = match self.kept {
+                Kept::Decimals(scale) => (text.len() <= 32).then(|| decimal(text, scale, true)),
+                _ => number(text),
+            };
+            let number = number.ok_or(NO_NUMBER)?;
+            bytes.extend(number.to_le_bytes());
+            Ok(bytes)
+        })
+    }
 }
 
 /// Numbers as the plain encoding has them, one for each row; zeros where there is none.
@@ -37,10 +55,8 @@ impl Rows {
 }
 
 /// All rows of a column in a row group.
-pub(super) fn read(bytes: &[u8], chunk: &ColumnMetaData, shape: Shape, name: &str) -> Result<Rows, Error> {
-    Chunk { told: chunk, shape, dictionary: None, rows: Rows::default(), left: shape.rows }
-        .read(bytes)
-        .map_err(|fault| refuse(format!("Parquet file: column {name:?} {fault}")))
+pub(super) fn read(bytes: &[u8], chunk: &ColumnMetaData, shape: Shape) -> Result<Rows, Fault> {
+    Chunk { told: chunk, shape, dictionary: None, rows: Rows::default(), left: shape.rows }.read(bytes)
 }
 
 /// The checksum of a page, as zlib's.
@@ -51,8 +67,9 @@ pub(super) fn checksum(page: &[u8]) -> u32 {
 }
 
 /// A fault of a column: what follows its name in a message.
-type Fault = String;
+pub(super) type Fault = String;
 
+pub(super) const NO_NUMBER: &str = "is no number";
 const CUT: &str = "ends too early; the file is damaged";
 
 struct Chunk<'a> {
@@ -85,7 +102,10 @@ impl Chunk<'_> {
             }
             match (head.type_, &head) {
                 (PageType::DICTIONARY_PAGE, PageHeader { dictionary_page_header: Some(_), .. }) => {
-                    self.dictionary = Some(self.unpacked(page)?.into_owned());
+                    let page = self.unpacked(page)?;
+                    let texts = matches!(self.shape.kept, Kept::Texts(_) | Kept::Decimals(_));
+                    self.dictionary =
+                        Some(if texts { self.shape.numbers(plain_texts(&page))? } else { page.into_owned() });
                 }
                 (PageType::DATA_PAGE, PageHeader { data_page_header: Some(head), .. }) => {
                     let page = self.unpacked(page)?;
@@ -120,10 +140,14 @@ impl Chunk<'_> {
 
     /// A page as it was before it was compressed.
     fn unpacked<'b>(&self, packed: &'b [u8]) -> Result<Cow<'b, [u8]>, Fault> {
-        let Shape { rows, width, .. } = self.shape;
+        let rows = self.shape.rows;
+        // The text of a number has some digits, and its length before it; other text may be longer.
+        let (width, part) = match self.shape.kept {
+            Kept::Texts(_) => (32, "is long"),
+            _ => (self.shape.width(), "is damaged"),
+        };
         // A page that holds all rows, its levels, and heads of their runs.
         let most = rows.saturating_mul(width + 8).saturating_add(1 << 16);
-        let part = "is damaged";
         let unpacked = match self.told.codec {
             CompressionCodec::UNCOMPRESSED => return Ok(packed.into()),
             CompressionCodec::SNAPPY => codec::snappy(packed, most, part),
@@ -145,7 +169,7 @@ impl Chunk<'_> {
         let told = usize::try_from(rows).ok().filter(|rows| *rows <= self.left);
         let rows = told.ok_or_else(|| format!("has a page of {rows} rows where {} are to come", self.left))?;
         self.left -= rows;
-        let Shape { width, levels: full, .. } = self.shape;
+        let (width, full) = (self.shape.width(), self.shape.levels);
         let first = self.rows.valid.len();
         let mut there = rows;
         if full > 0 {
@@ -153,17 +177,28 @@ impl Chunk<'_> {
             self.rows.valid.extend(levels.into_iter().map(|level| level == full));
             there = self.rows.valid[first..].iter().filter(|valid| **valid).count();
         }
-        let plain: Cow<'_, [u8]> = match encoding {
-            Encoding::PLAIN if self.shape.bits => plain_bits(values, there).ok_or(CUT)?.into(),
-            Encoding::PLAIN => values.get(..there * width).ok_or(CUT)?.into(),
-            Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY => {
+        let plain: Cow<'_, [u8]> = match (encoding, self.shape.kept) {
+            (Encoding::PLAIN, Kept::Flags) => plain_bits(values, there).ok_or(CUT)?.into(),
+            (Encoding::PLAIN, Kept::Stored(_)) => values.get(..there * width).ok_or(CUT)?.into(),
+            (Encoding::PLAIN, _) => self.shape.numbers(plain_texts(values).chain([None]).take(there))?.into(),
+            (Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY, _) => {
                 let numbers =
                     self.dictionary.as_deref().ok_or("has no dictionary before its pages; the file is damaged")?;
                 Dictionary { numbers, width }.look_up(values, there).ok_or("has a number beyond its dictionary")?.into()
             }
-            Encoding::BYTE_STREAM_SPLIT => split_streams(values, width, there).ok_or(CUT)?.into(),
-            Encoding::DELTA_BINARY_PACKED if width < 12 => delta(values, width, there).ok_or(CUT)?.into(),
-            Encoding(other) => return Err(format!("has numbers in encoding {other}, which is not known")),
+            (Encoding::BYTE_STREAM_SPLIT, Kept::Stored(_)) => split_streams(values, width, there).ok_or(CUT)?.into(),
+            (Encoding::DELTA_BINARY_PACKED, Kept::Stored(_)) if width < 12 => delta(values, there)
+                .ok_or(CUT)?
+                .0
+                .iter()
+                .flat_map(|number| number.to_le_bytes().into_iter().take(width))
+                .collect(),
+            (Encoding::DELTA_LENGTH_BYTE_ARRAY, Kept::Texts(_) | Kept::Decimals(_)) => {
+                let (lengths, mut values) = delta(values, there).ok_or(CUT)?;
+                let lengths = lengths.into_iter().map(|length| usize::try_from(length).ok());
+                self.shape.numbers(lengths.map(|length| values.split_off(..length?)))?.into()
+            }
+            (Encoding(other), _) => return Err(format!("has numbers in encoding {other}, which is not known")),
         };
         if there == rows {
             self.rows.bytes.extend_from_slice(&plain);

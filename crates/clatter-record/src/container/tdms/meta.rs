@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::container::bytes::Bytes;
 use crate::container::number::Number;
-use crate::container::refuse;
+use crate::container::{COMPLEX, refuse};
 use crate::{Error, Values};
 
 /// A property, as far as it is used.
@@ -33,8 +33,10 @@ pub(super) enum Stored {
     Number(Number),
     /// Seconds since 1904 and 2⁻⁶⁴ of one.
     Time,
-    /// Text and what else is no number: of so many bytes each, where that is fixed.
-    Skipped(Option<usize>),
+    /// Ends of all texts, then the texts.
+    Text,
+    /// What is no number: of so many bytes each, and what it is.
+    Skipped(usize, &'static str),
 }
 
 impl Stored {
@@ -42,7 +44,8 @@ impl Stored {
         match self {
             Self::Number(number) => Some(number.size()),
             Self::Time => Some(16),
-            Self::Skipped(size) => size,
+            Self::Text => None,
+            Self::Skipped(size, _) => Some(size),
         }
     }
 }
@@ -70,21 +73,23 @@ pub(super) fn layout(meta: &mut Bytes<'_>) -> Result<Layout, Error> {
 /// A type of data by its number.
 pub(super) fn stored(kind: u32) -> Result<Stored, Error> {
     Ok(match kind {
-        0 => Stored::Skipped(Some(0)),
+        0 => Stored::Skipped(0, "without values"),
         1 => Stored::Number(Number::I8),
         2 => Stored::Number(Number::I16),
         3 => Stored::Number(Number::I32),
         4 => Stored::Number(Number::I64),
-        5 | 0x21 => Stored::Number(Number::U8),
+        0x21 => Stored::Skipped(1, "truths"),
+        5 => Stored::Number(Number::U8),
         6 => Stored::Number(Number::U16),
         7 => Stored::Number(Number::U32),
         8 => Stored::Number(Number::U64),
         9 | 0x19 => Stored::Number(Number::F32),
         10 | 0x1a => Stored::Number(Number::F64),
-        // Extended floats, with a unit or without, and two complex types.
-        0x0b | 0x1b | 0x10_000d => Stored::Skipped(Some(16)),
-        0x08_000c => Stored::Skipped(Some(8)),
-        0x20 => Stored::Skipped(None),
+        // With a unit or without.
+        0x0b | 0x1b => Stored::Skipped(16, "extended floats; save them as doubles"),
+        0x10_000d => Stored::Skipped(16, COMPLEX),
+        0x08_000c => Stored::Skipped(8, COMPLEX),
+        0x20 => Stored::Text,
         0x44 => Stored::Time,
         other => return Err(refuse(format!("TDMS file: data of the type {other:#x} are not known"))),
     })
