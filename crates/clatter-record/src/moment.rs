@@ -27,6 +27,11 @@ pub(crate) fn seconds(text: &str, order: Option<Order>) -> Option<Decimal> {
     if !text.contains([':', '-', '/', '.']) || text.len() > LONGEST {
         return None;
     }
+    // As data frames write durations: `0 days 00:00:00.0001`, `-1 days +23:59:59.9`.
+    if let Some((days, clock)) = text.split_once(" days ").or_else(|| text.split_once(" day ")) {
+        let days: i64 = days.parse().ok().filter(|days: &i64| days.abs() < 1_000_000)?;
+        return of_clock(clock.strip_prefix('+').unwrap_or(clock), days, DATED);
+    }
     let Some((date, clock)) = dated(text) else { return of_clock(text, 0, CLOCK) };
     let (day, digits) = match date.days(order)? {
         Days::Known(day) => (day, DATED),
@@ -307,6 +312,9 @@ mod tests {
         for (text, seconds_s) in [
             ("00:00:01.5", 1.5),
             ("12:34:56.0001", 45_296.000_1),
+            ("0 days 00:00:00.0001", 1e-4),
+            ("1 days 00:00:01", 86_401.0),
+            ("-1 days +23:59:59.75", -0.25),
             ("12:34:56,25", 45_296.25),
             ("2:05", 125.0),
             ("1970-01-01T00:00:00Z", 0.0),
