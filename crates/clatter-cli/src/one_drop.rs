@@ -164,12 +164,12 @@ impl OneDrop {
             let notes = if is_given(row.input) { None } else { Some(&mut *notes) };
             let value = take(notes, row.words, spread, row.hardest, row.unit);
             height_m = if row.input == Input::Height { Some(value) } else { height_m };
-            value
+            if row.input.is_angle() { round_angle(value, spread) } else { value }
         });
         if drop.body.is_wide() {
             drop.direction_rad = match &self.file.drop.direction_rad {
                 _ if is_given(Input::Direction) => 0.0,
-                Some(spread) => take(Some(notes), "direction", spread, 0.5, "rad"),
+                Some(spread) => round_angle(take(Some(notes), "direction", spread, 0.5, "rad"), spread),
                 None => {
                     notes.push("it may rise to any direction: taken is 45 deg, corner a first".to_owned());
                     45_f64.to_radians()
@@ -278,6 +278,11 @@ impl PartSetup {
         }
         Ok(())
     }
+}
+
+/// Returns an angle within a range without the digits that degrees get in radians: the middle of 2 and 6 degrees is 4 degrees.
+fn round_angle(angle_rad: f64, spread: &Spread) -> f64 {
+    if spread.is_value() { angle_rad } else { neat(angle_rad.to_degrees()).to_radians() }
 }
 
 /// Returns the value at a share of a range, from 0 to 1, and notes which value of a range it is.

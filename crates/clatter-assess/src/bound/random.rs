@@ -204,7 +204,7 @@ fn no_drop_exceeds(products: u64) {
 
 #[test]
 fn no_drop_of_random_products_exceeds_its_bound() {
-    no_drop_exceeds(1000);
+    no_drop_exceeds(300);
 }
 
 #[test]
