@@ -57,7 +57,8 @@ fn runs_left(c: char) -> bool {
 pub(crate) fn field(text: &str) -> String {
     let quantity = text.strip_prefix(['-', '+']).is_some_and(|rest| {
         let plain = |c: char| c.is_alphanumeric() || matches!(c, '.' | ' ' | '°' | '²' | '%' | '/');
-        rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') && rest.chars().all(plain)
+        let begins = rest.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+        begins && rest.contains(char::is_alphabetic) && rest.chars().all(plain)
     });
     let computed = !quantity && text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     let text = visible(text);
@@ -100,6 +101,8 @@ mod tests {
             ("=1+1", "\"'=1+1\""),
             ("+1", "\"'+1\""),
             ("-1", "\"'-1\""),
+            ("-40 mm", "-40 mm"),
+            ("-2+3 mm", "\"'-2+3 mm\""),
             ("@SUM(\"a\")", "\"'@SUM(\"\"a\"\")\""),
             ("\t=1", "\"'\\u{9}=1\""),
             ("\r=1", "\"'\\u{d}=1\""),

@@ -95,7 +95,8 @@ impl Record {
 fn by_number(options: &Options, columns: &[Column]) -> Options {
     let number = |pick: &Pick| match pick {
         Pick::Name(name) => {
-            let found = columns.iter().position(|column| column.name.eq_ignore_ascii_case(name));
+            let exact = columns.iter().position(|column| column.name == *name);
+            let found = exact.or_else(|| columns.iter().position(|column| column.name.eq_ignore_ascii_case(name)));
             found.map_or_else(|| pick.clone(), |column| Pick::Number(column + 1))
         }
         Pick::Number(_) => pick.clone(),

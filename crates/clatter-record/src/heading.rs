@@ -193,7 +193,8 @@ impl Heading {
         let name = self.name.to_lowercase();
         let words = parts(&name);
         let letter = |word: &&str| matches!(word.as_bytes(), [b'b' | b'h'] | [b'b' | b'h', b'x' | b'y' | b'z']);
-        words.contains(&"field") || words.first().is_some_and(letter)
+        let named = ["field", "feld", "champ", "hall", "flux", "compass", "磁場"];
+        words.iter().any(|word| named.contains(word)) || words.first().is_some_and(letter)
     }
 
     /// Returns whether a unit such as g or mG is one of a mass or of a magnetic field, by the name.

@@ -63,6 +63,10 @@ fn of_clock(clock: &str, day: i64, digits: i32) -> Option<Decimal> {
     };
     // Days before the hours, or digits of the second behind a colon, as many as milliseconds take at least: two are frames.
     let (days, hour, minute, second) = match parts[..found] {
+        // Behind a date the hour comes first.
+        [hour, minute] if dated && !minute.contains(['.', ',']) => {
+            (0, count(hour, 2)?, count(minute, 2)?, Cow::Borrowed("0"))
+        }
         [minute, second] => (0, 0, count(minute, 2)?, Cow::Borrowed(second)),
         [hour, minute, second] => {
             (0, count(hour, if dated { 2 } else { 4 })?, count(minute, 2)?, Cow::Borrowed(second))
@@ -314,6 +318,7 @@ mod tests {
             ("12:34:56.0001", 45_296.000_1),
             ("0 days 00:00:00.0001", 1e-4),
             ("1 days 00:00:01", 86_401.0),
+            ("1970-01-02T08:01", 115_260.0),
             ("-1 days +23:59:59.75", -0.25),
             ("12:34:56,25", 45_296.25),
             ("2:05", 125.0),

@@ -93,7 +93,16 @@ impl Raw {
         }
         if step_s.is_none() {
             let numbering = &self.numbering;
-            self.found.extend(gaps(&self.since_s, &|sample| At::of(numbering, sample)));
+            let lacks = gaps(&self.since_s, &|sample| At::of(numbering, sample));
+            let unit_s = self.printed.unit() * self.unit_s;
+            let (last_s, steps) = (self.since_s.last().copied().unwrap_or(0.0), float(samples - 1));
+            // Half of a step: what rounding does, and what is missing, is not told apart.
+            let coarse = (lacks.is_none() && unit_s * steps > 0.5 * last_s).then(|| {
+                Finding::Note(format!(
+                    "times are printed in steps of {unit_s:e} s, which no one rate explains: samples may be missing"
+                ))
+            });
+            self.found.extend(lacks.or(coarse));
         }
         let times = Arc::new(TimeAxis {
             start_s: self.start_s,

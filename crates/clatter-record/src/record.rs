@@ -12,7 +12,7 @@ use crate::axis::{Spacing, TimeAxis};
 use crate::columns::SAME_RATE;
 use crate::container::{self, Kind};
 use crate::error::Bad;
-use crate::finding::{At, Finding, Inspection, is_of_events};
+use crate::finding::{At, Finding, Inspection, gaps, is_of_events};
 use crate::plausible::{against_times, refuse_counts};
 use crate::raw::{Raw, Untimed};
 use crate::roles::{Role, Roles};
@@ -212,7 +212,10 @@ impl Record {
         if let Some(hz) = options.sample_rate_hz {
             let given_s = period(hz)?;
             let finding = against_times(given_s, &raw.since_s, rounded_s, "the rate that is given")?;
-            raw.found.extend(finding);
+            // Times that lack samples do so by any rate.
+            let lacks =
+                finding.is_none().then(|| gaps(&raw.since_s, &|sample| At::of(&raw.numbering, sample))).flatten();
+            raw.found.extend(finding.or(lacks));
             if let Some((told_s, line)) = rate.filter(|(told_s, _)| (told_s / given_s - 1.0).abs() > SAME_RATE) {
                 let told_hz = told_s.recip();
                 raw.found.push(Finding::Note(format!(

@@ -14,6 +14,8 @@ pub(crate) struct Roles {
     pub(crate) channels: Vec<Role>,
     /// The column of times that a given rate stands in place of, and the size of its unit.
     pub(crate) checked: Option<(usize, f64)>,
+    /// The column of the numbers of the samples, where there is no other time.
+    pub(crate) counts: Option<usize>,
     /// Columns that nothing is made of, as messages call them.
     pub(crate) left_out: Vec<String>,
     /// Every column, as messages call it, and what it is taken for.
@@ -69,6 +71,7 @@ impl Preview {
             time: time.filter(|_| options.sample_rate_hz.is_none()).map(size).transpose()?,
             channels: channels.iter().map(|column| self.channel(*column, options)).collect::<Result<_, _>>()?,
             checked: self.checked_time(&channels, options),
+            counts: if time.is_none() || options.sample_rate_hz.is_some() { self.counts() } else { None },
             left_out,
             columns,
             beside_others: false,
@@ -108,10 +111,10 @@ impl Preview {
         let found = match pick {
             Pick::Number(number) => number.checked_sub(1).filter(|column| *column < self.headings.len()),
             Pick::Name(name) => {
-                let is = |heading: &Heading| {
-                    [&heading.name, &heading.shown(), &heading.cell].iter().any(|own| own.eq_ignore_ascii_case(name))
-                };
-                self.headings.iter().position(is)
+                let names = |heading: &Heading| [heading.name.clone(), heading.shown(), heading.cell.clone()];
+                let exact = |heading: &Heading| names(heading).iter().any(|own| own == name);
+                let alike = |heading: &Heading| names(heading).iter().any(|own| own.eq_ignore_ascii_case(name));
+                self.headings.iter().position(exact).or_else(|| self.headings.iter().position(alike))
             }
         };
         found.ok_or_else(|| {
@@ -240,6 +243,13 @@ impl Preview {
         let rises = values().zip(values().skip(1)).all(|(a, b)| a <= b);
         let moves = values().next().zip(values().next_back()).is_some_and(|(a, b)| a < b);
         self.rows.len() > 1 && rises && moves
+    }
+
+    /// The column that counts the samples.
+    fn counts(&self) -> Option<usize> {
+        let is_number =
+            |column: &usize| self.named && self.is_index(*column) && self.numbers(*column).all(f64::is_finite);
+        (0..self.headings.len()).filter(|_| self.rows.len() > 1).find(is_number)
     }
 
     /// Returns whether a column counts its rows, as its name says: in whole numbers that are each as far from the next, or the same.

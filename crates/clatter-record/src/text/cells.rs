@@ -98,7 +98,8 @@ impl Form {
         let (_, length) = Decimal::scan(cell.as_bytes(), self.point)?;
         let end =
             cell[length..].find(|c: char| c.is_alphabetic() || matches!(c, 'µ' | '°' | '%')).map(|at| length + at)?;
-        let number = self.number(cell[..end].trim_end())?;
+        // A time of day has no unit behind it.
+        let number = self.number(cell[..end].trim_end()).filter(|_| !cell[..end].contains(':'))?;
         Unit::of(&cell[end..]).map(|_| (number, &cell[end..]))
     }
 

@@ -69,7 +69,10 @@ const RATES: &str = "\
 /// The same of the time between samples.
 const INTERVALS: &str = "\
     sample interval, sampling interval, sample period, sampling period, time interval, time step, time increment, timestep, delta \
-    t, dt, interval, x-axis delta, abtastintervall, abtastzeit, abtastperiode";
+    t, dt, interval, x-axis delta, pas de temps, intervalo de muestreo, abtastintervall, abtastzeit, abtastperiode";
+
+/// A time between samples of so many seconds has its unit beside it.
+const LONGEST_STEP_S: f64 = 0.05;
 
 /// The time between samples that lines above the numbers tell, and the line, from 1; nothing where they tell several, or in a way that
 /// [may be read twice](in_groups).
@@ -145,6 +148,10 @@ fn step_of(line: &str) -> Option<f64> {
     if others.iter().any(|other| other.to_bits() != number.to_bits()) {
         return None;
     }
+    // A time without a unit that no logger has in seconds may be in any other.
+    if !is_rate && unit.is_none() && *number >= LONGEST_STEP_S {
+        return None;
+    }
     let value = number * unit.unwrap_or(1.0);
     let step_s = if is_rate { value.recip() } else { value };
     (step_s > 0.0 && step_s.is_normal()).then_some(step_s)
@@ -211,7 +218,7 @@ pub(super) fn axes(lines: &[String]) -> Option<[String; 2]> {
 /// The units of time and acceleration that lines such as `Units: g` and `Time unit: ms` tell; empty where one is not told.
 pub(super) fn units(lines: &[String]) -> Option<[String; 2]> {
     const KEYS: &str = "\
-        unit, units, unitname, einheit, acceleration unit, acceleration units, unit of acceleration, units of acceleration, \
+        unit, units, unité, unidad, unità, 単位, unitname, einheit, acceleration unit, acceleration units, unit of acceleration, units of acceleration, \
         amplitude unit, time unit, time units, x-axis unit";
     let mut found = [String::new(), String::new()];
     for line in lines.iter().take(60) {
@@ -250,6 +257,7 @@ mod tests {
             ("Abtastrate: 10.000 Hz", None),
             ("Sample rate: 10.000 kHz", Some(1e4)),
             ("dt: 1.000 ms", Some(1e3)),
+            ("Interval: 100", None),
             ("Sample rate: 100 Hz, 200 Hz", None),
             ("interval of calibration: 12 months", None),
             ("fsk 12", None),

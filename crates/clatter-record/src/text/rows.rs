@@ -33,6 +33,8 @@ enum Use {
     Date,
     /// The fraction of a second.
     Fraction,
+    /// The number of the sample, where there are no times.
+    Count,
     /// A word that has to be the same in every line.
     Word(usize),
     Acceleration(usize),
@@ -56,6 +58,10 @@ pub(crate) struct Rows {
     row: Vec<f64>,
     time: Option<Decimal>,
     day: Option<Decimal>,
+    count: Option<Decimal>,
+    /// The last number of a sample; how many do not follow on the one before, and the line of the first.
+    counted: Option<f64>,
+    skips: (usize, usize),
     fraction: Option<Decimal>,
     first_fraction: Option<Decimal>,
     first_time: Option<Decimal>,
@@ -99,6 +105,7 @@ impl Rows {
             shape.words.iter().enumerate().map(|(i, word)| (word.column, Use::Word(i))).collect();
         used.extend(shape.date.map(|column| (column, Use::Date)));
         used.extend(shape.fraction.map(|(column, _)| (column, Use::Fraction)));
+        used.extend(roles.counts.map(|column| (column, Use::Count)));
         used.extend(roles.checked.map(|(column, _)| (column, Use::Checked)));
         used.extend(roles.time.map(|(column, _)| (column, Use::Time)));
         used.extend(roles.channels.iter().enumerate().map(|(k, role)| (role.column, Use::Acceleration(k))));
@@ -342,6 +349,15 @@ impl Rows {
         Ok(())
     }
 
+    /// Takes in the number of a sample, which is that of the one before and 1.
+    #[inline]
+    fn note_count(&mut self, number: f64) {
+        if self.counted.is_some_and(|last| (number - last - 1.0).abs() > 0.5) {
+            self.skips = (self.skips.0 + 1, if self.skips.0 == 0 { self.line } else { self.skips.1 });
+        }
+        self.counted = Some(number);
+    }
+
     /// Leaves out a first line that says of each channel how many samples follow.
     fn drop_counts(&mut self) {
         let samples = self.channels[0].len();
@@ -386,6 +402,9 @@ impl Rows {
             self.breaks = (self.breaks.0 + 1, if self.breaks.0 == 0 { empty } else { self.breaks.1 });
         }
         self.lines.rows += 1;
+        if let Some(number) = self.count.take() {
+            self.note_count(number.float());
+        }
         let at = At::Line(self.line);
         if self.numbering.last().is_none_or(|(first, begin)| begin.after(sample - first) != at) {
             self.numbering.push((sample, at));
@@ -452,7 +471,14 @@ impl Rows {
     pub(crate) fn against_told(&self, channels: &[Role]) -> Vec<String> {
         let own: Vec<_> = channels.iter().map(|role| (role.name.clone(), role.unit.clone())).collect();
         let start_s = self.first_time.map(|_| self.start_s());
-        self.shape.all.against(self.lines.rows + self.lines.bad, start_s, &own)
+        let mut found = self.shape.all.against(self.lines.rows + self.lines.bad, start_s, &own);
+        let (skips, line) = self.skips;
+        if skips > 0 {
+            found.push(format!(
+                "the numbers of samples do not go on by one {skips} times, first in line {line}: samples may be missing"
+            ));
+        }
+        found
     }
     /// The slope and the offset by which numbers without a unit of their own become accelerations, and the line that tells them.
     pub(crate) fn slope(&self) -> Option<([f64; 2], usize)> {

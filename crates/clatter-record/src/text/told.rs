@@ -27,15 +27,19 @@ pub(super) struct Told {
 
 const SAMPLES: &str = "\
     number of samples, total samples, samples, sample count, no of samples, n samples, ndata, npts, number of points, \
-    points, data points, #pts, rows, record length, anzahl, anzahl werte, anzahl messwerte";
+    points, data points, #pts, rows, record length, anzahl, anzahl werte, anzahl messwerte, anzahl samples, nombre de points, \
+    número de puntos, データ数";
 const STARTS: &str = "time of first sample, x-axis offset, start time, t0, first sample time";
 const FILLS: &str = "fill value, fillvalue, missing value, no data, nodata, nodata value, missing data, nan value";
 const NAMES: &str = "\
     channeltitle, channel title, channel titles, name of the channel, channel name, channel names, signal, signals";
-const UNITS: &str = "unit, units, unitname, unit name, einheit, acceleration unit, amplitude unit";
+const UNITS: &str =
+    "unit, units, unité, unidad, unità, 単位, unitname, unit name, einheit, acceleration unit, amplitude unit";
+/// What keys have in them that tell a factor, an offset, or that samples were left out.
 const SCALES: &str = "\
-    slope, scale, scale factor, scaling factor, calibration factor, cal factor, gain, multiplier, sensitivity, offset, \
-    zero offset, intercept";
+    slope, scale, scaling, skalier, factor, faktor, facteur, fattore, multipl, gain, verstärkung, amplif, sensitivity, calib, \
+    kalib, cal factor, umrechnung, conversion, coeff, steigung, exponent, decimals, prescale, ymult, yscale, preamp, offset, \
+    intercept, divide, decimation, downsampl, untersetzung, thinning, reduction, save every, 倍率, 係数, 系数, 比例";
 
 /// The key of a line and what stands behind it.
 fn key_and_value(line: &str) -> Option<(String, &str)> {
@@ -85,7 +89,7 @@ pub(super) fn of(lines: &[String], form: Form) -> Told {
                 told.unit = all.iter().all(|other| of(other) == of(unit)).then(|| (unit.clone(), i + 1));
                 told.units = all;
             }
-        } else if is(SCALES)
+        } else if SCALES.split(", ").any(|part| key.contains(part))
             && let Some(value) = number()
         {
             match &key[..] {

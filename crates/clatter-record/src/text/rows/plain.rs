@@ -52,6 +52,8 @@ impl Rows {
                     self.row.push(value);
                 } else if let Use::Fraction = use_of {
                     self.fraction = Some(number);
+                } else if let Use::Count = use_of {
+                    self.count = Some(number);
                 } else {
                     if self.open {
                         self.open = !self.digits[0].note(number, self.times.len());

@@ -98,7 +98,7 @@ impl Rows {
         let Some((number, unit)) = found.filter(|(number, _)| is_used(number)) else {
             let called = self.called(column);
             return match use_of {
-                Use::Checked => Ok(None),
+                Use::Checked | Use::Count => Ok(None),
                 _ if cell.is_empty() => bad(format!("nothing stands in {called}")),
                 _ if is_missing(cell) => bad(format!("{cell} in {called} is no finite number")),
                 Use::Time if cell.contains(':') => {
@@ -114,6 +114,10 @@ impl Rows {
             }
             Use::Fraction => {
                 self.fraction = Some(number);
+                None
+            }
+            Use::Count => {
+                self.count = Some(number);
                 None
             }
             Use::Acceleration(k) => self.acceleration(cell, number, unit, column, k),
@@ -164,7 +168,9 @@ impl Rows {
             Err(wrong) => return Some(wrong + &self.called(column)),
         }
         let is_moment = |digits: i32| digits == CLOCK || digits == DATED;
-        if self.first_time.is_some_and(|first| is_moment(first.digits) != is_moment(number.digits)) {
+        // A date whose day and month may be either counts as none, and one that is the same both ways does.
+        let kind = |digits: i32| is_moment(digits).then_some(digits);
+        if self.first_time.is_some_and(|first| kind(first.digits) != kind(number.digits)) {
             return Some(format!("{} is another kind of time than above", what()));
         }
         if self.shape.form.is_grouped(cell) {
@@ -227,7 +233,7 @@ impl Rows {
     /// Returns whether a text is a heading by which a column goes on in another unit.
     pub(super) fn is_other_unit(&self, cell: &str, use_of: Use) -> bool {
         let (kind, size) = match use_of {
-            Use::Nothing | Use::Word(_) | Use::Date | Use::Fraction => return false,
+            Use::Nothing | Use::Word(_) | Use::Date | Use::Fraction | Use::Count => return false,
             Use::Time | Use::Checked => (Kind::Time, self.time_size),
             Use::Acceleration(k) => (Kind::Acceleration, self.sizes[k]),
         };
