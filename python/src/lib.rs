@@ -61,6 +61,8 @@ mod _clatter {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("MOST", crate::arrays::MOST)?;
+        module.add("LISTED", crate::single::LISTED)?;
+        module.add("LARGEST_FILE", clatter_product::LARGEST_FILE)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

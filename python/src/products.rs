@@ -74,9 +74,10 @@ pub(crate) fn assess(py: Python<'_>, given: Given<'_>) -> PyResult<(Answered, Ve
     let (report, date) = (given.read::<Option<PathBuf>>("report")?, given.read::<Option<String>>("report_date")?);
     let measured = measured::given(&given.value("measured")?)?;
     given.done()?;
+    let (file, mut drops) =
+        work::read(py, move |wanted| measured::named(&file, &folder, wanted).map(|drops| (file, drops)))??;
+    drops.extend(measured);
     let done = work::done(py, move |wanted| {
-        let mut drops = measured::named(&file, &folder, wanted)?;
-        drops.extend(measured);
         let answer = assess_of::watched(&file, &accuracy, &|_, _| wanted.still());
         let mut answer = answer.map_err(words)?;
         if let Some(asked) = asked {

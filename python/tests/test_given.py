@@ -113,7 +113,7 @@ REFUSED = {
     "limit = True is not a whole number": lambda: clatter.impacts(**BAR, limit=True),
     "limit = -1 is not in 0 ..= 1000000": lambda: clatter.impacts(**BAR, limit=-1),
     "limit = 0 is not in 1 ..= 100": lambda: clatter.atlas(gyration_ratio=(K, K), e=0.3, limit=0),
-    "impact_limit = 0 is not in 1 ..= 100000000": lambda: clatter.simulate(**DROP, impact_limit=0),
+    "impact_limit = 0 is not in 1 ..= 1000000": lambda: clatter.simulate(**DROP, impact_limit=0),
     "masses = 3 is not a list": lambda: clatter.impacts(masses=3, e=0.3),
     "masses[0] takes 2 values or 3 values, not 1": lambda: clatter.impacts(masses=[(1,)], e=0.3),
     "velocity takes 2 values for a bar, not 3": lambda: clatter.impacts(**BAR, velocity=(-1, -1, -1)),
