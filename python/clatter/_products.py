@@ -24,8 +24,8 @@ class Product:
     """A product, how it falls, and its fragile parts.
 
     Quantities are as in a product file: a number with its unit (``"140 mm"``), a range (``["1 deg", "10 deg"]``) or a
-    distribution (``{"normal": ["5 deg", "2 deg"], "range": ["0 deg", "10 deg"]}``); shares are numbers. What is wrong is told
-    when it is asked about, all at once and where it stands.
+    distribution (``{"normal": ["5 deg", "2 deg"], "range": ["0 deg", "10 deg"]}``); shares are numbers. They are copied. What is
+    wrong is told when it is asked about, all at once and where it stands; what no file holds, at once.
 
     Parameters
     ----------
@@ -161,14 +161,7 @@ class Product:
     def open(cls, path: str | os.PathLike[str]) -> Product:
         """The product of a file; records that it names are looked for beside it."""
         name = os.fspath(path)
-        with open(name, "rb") as file:
-            read = file.read(_clatter.LARGEST_FILE + 1)
-        if len(read) > _clatter.LARGEST_FILE:
-            raise ValueError(f"{name}: it is larger than a product file, of {_clatter.LARGEST_FILE} bytes at most")
-        try:
-            return _product(read.decode("utf-8"), {}, name, os.path.dirname(name))
-        except UnicodeDecodeError:
-            raise ValueError(f"{name}: it is not text in UTF-8") from None
+        return _product(_clatter.text(name), {}, name, os.path.dirname(name))
 
     @classmethod
     def from_text(cls, text: str, origin: str = "text") -> Product:

@@ -104,7 +104,8 @@ class Record:
     """Measured accelerations, in s and m/s².
 
     :meth:`open` reads a file of any kind that ``clatter record`` reads; this takes a table or arrays. Columns of time and of
-    acceleration are found by their names and units, such as ``time [ms]`` and ``a_x [g]``; arrays are in s and m/s².
+    acceleration are found by their names and units, such as ``time [ms]`` and ``a_x [g]``; arrays are in s and m/s². What is
+    odd is warned of. Pickled, one of a file has the bytes of the file, which must be there as it was.
 
     Parameters
     ----------
@@ -113,7 +114,7 @@ class Record:
     time_s : array_like, shape (samples,), optional
         Times of an array, in s.
     sample_rate_hz : float, optional
-        In place of times.
+        In place of times; where there are some as well and they tell another rate, it is warned of.
     time : str or int, optional
         The column of time, by name or number from 1.
     acceleration : list of str or int
@@ -535,7 +536,7 @@ def spectra(
     Returns
     -------
     Answer
-        ``frequency_hz``, shape (n,); ``maximax``, ``positive``, ``negative``, shape (..., n).
+        Ten million values of each at most: ``frequency_hz``, shape (n,); ``maximax``, ``positive``, ``negative``, shape (..., n).
 
     Examples
     --------

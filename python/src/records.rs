@@ -243,7 +243,8 @@ impl Record {
         self.record.findings(record_of::LOWEST_HZ).iter().map(ToString::to_string).collect()
     }
 
-    fn window(&self, from_s: f64, to_s: f64) -> PyResult<Self> {
+    fn window(&self, from_s: &Bound<'_, PyAny>, to_s: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (from_s, to_s) = (f64::read("from_s", from_s)?, f64::read("to_s", to_s)?);
         Ok(self.with(self.record.clone().window(from_s, to_s).map_err(refused)?))
     }
 
@@ -256,8 +257,9 @@ impl Record {
     }
 
     /// Filters the record as the command does: two poles, forward and backward.
-    fn filter(&self, py: Python<'_>, high: bool, hz: f64) -> PyResult<Self> {
-        let (mut record, pass) = (self.record.clone(), if high { Pass::High } else { Pass::Low });
+    fn filter(&self, py: Python<'_>, high: bool, hz: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (hz, pass) = (f64::read("hz", hz)?, if high { Pass::High } else { Pass::Low });
+        let mut record = self.record.clone();
         let filtered = work::done(py, move |_| record.filter(pass, hz, 2).map(|()| record));
         Ok(self.with(filtered?.map_err(refused)?))
     }

@@ -168,9 +168,13 @@ fn name(path: &Path) -> String {
 }
 
 /// Reads the text of a file, of a size that product files have.
-fn text_of(path: &Path) -> Result<String, Refused> {
-    let mut text = String::new();
-    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_string(&mut text));
+pub(crate) fn text_of(path: &Path) -> Result<String, Refused> {
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes));
     read.map_err(|error| Refused::System(path.to_owned(), error))?;
-    Ok(text)
+    let wrong = |what: &str| Refused::Words(format!("{}: {what}", name(path)));
+    if bytes.len() > LARGEST_FILE {
+        return Err(wrong(&format!("it is larger than a product file, of {LARGEST_FILE} bytes at most")));
+    }
+    String::from_utf8(bytes).map_err(|_| wrong("it is not text in UTF-8"))
 }

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import clatter
 import numpy as np
+import polars  # noqa: F401: with it, calls of the system go on after Ctrl-C
 import pytest
 
 TEXT = (Path(__file__).resolve().parents[2] / "tests/cases/bar-handheld.toml").read_text(encoding="utf-8")
