@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyBytes, PyDict, PyFloat, PyFrozenSet, PyMapping, PySet, PyString};
+use pyo3::types::{PyBool, PyBytes, PyDict, PyFloat, PyFrozenSet, PyInt, PyMapping, PySet, PyString};
 
 use crate::refused;
 use crate::single::LISTED;
@@ -115,7 +115,10 @@ impl<T: Value> Value for Option<T> {
 impl Value for f64 {
     /// Reads a number of Python or numpy, to the last digit.
     fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        if value.is_instance_of::<PyFloat>() {
+        /// Whole numbers up to this are floats as well.
+        const EXACT: u64 = 1 << 53;
+        let small = || value.extract::<i64>().is_ok_and(|whole| whole.unsigned_abs() <= EXACT);
+        if value.is_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() && small() {
             return value.extract();
         }
         if value.is_none() || value.is_instance_of::<PyBool>() || is_text(value) {

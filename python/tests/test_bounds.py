@@ -118,6 +118,7 @@ def test_a_pipe_keeps_no_other_waiting(name, folder):
 @UNIX
 @pytest.mark.parametrize("name", OPENS)
 def test_ctrl_c_is_heard_at_a_pipe(name, folder):
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a process in the background may have been started deaf
     timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
