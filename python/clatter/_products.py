@@ -9,11 +9,14 @@ import os
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, ending, flat, told
 from ._records import Record
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 #: A quantity: a number with its unit, a range of two, or a distribution.
 Quantity = str | float | Sequence[str] | Sequence[float] | Mapping[str, Any]
@@ -545,7 +548,7 @@ def fit(
     *,
     strikes: Sequence[tuple[float, Literal["a", "b"] | None]] | None = None,
     heights: Sequence[tuple[float, float, float]] | None = None,
-    bounces: Sequence[float] | None = None,
+    bounces: ArrayLike | None = None,
     accelerations: Sequence[tuple[Record, float]] = (),
     timing_s: float | None = None,
     known_gyration: bool = False,

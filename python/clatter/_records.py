@@ -421,7 +421,7 @@ def spectrum(
     frequency_hz: float | ArrayLike | None = None,
     per_octave_hz: tuple[float, float, float] | None = None,
     damping: float | None = None,
-    q_factor: float | Sequence[float] | None = None,
+    q_factor: ArrayLike | None = None,
     stop: tuple[float, float, float] | None = None,
     quantity: Of = "acceleration",
     interpolation: Between = "band-limited",
