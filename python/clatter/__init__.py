@@ -12,8 +12,12 @@ The answers of the command ``clatter``, to the last digit, as Python objects:
 Where names have no unit, velocities are in v0, the drop speed, upward positive; times in h0/v0, where h0 is the height of end
 b as end a touches; positions in half-lengths from the middle, -1 at end a. Names with a unit are in it.
 
-What is refused is a ValueError in the words of the command. Long work runs without the lock of the interpreter, and Ctrl-C
-ends it.
+Arrays are of numpy, pandas, polars, pyarrow, lists or whatever makes an array: of numbers that float64 holds, without masked
+elements, and without units of other packages. No answer has memory of what was given. A call takes ten million elements.
+
+What is refused is a ValueError in the words of the command, what is odd a warning. Work and the reading of files run without the
+lock of the interpreter, and Ctrl-C ends them. Objects may be compared, copied, pickled and sent to other processes; pictures are
+drawn in the process that was asked.
 """
 
 from ._answer import Answer, Figure

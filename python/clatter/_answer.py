@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -49,6 +50,12 @@ class Figure:
 
     def __repr__(self) -> str:
         return f"Figure({len(self.svg)} bytes of SVG)"
+
+    def __eq__(self, other: object) -> bool:
+        return self.svg == other.svg if isinstance(other, Figure) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.svg)
 
     def _repr_svg_(self) -> str:
         return self.svg
@@ -116,13 +123,19 @@ class Answer:
         return len(self.__dict__)
 
     def __eq__(self, other: object) -> bool:
-        return self.__dict__ == other.__dict__ if isinstance(other, Answer) else NotImplemented
+        return _same(self.__dict__, other.__dict__) if isinstance(other, Answer) else NotImplemented
 
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
         # A picture is drawn in the process that was asked.
         return Answer, (dict(self.__dict__), self._text, self._rows)
+
+    def __copy__(self) -> Answer:
+        return Answer(self.__dict__, self._text, self._rows, self._drawing)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Answer:
+        return Answer(copy.deepcopy(self.__dict__, memo), self._text, self._rows, self._drawing)
 
     def __repr__(self) -> str:
         return f"Answer({', '.join(f'{name}={_short(value)}' for name, value in self.__dict__.items())})"
@@ -150,12 +163,12 @@ class Answer:
         rows = self._table()
         if isinstance(rows, Mapping):
             return pyarrow.table(dict(rows))
-        return pyarrow.Table.from_pylist([dict(row) for row in rows])
+        return pyarrow.Table.from_pylist([{name: _plain(value) for name, value in row.items()} for row in rows])
 
     def plot(self) -> Figure:
         """The picture that the command writes of this answer."""
         if self._drawing is None:
-            raise ValueError("there is no picture of this answer")
+            raise ValueError("there is no picture of this answer, or it is in the process that was asked")
         return Figure(self._drawing.svg())
 
     def _table(self) -> Rows:
@@ -167,6 +180,18 @@ class Answer:
         told = [(name, value) for name, value in told if getattr(value, "ndim", 0) == 0]
         cells = "".join(f"<tr><th>{escape(name)}</th><td>{_cell(value)}</td></tr>" for name, value in told)
         return f"<table>{cells}</table>{_rows_html(self._table()) if self._rows else ''}"
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two values of answers are equal: arrays element by element, and nan is nan."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_same(value, other[name]) for name, value in one.items())
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(_same, one, other))
+    if getattr(one, "ndim", 0) or getattr(other, "ndim", 0):
+        alike = getattr(one, "shape", None) == getattr(other, "shape", None)
+        return alike and bool(((one == other) | ((one != one) & (other != other))).all())
+    return bool(one == other or (one != one and other != other))
 
 
 def _plain(value: Any) -> Any:

@@ -45,9 +45,9 @@ def impacts(
     gyration_ratio: Ratio | None = None,
     center_of_mass: Ratio | None = None,
     masses: Sequence[Piece] | None = None,
-    velocity: Sequence[float] | None = None,
+    velocity: ArrayLike | None = None,
     height_gap: Ratio | None = None,
-    at: Sequence[float] | Sequence[tuple[float, float]] | None = None,
+    at: ArrayLike | None = None,
     limit: int = 1000,
 ) -> Answer:
     """How many impacts one drop has, how hard, when, and what each position feels.
@@ -92,7 +92,7 @@ def impacts(
 def zone(
     *,
     e: float,
-    threshold: float | Sequence[float],
+    threshold: ArrayLike,
     q: float | None = None,
     gyration_ratio: Ratio | None = None,
     center_of_mass: Ratio | None = None,

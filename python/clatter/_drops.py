@@ -91,7 +91,7 @@ def simulate(
     time_limit_s : float, optional
         Time for which the motion is followed, in s.
     impact_limit : int, optional
-        Strikes that are followed at most: 100 000, of a plate by map 1000 unless given.
+        Strikes that are followed at most, up to a million: 100 000, of a plate by map 1000 unless given.
     at : list of float or of (float, float)
         Positions in [-1, 1] whose velocity shocks are asked for.
     history : bool

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import copy
 import datetime
 import json
 import os
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, ending, flat, told
 from ._records import Record
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 #: A quantity: a number with its unit, a range of two, or a distribution.
 Quantity = str | float | Sequence[str] | Sequence[float] | Mapping[str, Any]
@@ -23,8 +27,8 @@ class Product:
     """A product, how it falls, and its fragile parts.
 
     Quantities are as in a product file: a number with its unit (``"140 mm"``), a range (``["1 deg", "10 deg"]``) or a
-    distribution (``{"normal": ["5 deg", "2 deg"], "range": ["0 deg", "10 deg"]}``); shares are numbers. What is wrong is told
-    when it is asked about, all at once and where it stands.
+    distribution (``{"normal": ["5 deg", "2 deg"], "range": ["0 deg", "10 deg"]}``); shares are numbers. They are copied. What is
+    wrong is told when it is asked about, all at once and where it stands; what no file holds, at once.
 
     Parameters
     ----------
@@ -160,11 +164,7 @@ class Product:
     def open(cls, path: str | os.PathLike[str]) -> Product:
         """The product of a file; records that it names are looked for beside it."""
         name = os.fspath(path)
-        with open(name, encoding="utf-8", newline="") as file:
-            try:
-                return _product(file.read(), name, os.path.dirname(name))
-            except UnicodeDecodeError:
-                raise ValueError(f"{name}: it is not text in UTF-8") from None
+        return _product(_clatter.text(name), {}, name, os.path.dirname(name))
 
     @classmethod
     def from_text(cls, text: str, origin: str = "text") -> Product:
@@ -189,6 +189,14 @@ class Product:
         """The product file."""
         return _toml(self._tables) if self._text is None else self._text
 
+    def __eq__(self, other: object) -> bool:
+        return self._values() == other._values() if isinstance(other, Product) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _values(self) -> tuple[str, str, str]:
+        return self.text, self._origin, self._folder
+
     def check(self) -> Product:
         """Raise a ValueError that tells all that is wrong; warn of what is likely a slip."""
         self._file()
@@ -204,15 +212,17 @@ class Product:
         return self._read[1]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _product, (self.text, self._origin, self._folder)
+        return _product, (self._text, self._tables, self._origin, self._folder)
 
     def __repr__(self) -> str:
         return f"<Product {self._origin}>"
 
 
-def _product(text: str, origin: str, folder: str) -> Product:
-    product = Product.from_text(text, origin)
-    product._folder = folder
+def _product(text: str | None, tables: dict[str, Any], origin: str, folder: str) -> Product:
+    product = Product.__new__(Product)
+    # What is added to one of two copies is not in the other.
+    product._text, product._tables, product._read = text, copy.deepcopy(tables), None
+    product._origin, product._folder = origin, folder
     return product
 
 
@@ -220,16 +230,44 @@ def _product(text: str, origin: str, folder: str) -> Product:
 Source = Product | Mapping[str, Any] | str | os.PathLike[str]
 
 
+#: Lists and tables within each other, of a product.
+_DEEPEST = 16
+
+
 def _table(values: Mapping[str, Any]) -> dict[str, Any]:
-    """The table of a file with what was given to a method; its ``more`` holds further keys."""
+    """The table of a file with a copy of what was given to a method; its ``more`` holds further keys."""
     keys = {**values, **values["more"]}
-    return {name: value for name, value in keys.items() if value is not None and name not in ("self", "more")}
+    given = {name: value for name, value in keys.items() if value is not None and name not in ("self", "more")}
+    return {name: _frozen(name, value) for name, value in given.items()}
+
+
+def _frozen(name: str, value: Any, deep: int = 0) -> Any:
+    """A value of a product file as dicts, lists, text and numbers of Python."""
+    if isinstance(value, (bool, str)):
+        return value
+    if isinstance(value, int):
+        return int(value)
+    if isinstance(value, float):
+        return float(value)
+    if deep > _DEEPEST:
+        raise ValueError(f"{name} is within more than {_DEEPEST} lists and tables")
+    if isinstance(value, Mapping):
+        return {key: _frozen(f"{name}.{key}" if name else str(key), one, deep + 1) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_frozen(f"{name}[{i}]", one, deep + 1) for i, one in enumerate(value)]
+    if hasattr(value, "__array__"):
+        from ._arrays import plain
+
+        array = plain(name, value)
+        if array.dtype.kind in "biuf" and array.dtype.itemsize <= 8 or array.dtype.kind in "UO":
+            return _frozen(name, array.tolist(), deep)
+    raise ValueError(f"{name} = {value!r} is none of what a product file holds: text, numbers, lists and tables")
 
 
 def _toml(tables: Mapping[str, Any]) -> str:
     """The text of a product file with these tables."""
     lines: list[str] = []
-    for name, table in tables.items():
+    for name, table in _frozen("", tables).items():
         if isinstance(table, Mapping):
             lines += ["", f"[{_key(name)}]", *(f"{_key(key)} = {_value(value)}" for key, value in table.items())]
         elif isinstance(table, (list, tuple)):
@@ -254,13 +292,7 @@ def _value(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(key)} = {_value(one)}" for key, one in value.items()) + " }"
-    if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) == 1:
-        return "[" + ", ".join(_value(one) for one in value) + "]"
-    if hasattr(value, "item"):
-        return _value(value.item())
-    if isinstance(value, (int, float)):
-        return repr(value)
-    raise ValueError(f"{value!r} is none of what a product file holds: text, numbers, lists and tables")
+    return f"[{', '.join(map(_value, value))}]" if isinstance(value, list) else repr(value)
 
 
 def _whole(product: Source) -> Product:
@@ -516,7 +548,7 @@ def fit(
     *,
     strikes: Sequence[tuple[float, Literal["a", "b"] | None]] | None = None,
     heights: Sequence[tuple[float, float, float]] | None = None,
-    bounces: Sequence[float] | None = None,
+    bounces: ArrayLike | None = None,
     accelerations: Sequence[tuple[Record, float]] = (),
     timing_s: float | None = None,
     known_gyration: bool = False,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -78,8 +79,17 @@ class Pulse:
         """Its area, in m/s."""
         return self._data.velocity_change_m_s
 
+    def _values(self) -> tuple[str, float, float, float]:
+        return self.shape, self.amplitude_m_s2, self.duration_s, self.start_s
+
+    def __eq__(self, other: object) -> bool:
+        return self._values() == other._values() if isinstance(other, Pulse) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._values())
+
     def __reduce__(self) -> tuple[Any, ...]:
-        return _pulse, (self.shape, self.amplitude_m_s2, self.duration_s, self.start_s)
+        return _pulse, self._values()
 
     def __repr__(self) -> str:
         values = f"amplitude_m_s2={self.amplitude_m_s2!r}, duration_s={self.duration_s!r}, start_s={self.start_s!r}"
@@ -94,7 +104,8 @@ class Record:
     """Measured accelerations, in s and m/s².
 
     :meth:`open` reads a file of any kind that ``clatter record`` reads; this takes a table or arrays. Columns of time and of
-    acceleration are found by their names and units, such as ``time [ms]`` and ``a_x [g]``; arrays are in s and m/s².
+    acceleration are found by their names and units, such as ``time [ms]`` and ``a_x [g]``; arrays are in s and m/s². What is
+    odd is warned of. Pickled, one of a file has the bytes of the file, which must be there as it was.
 
     Parameters
     ----------
@@ -103,7 +114,7 @@ class Record:
     time_s : array_like, shape (samples,), optional
         Times of an array, in s.
     sample_rate_hz : float, optional
-        In place of times.
+        In place of times; where there are some as well and they tell another rate, it is warned of.
     time : str or int, optional
         The column of time, by name or number from 1.
     acceleration : list of str or int
@@ -127,7 +138,12 @@ class Record:
     array([   0.    , -392.266 ,  294.1995,    0.    ])
     """
 
-    __slots__ = ("_data",)
+    __slots__ = ("_data", "_source", "_steps")
+
+    _data: Any
+    #: What it was made of: the arguments of the core, and what was done then, each step by its name.
+    _source: dict[str, Any]
+    _steps: tuple[tuple[Any, ...], ...]
 
     def __init__(
         self,
@@ -143,9 +159,10 @@ class Record:
         skip_bad: bool = False,
         name: str = "data",
     ) -> None:
-        values = locals() | {"data": _columns(data, time_s)}
-        del values["time_s"]
-        self._data = _clatter.Record.of_columns(values)
+        values = locals() | {"data": _columns(data, time_s), "acceleration": _picked(acceleration)}
+        for other in ("self", "time_s"):
+            del values[other]
+        self._read(values, stacklevel=3)
 
     @classmethod
     def open(
@@ -173,13 +190,49 @@ class Record:
         time, acceleration, units, sample_rate_hz, full_scale_m_s2, sensitivity, skip_bad
             As for :class:`Record`.
         """
-        return cls._of(_clatter.Record.open(locals()))
+        values = {**locals(), "path": os.fspath(path), "acceleration": _picked(acceleration)}
+        del values["cls"]
+        return cls.__new__(cls)._read(values, stacklevel=3)
 
-    @classmethod
-    def _of(cls, data: Any) -> Record:
-        record = cls.__new__(cls)
-        record._data = data
+    def _read(self, source: dict[str, Any], steps: tuple[tuple[Any, ...], ...] = (), stacklevel: int | None = None) -> Record:
+        """Make it of its source, and warn of what is odd."""
+        self._data = (_clatter.Record.open if "path" in source else _clatter.Record.of_columns)(source)
+        self._source, self._steps = source, steps
+        for name, *values in steps:
+            self._data = getattr(self._data, name)(*values)
+        if stacklevel is not None:
+            for finding in self.findings:
+                warnings.warn(f"{self._data.file}: {finding}", stacklevel=stacklevel)
+        return self
+
+    def _then(self, name: str, *values: Any) -> Record:
+        record = self.__class__.__new__(self.__class__)
+        record._data = getattr(self._data, name)(*values)
+        record._source, record._steps = self._source, (*self._steps, (name, *values))
         return record
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        source, path = self._source, self._source.get("path")
+        if path is not None and "bytes" not in source:
+            if not os.path.isfile(path):
+                raise ValueError(f"{path} is no file any more: a record is sent with the bytes of its file")
+            with open(path, "rb") as file:
+                source = {**source, "bytes": file.read()}
+            if _record(source, self._steps) != self:
+                raise ValueError(f"{path} has changed since it was read: a record is sent with the bytes of its file")
+        return _record, (source, self._steps)
+
+    def __copy__(self) -> Record:
+        return self  # nothing changes it
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Record:
+        return self
+
+    def __eq__(self, other: object) -> bool:
+        return bool(self._data == other._data) if isinstance(other, Record) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((self._data.file, *self.channels))
 
     @property
     def channels(self) -> list[str]:
@@ -206,19 +259,19 @@ class Record:
 
     def window(self, from_s: float, to_s: float) -> Record:
         """The part between two times of the file, in s."""
-        return self._of(self._data.window(from_s, to_s))
+        return self._then("window", from_s, to_s)
 
     def detrend(self, baseline: Baseline) -> Record:
         """Without its offset: the mean, a line, or the mean before the shock."""
-        return self._of(self._data.detrend(baseline))
+        return self._then("detrend", baseline)
 
     def high_pass(self, hz: float) -> Record:
         """Without what is below a frequency in Hz: Butterworth, two poles forward and backward."""
-        return self._of(self._data.filter(True, hz))
+        return self._then("filter", True, hz)
 
     def low_pass(self, hz: float) -> Record:
         """Without what is above a frequency in Hz."""
-        return self._of(self._data.filter(False, hz))
+        return self._then("filter", False, hz)
 
     def describe(
         self,
@@ -252,6 +305,14 @@ class Record:
         return f"Record({self._data.file!r}, channels={self.channels}, step_s={self.step_s})"
 
 
+def _record(source: dict[str, Any], steps: tuple[tuple[Any, ...], ...] = (), stacklevel: int | None = None) -> Record:
+    return Record.__new__(Record)._read(source, steps, stacklevel)
+
+
+def _picked(columns: Any) -> Any:
+    return tuple(columns) if hasattr(columns, "__iter__") and not isinstance(columns, str) else columns
+
+
 def _channels(answer: Answer) -> Rows:
     return [flat(channel, "") for channel in answer.channels]
 
@@ -261,8 +322,6 @@ _Columns = list[tuple[str, "str | None", "NDArray[Any]"]]
 
 def _columns(data: Any, time_s: ArrayLike | None) -> tuple[_Columns, list[str]]:
     """Columns with their names and units, of a table or of arrays; of a table also what is no numbers."""
-    import numpy as np
-
     from ._arrays import floats, one_dimensional
 
     names = getattr(data, "column_names", None) or getattr(data, "columns", None)
@@ -271,7 +330,7 @@ def _columns(data: Any, time_s: ArrayLike | None) -> tuple[_Columns, list[str]]:
     if names is not None:
         if time_s is not None:
             raise ValueError("time_s goes with arrays; a table has a column of time")
-        texts = [str(name) for name in names if _is_text(data[name])]
+        texts = [str(name) for name in names if _is_text(str(name), data[name])]
         numbers = [(str(name), *_numbers(str(name), data[name])) for name in names if str(name) not in texts]
         return numbers + _index(data, [*names]), [f"column {name}, which is text" for name in texts]
     array = floats("data", data)
@@ -281,15 +340,15 @@ def _columns(data: Any, time_s: ArrayLike | None) -> tuple[_Columns, list[str]]:
     names = ["a"] if len(channels) == 1 else [f"a_{i + 1}" for i in range(len(channels))]
     columns: _Columns = []
     if time_s is not None:
-        columns.append(("time", "s", one_dimensional("time_s", time_s)))
-    columns.extend((name, "m/s2", np.ascontiguousarray(channel)) for name, channel in zip(names, channels))
+        columns.append(("time", "s", one_dimensional("time_s", time_s).copy()))
+    columns.extend((name, "m/s2", channel.copy()) for name, channel in zip(names, channels))
     return columns, []
 
 
-def _is_text(column: Any) -> bool:
-    import numpy as np
+def _is_text(name: str, column: Any) -> bool:
+    from ._arrays import plain
 
-    array = np.asarray(column)
+    array = plain(name, column)
     return array.dtype.kind in "USb" or (array.dtype.kind == "O" and any(isinstance(one, str) for one in array.flat))
 
 
@@ -297,16 +356,33 @@ def _numbers(name: str, column: Any) -> tuple[str | None, NDArray[Any]]:
     """The numbers of a column, and their unit where the type tells it."""
     import numpy as np
 
-    from ._arrays import one_dimensional
+    from ._arrays import one_dimensional, plain
 
-    array = np.asarray(column)
+    array = plain(name, column)
+    if array.dtype.kind == "O" and str(getattr(column, "dtype", "")).startswith("datetime64["):  # with a time zone
+        array = np.asarray(column, "datetime64[ns]")
     if array.dtype.kind in "mM":
-        return "ns", array.astype(f"{array.dtype.kind}8[ns]").astype(np.int64)
-    if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.ndim == 1:
+        return "ns", _nanoseconds(name, array)
+    listed = isinstance(column, (list, tuple)) and any(isinstance(one, (bool, np.bool_)) for one in column)
+    if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.ndim == 1 and not listed:
         if array.dtype.kind == "u" and array.size and array.max() > np.iinfo(np.int64).max:
             raise ValueError(f"{name} has integers beyond 2**63")
-        return None, np.ascontiguousarray(array.astype(np.int64, copy=False))
-    return None, one_dimensional(name, column)
+        return None, np.array(array, np.int64, order="C")
+    return None, one_dimensional(name, column).copy()
+
+
+def _nanoseconds(name: str, times: NDArray[Any]) -> NDArray[Any]:
+    """Dates or durations as whole nanoseconds that have lost nothing."""
+    import numpy as np
+
+    if (none := np.flatnonzero(np.isnat(times))).size:
+        raise ValueError(f"{name} has no time in row {none[0]}, from 0")
+    unit = np.datetime_data(times.dtype)[0]
+    fixed = unit not in ("generic", "Y", "M") if times.dtype.kind == "m" else unit != "generic"
+    exact = times.astype(f"{times.dtype.kind}8[ns]") if fixed else times
+    if not fixed or (exact.astype(times.dtype) != times).any():
+        raise ValueError(f"{name} is of {times.dtype} and is not told in whole nanoseconds since 1677 to 2262")
+    return exact.astype(np.int64)
 
 
 def _index(data: Any, names: list[Any]) -> _Columns:
@@ -345,7 +421,7 @@ def spectrum(
     frequency_hz: float | ArrayLike | None = None,
     per_octave_hz: tuple[float, float, float] | None = None,
     damping: float | None = None,
-    q_factor: float | Sequence[float] | None = None,
+    q_factor: ArrayLike | None = None,
     stop: tuple[float, float, float] | None = None,
     quantity: Of = "acceleration",
     interpolation: Between = "band-limited",
@@ -414,7 +490,11 @@ def spectrum(
 
 def _shaken(excitation: Any) -> list[Any]:
     several = excitation if isinstance(excitation, (list, tuple)) else [excitation]
-    opened = [Record.open(one) if isinstance(one, (str, os.PathLike)) else one for one in several]
+    opened = []
+    for one in several:
+        if isinstance(one, (str, os.PathLike)):
+            one = _record({"path": os.fspath(one), "acceleration": (), "skip_bad": False}, stacklevel=5)
+        opened.append(one)
     kinds = {type(one) for one in opened}
     if not kinds <= {Record} and not kinds <= {Pulse}:
         raise ValueError(f"records or pulses, not {', '.join(sorted(kind.__name__ for kind in kinds))}")
@@ -456,7 +536,7 @@ def spectra(
     Returns
     -------
     Answer
-        ``frequency_hz``, shape (n,); ``maximax``, ``positive``, ``negative``, shape (..., n).
+        Ten million values of each at most: ``frequency_hz``, shape (n,); ``maximax``, ``positive``, ``negative``, shape (..., n).
 
     Examples
     --------
@@ -474,10 +554,8 @@ def spectra(
     histories = floats("acceleration_m_s2", acceleration_m_s2)
     if histories.ndim == 0 or histories.shape[-1] < 2:
         raise ValueError(f"acceleration_m_s2 has shape {histories.shape}; its last axis is time, of 2 samples at least")
-    in_one_call(histories.size, 10 * _clatter.MOST, "samples")
-    if not (sample_rate_hz > 0):
-        raise ValueError(f"sample_rate_hz = {sample_rate_hz!r} is not finite and > 0")
     hz = _frequencies(frequency_hz)
+    in_one_call(histories.size // histories.shape[-1] * len(hz), _clatter.MOST, "frequencies of all histories")
     values |= {"acceleration_m_s2": np.ravel(histories), "samples": histories.shape[-1], "frequency_hz": hz}
     columns = _clatter.spectra(values)
     shaped = {name: column.reshape(*histories.shape[:-1], len(hz)) for name, column in columns.items()}

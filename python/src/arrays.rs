@@ -14,7 +14,7 @@ use crate::given::{Given, Value};
 use crate::refused;
 use crate::work::{self, Wanted};
 
-/// The largest number of elements of one call.
+/// The largest number of elements of one call: the arrays of an answer, twelve at most, take a gigabyte.
 pub(crate) const MOST: usize = 10_000_000;
 
 /// A column of numbers: one for all rows, or one for each.

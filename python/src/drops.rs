@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use crate::answered::{Answered, Drawing, json};
 use crate::bodies::Places;
 use crate::given::Given;
+use crate::single::LISTED;
 use crate::{refused, words, work};
 
 /// Reads the inputs of one drop, as Python names them.
@@ -37,17 +38,15 @@ pub(crate) fn inputs(given: &Given<'_>) -> PyResult<DropInputs> {
     })
 }
 
-/// The largest number of rows of a motion in an answer.
-const MOST_ROWS: usize = 4_000_000;
 const TOO_LONG: &str =
-    "the motion has more than 4 million rows: time_limit_s or impact_limit says how far it is wanted";
+    "the motion has more than a million rows: time_limit_s or impact_limit says how far it is wanted";
 
 #[pyfunction]
 pub(crate) fn simulate(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
     let (model, inputs) = (given.read("model")?, inputs(&given)?);
     let (at, history) = (given.read::<Places>("at")?.of_any(), given.read("history")?);
     let time_limit_s = given.read("time_limit_s")?;
-    let impact_limit = given.whole_if_given("impact_limit", 1..=100_000_000)?;
+    let impact_limit = given.whole_if_given("impact_limit", 1..=LISTED as u64)?;
     given.done()?;
     if model != Model::Compliant && (inputs.contact_time_s.is_some() || inputs.contact_law.is_some()) {
         return Err(refused("contact_time_s and contact_law go with model='compliant' alone"));
@@ -62,7 +61,7 @@ pub(crate) fn simulate(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
     let (told, motion) = work::done(py, move |_| {
         let answer = simulate_of::answer(&question).map_err(words)?;
         let motion = answer.impacts.train().motion();
-        if history && motion.is_some_and(|motion| motion.rows().nth(MOST_ROWS).is_some()) {
+        if history && motion.is_some_and(|motion| motion.rows().nth(LISTED).is_some()) {
             return Err(TOO_LONG.to_owned());
         }
         let told = if history { json(&answer.with_history()) } else { json(&answer) };

@@ -8,9 +8,10 @@ use std::path::PathBuf;
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyBytes, PyDict, PyMapping, PyString};
+use pyo3::types::{PyBool, PyBytes, PyDict, PyFloat, PyFrozenSet, PyInt, PyMapping, PySet, PyString};
 
 use crate::refused;
+use crate::single::LISTED;
 
 /// The arguments of a call.
 pub(crate) struct Given<'py> {
@@ -80,7 +81,18 @@ pub(crate) trait Value: Sized {
 
 /// Makes the error of a value that is something else.
 pub(crate) fn wrong(name: &str, value: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
-    value.repr().map_or_else(|error| error, |shown| refused(format!("{name} = {shown} is not {wanted}")))
+    /// Characters of a value that are shown.
+    const SHOWN: usize = 200;
+    let shown =
+        value.repr().map_or_else(|_| format!("{}", value.get_type()), |shown| shown.to_string_lossy().into_owned());
+    let cut: String = shown.chars().take(SHOWN).collect();
+    let more = if cut.len() < shown.len() { "…" } else { "" };
+    refused(format!("{name} = {cut}{more} is not {wanted}"))
+}
+
+/// Calls the way in for arrays, which a number or a list that is none of Python takes as well.
+fn by_arrays<'py>(what: &str, name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    value.py().import("clatter._arrays")?.call_method1(what, (name, value))
 }
 
 macro_rules! plain {
@@ -101,13 +113,18 @@ impl<T: Value> Value for Option<T> {
 }
 
 impl Value for f64 {
-    /// Reads a number of Python or numpy.
+    /// Reads a number of Python or numpy, to the last digit.
     fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let is_array = value.getattr("ndim").is_ok_and(|axes| axes.extract().is_ok_and(|axes: usize| axes > 0));
-        match value.extract() {
-            Ok(number) if !is_array && !value.is_instance_of::<PyBool>() => Ok(number),
-            _ => Err(wrong(name, value, "a number")),
+        /// Whole numbers up to this are floats as well.
+        const EXACT: u64 = 1 << 53;
+        let small = || value.extract::<i64>().is_ok_and(|whole| whole.unsigned_abs() <= EXACT);
+        if value.is_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() && small() {
+            return value.extract();
         }
+        if value.is_none() || value.is_instance_of::<PyBool>() || is_text(value) {
+            return Err(wrong(name, value, "a number"));
+        }
+        by_arrays("number", name, value)?.extract()
     }
 }
 
@@ -142,10 +159,7 @@ pub(crate) fn several<'py>(
     value: &Bound<'py, PyAny>,
     counts: &[usize],
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-    let several = match value.try_iter() {
-        Ok(values) if !is_text(value) => values.collect::<PyResult<_>>()?,
-        _ => vec![value.clone()],
-    };
+    let several = elements(name, value)?.unwrap_or_else(|| vec![value.clone()]);
     if counts.is_empty() || counts.contains(&several.len()) || is_text(value) {
         return Ok(several);
     }
@@ -168,12 +182,25 @@ pub(crate) fn rows<'py, T>(
     value: &Bound<'py, PyAny>,
     row: impl Fn(&str, &Bound<'py, PyAny>) -> PyResult<T>,
 ) -> PyResult<Vec<T>> {
-    match value.try_iter() {
-        Ok(values) if !is_text(value) => {
-            values.enumerate().map(|(i, one)| row(&format!("{name}[{i}]"), &one?)).collect()
-        }
-        _ => Err(wrong(name, value, "a list")),
+    let rows = elements(name, value)?.ok_or_else(|| wrong(name, value, "a list"))?;
+    rows.iter().enumerate().map(|(i, one)| row(&format!("{name}[{i}]"), one)).collect()
+}
+
+/// Returns the elements of a list, an array or an iterator; none of what is no list, or has no order.
+fn elements<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyAny>>>> {
+    if value.hasattr("__array__")? {
+        return by_arrays("listed", name, value)?.extract().map(Some);
     }
+    let is_unordered = value.is_instance_of::<PyFrozenSet>() || value.is_instance_of::<PySet>();
+    if is_text(value) || is_unordered || value.cast::<PyMapping>().is_ok() {
+        return Ok(None);
+    }
+    let Ok(values) = value.try_iter() else { return Ok(None) };
+    let elements = values.take(LISTED + 1).collect::<PyResult<Vec<_>>>()?;
+    if elements.len() > LISTED {
+        return Err(refused(format!("{name} has more than {LISTED} elements: ask in pieces")));
+    }
+    Ok(Some(elements))
 }
 
 pub(crate) fn is_text(value: &Bound<'_, PyAny>) -> bool {

@@ -46,7 +46,7 @@ mod _clatter {
     #[pymodule_export]
     use crate::maps::map;
     #[pymodule_export]
-    use crate::products::{ProductText, assess, design, example, explain, fit, scatter, schema, tradeoff};
+    use crate::products::{ProductText, assess, design, example, explain, fit, scatter, schema, text, tradeoff};
     #[pymodule_export]
     use crate::records::{Record, spectra, spectrum};
     #[pymodule_export]
@@ -61,6 +61,7 @@ mod _clatter {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("MOST", crate::arrays::MOST)?;
+        module.add("LISTED", crate::single::LISTED)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

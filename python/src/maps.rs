@@ -22,8 +22,8 @@ impl Value for Span {
     }
 }
 
-/// The largest number of points of a map: a gigabyte.
-const MOST: usize = 1 << 27;
+/// The largest number of points of a map: its values and their picture take a gigabyte, as in the command.
+const MOST: usize = 1 << 26;
 
 /// Reads the quantity of a map.
 fn quantity(given: &Given<'_>) -> PyResult<Quantity> {

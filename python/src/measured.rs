@@ -13,7 +13,7 @@ use pyo3::types::PyMapping;
 
 use crate::answered::Refused;
 use crate::given::{Given, Value, parts, rows};
-use crate::records::Record;
+use crate::records::{self, Record};
 use crate::refused;
 use crate::work::Wanted;
 
@@ -89,6 +89,7 @@ fn read(record: &RecordFile, path: &Path, wanted: &Wanted) -> Result<Data, Refus
     let name = visible(&path.to_string_lossy()).into_owned();
     let bad = |error: &dyn std::fmt::Display| Refused::Words(format!("{name}: {error}"));
     let (mut file, mut begin) = (File::open(path).map_err(unreadable)?, Vec::new());
+    let size = file.metadata().map_err(unreadable)?.len();
     (&mut file).take(List::HEADER).read_to_end(&mut begin).map_err(unreadable)?;
     let whole = Cursor::new(&begin).chain(file);
     if let Some(list) = List::of(&begin) {
@@ -99,7 +100,7 @@ fn read(record: &RecordFile, path: &Path, wanted: &Wanted) -> Result<Data, Refus
         return Err(bad(&none));
     };
     let options = fit::options(record).map_err(|error| bad(&error))?;
-    let read = clatter_record::Record::read(whole, &options, |_| wanted.or_leave()).map_err(|error| bad(&error))?;
+    let read = records::read(whole, size, &options, &name, wanted)?;
     Data::acceleration(&read, position_m).map_err(|error| match error {
         Error::Channels(count) => bad(&format!("{count} channels; acceleration picks the one of the position")),
         error => bad(&error),

@@ -19,6 +19,7 @@ use pyo3::prelude::*;
 
 use crate::answered::{Answered, Drawing, Refused, json, without_picture};
 use crate::given::Given;
+use crate::studies::text_of;
 use crate::work::{self, Wanted};
 use crate::{measured, refused, words};
 
@@ -45,6 +46,12 @@ impl ProductText {
         let name = Path::new(origin).file_name().map_or(origin.into(), |name| name.to_string_lossy()).into_owned();
         Ok(Self { file, text, name, folder, warnings })
     }
+}
+
+/// Reads the text of a product file.
+#[pyfunction]
+pub(crate) fn text(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    Ok(work::read(py, move |_| text_of(&path))??)
 }
 
 #[pyfunction]
@@ -74,9 +81,10 @@ pub(crate) fn assess(py: Python<'_>, given: Given<'_>) -> PyResult<(Answered, Ve
     let (report, date) = (given.read::<Option<PathBuf>>("report")?, given.read::<Option<String>>("report_date")?);
     let measured = measured::given(&given.value("measured")?)?;
     given.done()?;
+    let (file, mut drops) =
+        work::read(py, move |wanted| measured::named(&file, &folder, wanted).map(|drops| (file, drops)))??;
+    drops.extend(measured);
     let done = work::done(py, move |wanted| {
-        let mut drops = measured::named(&file, &folder, wanted)?;
-        drops.extend(measured);
         let answer = assess_of::watched(&file, &accuracy, &|_, _| wanted.still());
         let mut answer = answer.map_err(words)?;
         if let Some(asked) = asked {

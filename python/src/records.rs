@@ -1,21 +1,28 @@
 //! This module reads measured accelerations, from files and from arrays, and computes their spectra.
 
+use std::fmt::Display;
 use std::fs::File;
+use std::io::{self, Cursor, Read};
 use std::path::PathBuf;
 
 use clatter_answer::spectrum::{self as spectrum_of, Excitation, Measured, Part};
 use clatter_answer::{figures, record as record_of};
 use clatter_figures::{Against, FigureError};
-use clatter_record::{Baseline, Between, Column, Options, PRE_SHOCK_SHARE, Pass, Pick, Table, Values, sensitivity};
+use clatter_record::{
+    Baseline, Between, Column, Kind, Options, PRE_SHOCK_SHARE, Pass, Pick, Table, Values, sensitivity,
+};
 use clatter_shock::{DampingRatio, Frequencies, LimitCurve, Quantity, RequiredSpectrum, Search};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::pybacked::PyBackedBytes;
+use pyo3::types::{PyBool, PyDict};
 use serde::Serialize;
 
 use crate::answered::{Answered, Drawing, Refused, json, without_picture};
 use crate::given::{Given, Value, one_of, several, whole, wrong};
 use crate::shocks::Pulse;
+use crate::single::LISTED;
+use crate::work::Wanted;
 use crate::{arrays, bodies, refused, words, work};
 
 /// A record of measured accelerations.
@@ -30,8 +37,9 @@ pub(crate) struct Record {
 impl Value for Pick {
     /// Reads a column by its number, from 1, or by its name.
     fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let picked = value.extract().map(Self::Number).or_else(|_| value.extract().map(Self::Name));
-        picked.map_err(|_| wrong(name, value, "the number or the name of a column"))
+        let number = value.extract().ok().filter(|_| !value.is_instance_of::<PyBool>()).map(Self::Number);
+        let picked = number.or_else(|| value.extract().ok().map(Self::Name));
+        picked.ok_or_else(|| wrong(name, value, "the number or the name of a column"))
     }
 }
 
@@ -78,7 +86,65 @@ fn options(given: &Given<'_>) -> PyResult<Options> {
 /// Reads how the shocks of a record are found, where they are to be.
 fn search(given: &Given<'_>) -> PyResult<Option<Search>> {
     let search = Search { threshold_m_s2: given.read("threshold_m_s2")?, quiet_s: given.read("quiet_s")? };
-    Ok(given.value("find")?.is_truthy()?.then_some(search))
+    Ok(given.read::<bool>("find")?.then_some(search))
+}
+
+/// Reads a record of a file of this size, 0 where that is not known. What is no text of lines is held in memory as a whole, so it is
+/// bounded.
+pub(crate) fn read(
+    mut input: impl Read,
+    size: u64,
+    options: &Options,
+    name: &str,
+    wanted: &Wanted,
+) -> Result<clatter_record::Record, Refused> {
+    let mut begin = Vec::new();
+    let words = |error: &dyn Display| Refused::Words(format!("{name}: {error}"));
+    input.by_ref().take(BEGIN).read_to_end(&mut begin).map_err(|error| words(&error))?;
+    let is_lines = begin.contains(&b'\n') && !begin.contains(&0) && matches!(Kind::of(&begin), Ok(Kind::Text));
+    let left = if is_lines { u64::MAX } else { LARGEST - BEGIN };
+    if !is_lines && size > LARGEST {
+        return Err(words(&TOO_LARGE));
+    }
+    let rest = Cursor::new(begin).chain(Bounded { input, left });
+    clatter_record::Record::read(rest, options, |_| wanted.or_leave()).map_err(|error| words(&error))
+}
+
+/// Bytes by which a file is known.
+const BEGIN: u64 = 1 << 16;
+/// Bytes of a file that is held in memory as a whole, at most: what the command may take.
+const LARGEST: u64 = 1 << 30;
+const TOO_LARGE: &str = "it is larger than 1 GiB, which is the most for what is no text";
+
+/// An input that ends in an error where it is longer.
+struct Bounded<R> {
+    input: R,
+    left: u64,
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.input.read(buffer)?;
+        let left = self.left.checked_sub(count as u64);
+        self.left = left.ok_or_else(|| io::Error::other(TOO_LARGE))?;
+        Ok(count)
+    }
+}
+
+/// Returns what is odd about a rate that stands in place of times which a table has as well.
+fn other_times(table: &Table, options: &Options) -> Vec<String> {
+    /// Rates that differ by less are one.
+    const SAME: f64 = 0.01;
+    let accelerations_alone = table.columns.iter().all(|column| column.unit.as_deref() == Some("m/s2"));
+    let Some(given_hz) = options.sample_rate_hz.filter(|_| !accelerations_alone) else { return Vec::new() };
+    let by_times = Options { sample_rate_hz: None, ..options.clone() };
+    let Ok(timed) = clatter_record::Record::of_table(table.clone(), &by_times) else { return Vec::new() };
+    #[expect(clippy::cast_precision_loss, reason = "of samples in memory")]
+    let rates = timed.times().into_iter().map(|times| (times.samples() - 1) as f64 / times.duration_s());
+    let others = rates.filter(|hz| (hz / given_hz - 1.0).abs() > SAME);
+    others
+        .map(|hz| format!("the rate that is given, {given_hz} Hz, is not that of the times, {} Hz", figures(hz)))
+        .collect()
 }
 
 /// The answer with its file before it, as the command has it.
@@ -108,23 +174,28 @@ impl Record {
 
 #[pymethods]
 impl Record {
+    /// Reads a file, or the bytes that it had.
     #[staticmethod]
     fn open(py: Python<'_>, given: Given<'_>) -> PyResult<Self> {
         let (path, options) = (given.read::<PathBuf>("path")?, options(&given)?);
+        let bytes: Option<PyBackedBytes> = given.value("bytes")?.extract()?;
         given.done()?;
         let file = path.to_string_lossy().into_owned();
-        let input = File::open(&path).map_err(|error| Refused::System(path, error))?;
         let name = file.clone();
-        let read = work::done(py, move |wanted| {
-            clatter_record::Record::read(input, &options, |_| wanted.or_leave())
-                .map_err(|error| format!("{name}: {error}"))
+        let read = work::read(py, move |wanted| {
+            if let Some(bytes) = bytes {
+                return read(Cursor::new(bytes), 0, &options, &name, wanted);
+            }
+            let opened = File::open(&path).and_then(|file| Ok((file.metadata()?.len(), file)));
+            let (size, file) = opened.map_err(|error| Refused::System(path, error))?;
+            read(file, size, &options, &name, wanted)
         });
-        Ok(Self { record: read?.map_err(refused)?, file })
+        Ok(Self { record: read??, file })
     }
 
     /// Makes a record of columns, each with its name, its unit where it is not in the name, and its numbers.
     #[staticmethod]
-    fn of_columns(given: Given<'_>) -> PyResult<Self> {
+    fn of_columns(py: Python<'_>, given: Given<'_>) -> PyResult<Self> {
         let (options, file) = (options(&given)?, given.read("name")?);
         let (columns, left_out): (Vec<(String, Option<String>, Numbers)>, _) = given.value("data")?.extract()?;
         given.done()?;
@@ -136,8 +207,15 @@ impl Record {
             values: numbers.0,
         };
         let table = Table { columns: columns.into_iter().map(column).collect(), left_out, notes: Vec::new() };
-        let record = clatter_record::Record::of_table(table, &options).map_err(refused)?;
-        Ok(Self { record, file })
+        let record = work::done(py, move |_| {
+            let notes = other_times(&table, &options);
+            clatter_record::Record::of_table(Table { notes, ..table }, &options)
+        });
+        Ok(Self { record: record?.map_err(refused)?, file })
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.file == other.file && self.record == other.record
     }
 
     /// Names of the channels.
@@ -165,7 +243,8 @@ impl Record {
         self.record.findings(record_of::LOWEST_HZ).iter().map(ToString::to_string).collect()
     }
 
-    fn window(&self, from_s: f64, to_s: f64) -> PyResult<Self> {
+    fn window(&self, from_s: &Bound<'_, PyAny>, to_s: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (from_s, to_s) = (f64::read("from_s", from_s)?, f64::read("to_s", to_s)?);
         Ok(self.with(self.record.clone().window(from_s, to_s).map_err(refused)?))
     }
 
@@ -178,8 +257,9 @@ impl Record {
     }
 
     /// Filters the record as the command does: two poles, forward and backward.
-    fn filter(&self, py: Python<'_>, high: bool, hz: f64) -> PyResult<Self> {
-        let (mut record, pass) = (self.record.clone(), if high { Pass::High } else { Pass::Low });
+    fn filter(&self, py: Python<'_>, high: bool, hz: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (hz, pass) = (f64::read("hz", hz)?, if high { Pass::High } else { Pass::Low });
+        let mut record = self.record.clone();
         let filtered = work::done(py, move |_| record.filter(pass, hz, 2).map(|()| record));
         Ok(self.with(filtered?.map_err(refused)?))
     }
@@ -275,6 +355,14 @@ pub(crate) fn spectrum(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
     (question.resultant, question.envelope) = (given.read("resultant")?, given.read("envelope")?);
     question.mean_3db = given.read("mean_3db")?;
     given.done()?;
+    let channels = question.records().iter().map(|of| of.record.channels().len()).sum::<usize>().max(1);
+    let count = question.frequencies().map_err(refused)?.hz().len();
+    let listed = count.saturating_mul(channels).saturating_mul(question.dampings.len());
+    if listed > LISTED {
+        return Err(refused(format!(
+            "{listed} frequencies of all spectra in one call; it takes {LISTED}: ask in pieces"
+        )));
+    }
     let (told, parts, limit, required) = work::done(py, move |wanted| {
         let answer = spectrum_of::counted(&question, |_| wanted.or_leave()).map_err(words)?;
         let told = json(&answer)?;
@@ -329,7 +417,11 @@ pub(crate) fn spectra<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Bound
     let damping = bodies::damping(given.read("damping")?, given.read("q_factor")?)?;
     let (quantity, between) = (given.read("quantity")?, given.read("interpolation")?);
     let frequencies = Frequencies::list(given.read("frequency_hz")?).map_err(refused)?;
-    let (step_s, samples) = (1.0 / given.read::<f64>("sample_rate_hz")?, given.whole("samples", 2..=u64::MAX)?);
+    let (rate_hz, samples) = (given.read::<f64>("sample_rate_hz")?, given.whole("samples", 2..=u64::MAX)?);
+    if !(rate_hz > 0.0 && rate_hz.is_finite()) {
+        return Err(refused(format!("sample_rate_hz = {rate_hz:?} is not finite and > 0")));
+    }
+    let step_s = 1.0 / rate_hz;
     let arrays::Column(histories) = given.read("acceleration_m_s2")?;
     given.done()?;
     let all = work::done(py, move |wanted| {

@@ -8,26 +8,37 @@ use crate::bodies::{Body, Fall, Places};
 use crate::given::Given;
 use crate::{refused, words};
 
-/// The largest number of impacts that an answer lists: as objects they take a kilobyte each.
-const LISTED: u64 = 1_000_000;
+/// The largest number of things that an answer lists, and of a list that is given: as objects they take a kilobyte each.
+pub(crate) const LISTED: usize = 1_000_000;
 
 #[pyfunction]
 pub(crate) fn impacts(py: Python<'_>, given: Given<'_>) -> PyResult<Answered> {
     let (body, fall, at) = (Body::read(&given)?, Fall::read(&given)?, given.read::<Places>("at")?);
-    let limit = given.whole("limit", 0..=LISTED)?;
+    let limit = given.whole("limit", 0..=LISTED as u64)?;
     given.done()?;
     match body {
         Body::Bar(bar) => {
             let mut question = impacts_of::Question::new(bar, fall.of_bar()?);
             (question.at, question.limit) = (at.of_bar()?, limit);
+            listed(question.at.len(), limit)?;
             without_picture(py, move |_| json(&impacts_of::answer(&question).map_err(words)?))
         }
         Body::Plate(plate) => {
             let mut question = impacts_of::plate::Question::new(plate, fall.of_plate()?);
             (question.at, question.limit) = (at.of_plate()?, limit);
+            listed(question.at.len(), limit)?;
             without_picture(py, move |_| json(&impacts_of::plate::answer(&question).map_err(words)?))
         }
     }
+}
+
+/// Refuses more shocks at positions than an answer lists.
+fn listed(positions: usize, impacts: usize) -> PyResult<()> {
+    let shocks = positions.saturating_mul(impacts);
+    if shocks > LISTED {
+        return Err(refused(format!("{shocks} shocks at positions in one call; it takes {LISTED}: ask in pieces")));
+    }
+    Ok(())
 }
 
 #[pyfunction]

@@ -1,7 +1,7 @@
 //! This module draws studies in shards into files, and merges them.
 
 use std::fs::File;
-use std::io::{BufWriter, Read, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
@@ -36,18 +36,29 @@ pub(crate) fn study(py: Python<'_>, given: Given<'_>) -> PyResult<(String, Strin
     let (plan, output) = (given.read::<PathBuf>("plan")?, given.read::<PathBuf>("output")?);
     let [index, of] = parts("shard", &given.value("shard")?, "(i, n)")?;
     let [index, of] = [whole("shard", &index, SHARDS)?, whole("shard", &of, SHARDS)?];
-    let force = given.value("force")?.is_truthy()?;
+    let force = given.read("force")?;
     given.done()?;
-    Ok(work::done(py, move |wanted| draw(&plan, Shard { index, of }, &output, force, wanted))??)
+    let (plan, text, origin) = work::read(py, move |_| planned(&plan))??;
+    Ok(work::done(py, move |wanted| draw((plan, &text, &origin), Shard { index, of }, &output, force, wanted))??)
 }
 
-fn draw(plan: &Path, shard: Shard, output: &Path, force: bool, wanted: &Wanted) -> Result<(String, String), Refused> {
-    let read = Plan::read(&text_of(plan)?, &plan.to_string_lossy()).map_err(words)?;
-    let product = plan.parent().unwrap_or(Path::new("")).join(&read.product);
-    let (text, origin) = (text_of(&product)?, product.to_string_lossy());
-    let odd = ProductFile::read_warned(&text, &origin).map_err(words)?.1;
+/// Reads a plan, and the text of its product with the name of that file.
+fn planned(path: &Path) -> Result<(Plan, String, String), Refused> {
+    let plan = Plan::read(&text_of(path)?, &path.to_string_lossy()).map_err(words)?;
+    let product = path.parent().unwrap_or(Path::new("")).join(&plan.product);
+    Ok((plan, text_of(&product)?, product.to_string_lossy().into_owned()))
+}
+
+fn draw(
+    (plan, text, origin): (Plan, &str, &str),
+    shard: Shard,
+    output: &Path,
+    force: bool,
+    wanted: &Wanted,
+) -> Result<(String, String), Refused> {
+    let odd = ProductFile::read_warned(text, origin).map_err(words)?.1;
     let warnings = if odd.warnings().is_empty() { String::new() } else { odd.to_string() };
-    let study = Study::new(read, &text, &origin).map_err(words)?;
+    let study = Study::new(plan, text, origin).map_err(words)?;
     let (rows, notes) = (study.rows_of(shard).map_err(words)?, study.notes(shard).map_err(words)?);
     let skipped = !force && is_there(output, &notes, rows.end - rows.start)?;
     if !skipped {
@@ -69,8 +80,10 @@ fn draw(plan: &Path, shard: Shard, output: &Path, force: bool, wanted: &Wanted) 
 
 /// Returns whether a file holds this very part; refuses to write over any other file.
 fn is_there(path: &Path, notes: &[(&str, String)], rows: u64) -> Result<bool, Refused> {
-    let Ok(file) = File::open(path) else { return Ok(false) };
-    let same = RowGroups::new(file).is_ok_and(|part| {
+    if !path.exists() {
+        return Ok(false);
+    }
+    let same = sought(path).ok().and_then(|file| RowGroups::new(file).ok()).is_some_and(|part| {
         let all: u64 = part.rows().iter().map(|rows| *rows as u64).sum();
         all == rows && notes.iter().all(|(name, note)| part.note(name) == Some(note))
     });
@@ -137,8 +150,13 @@ fn merged<'a>(
 }
 
 fn open(path: &Path) -> Result<RowGroups<File>, Refused> {
-    let file = File::open(path).map_err(|error| Refused::System(path.to_owned(), error))?;
+    let file = sought(path).map_err(|error| Refused::System(path.to_owned(), error))?;
     RowGroups::new(file).map_err(|error| torn(path, &error))
+}
+
+/// Opens a file at whose end one may begin; to open a pipe would wait for who writes to it.
+fn sought(path: &Path) -> io::Result<File> {
+    if path.metadata()?.is_file() { File::open(path) } else { Err(io::Error::other("it is no file on a disk")) }
 }
 
 fn torn(path: &Path, error: &clatter_record::Error) -> Refused {
@@ -150,9 +168,13 @@ fn name(path: &Path) -> String {
 }
 
 /// Reads the text of a file, of a size that product files have.
-fn text_of(path: &Path) -> Result<String, Refused> {
-    let mut text = String::new();
-    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_string(&mut text));
+pub(crate) fn text_of(path: &Path) -> Result<String, Refused> {
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes));
     read.map_err(|error| Refused::System(path.to_owned(), error))?;
-    Ok(text)
+    let wrong = |what: &str| Refused::Words(format!("{}: {what}", name(path)));
+    if bytes.len() > LARGEST_FILE {
+        return Err(wrong(&format!("it is larger than a product file, of {LARGEST_FILE} bytes at most")));
+    }
+    String::from_utf8(bytes).map_err(|_| wrong("it is not text in UTF-8"))
 }

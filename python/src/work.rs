@@ -1,6 +1,7 @@
 //! This module runs work without the lock of the interpreter, so that Ctrl-C ends it.
 //!
-//! The threads of a pool do the work, while the thread of Python that requested it looks for signals some twenty times a second.
+//! The threads of a pool do the work, and one of its own reads files, while the thread of Python that requested it looks for signals some
+//! twenty times a second.
 //! After a signal the call ends at once; the work stops where it can be stopped, and else goes on without a listener.
 
 use std::any::Any;
@@ -8,6 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
@@ -57,13 +59,35 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
 /// # Errors
 /// A signal whose handler raises, as that of Ctrl-C does.
 pub(crate) fn done<T: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Wanted) -> T + Send + 'static) -> PyResult<T> {
+    let pool = pool()?;
+    heard(py, work, |job| {
+        pool.spawn(job);
+        Ok(())
+    })
+}
+
+/// Reads files on a thread of its own, and returns what they hold: one that is a pipe may keep it waiting for ever, and the threads of the
+/// process have other work.
+///
+/// # Errors
+/// Those of [`done`].
+pub(crate) fn read<T: Send + 'static>(py: Python<'_>, read: impl FnOnce(&Wanted) -> T + Send + 'static) -> PyResult<T> {
+    heard(py, read, |job| Ok(thread::Builder::new().name("clatter reads".to_owned()).spawn(job).map(drop)?))
+}
+
+/// Starts work, and waits for its result without the lock of the interpreter.
+fn heard<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&Wanted) -> T + Send + 'static,
+    start: impl FnOnce(Box<dyn FnOnce() + Send>) -> PyResult<()>,
+) -> PyResult<T> {
     let wanted = Wanted(Arc::new(AtomicBool::new(true)));
     let (sender, receiver) = sync_channel(1);
     let its = wanted.clone();
-    pool()?.spawn(move || {
+    start(Box::new(move || {
         let given: Result<T, Box<dyn Any + Send>> = catch_unwind(AssertUnwindSafe(|| work(&its)));
         let _ = sender.send(given); // nobody may be left to hear it
-    });
+    }))?;
     let receiver = Mutex::new(receiver);
     loop {
         let heard = py.detach(|| receiver.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(INTERVAL));

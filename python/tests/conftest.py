@@ -11,12 +11,16 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="session")
-def command():
+def command(pytestconfig):
     """Runs the command of this source: that of CLATTER_COMMAND, else it is built."""
     path = os.environ.get("CLATTER_COMMAND")
     if path is None:
         build = ["cargo", "build", "--release", "--locked", "--package=clatter-cli", "--message-format=json"]
-        lines = subprocess.run(build, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+        manager = pytestconfig.pluginmanager
+        with manager.getplugin("capturemanager").global_and_fixture_disabled():
+            said = "builds the command clatter to hold the wheel against it, some minutes the first time; CLATTER_COMMAND names one"
+            manager.getplugin("terminalreporter").write_line(f"\n{said}\n{' '.join(build)}")
+            lines = subprocess.run(build, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
         path = next(made for line in lines if (made := json.loads(line).get("executable")))
 
     def run(*args, code=(0, 1)):

@@ -150,12 +150,12 @@ REFUSED = {
     "inertia ratio q = 2.0 is not in (-1, 1]": lambda: clatter.bars(q=2, e=0.3),
     "at [20000]: restitution e = inf is not in [0, 1]": lambda: clatter.bars(q=0.5, e=[0.5] * 20000 + [np.inf]),
     "shapes that do not go together: q (3,), e (2,)": lambda: clatter.bars(q=[0.1, 0.2, 0.3], e=[0.1, 0.2]),
-    "e is of complex128; numbers are float64": lambda: clatter.bars(q=0.5, e=[0.3 + 0j]),
+    "e is of complex; numbers are float64": lambda: clatter.bars(q=0.5, e=[0.3 + 0j]),
     "e is of bool; numbers are float64": lambda: clatter.bars(q=0.5, e=[True]),
-    "e is of <U3; numbers are float64": lambda: clatter.bars(q=0.5, e=["0.3"]),
+    "e is of str; numbers are float64": lambda: clatter.bars(q=0.5, e=["0.3"]),
     "q has masked elements": lambda: clatter.bars(q=np.ma.array([0.5, 0.6], mask=[0, 1]), e=0.3),
     "q has integers beyond 2**53, which float64 does not hold": lambda: clatter.bars(q=[2**60], e=0.3),
-    "q is no array: setting an array element with a sequence": lambda: clatter.bars(q=[[0.1], [0.2, 0.3]], e=0.3),
+    "q is ragged: it has rows of 1 and of 2": lambda: clatter.bars(q=[[0.1], [0.2, 0.3]], e=0.3),
     "1000000000000 elements in one call; it takes 10000000: ask in pieces": lambda: clatter.bars(
         q=np.broadcast_to(0.5, (10**6, 1)), e=np.broadcast_to(0.3, (1, 10**6))
     ),
@@ -183,10 +183,10 @@ REFUSED = {
         model="map", length_m="1 m", gyration_m=0.3, e=0.3, speed_m_s=1, tilt_deg=1
     ),
     "n of q = 2.5 is not a whole number": lambda: clatter.map("impacts", q=(0, 1, 2.5), e=(0, 1, 3)),
-    "sample_rate_hz = nan is not finite and > 0": lambda: clatter.spectra(
+    "sample_rate_hz = NaN is not finite and > 0": lambda: clatter.spectra(
         [1.0, 2.0], sample_rate_hz=float("nan"), frequency_hz=[10]
     ),
-    "200000000 samples in one call; it takes 100000000: ask in pieces": lambda: clatter.spectra(
+    "200000000 elements of acceleration_m_s2 in one call; it takes 100000000: ask in pieces": lambda: clatter.spectra(
         np.broadcast_to(1.0, (2, 10**8)), sample_rate_hz=1e3, frequency_hz=[10]
     ),
     "points are too many: a map has": lambda: clatter.map("impacts", q=(0, 1, 10**9), e=(0, 1, 10**9)),

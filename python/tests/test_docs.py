@@ -52,6 +52,15 @@ def test_types(tmp_path):
         "reveal_type(clatter.assess(clatter.Product.example()))\n"
         "clatter.impacts(q='a lot', e=0.3)\n"
         "clatter.spectrum(clatter.Record([1.0, 2.0], sample_rate_hz=1e3), quantity='speed')\n"
+        "clatter.Pulse('half-sine', amplitude_m_s2=1, duration_s=1).durations_s\n"
+        "clatter.Record.open('drop.csv').values_m_s2('a').maxima()\n"
+        "ends: list[str] = [impact.end for impact in clatter.impacts(q=0.5, e=0.3).impacts]\n"
+        "counts: list[float] = clatter.bars(q=[0.5], e=0.3).count.tolist()\n"
+        "limits = {p.name: p.limits[0].margin for p in clatter.assess(clatter.Product.example()).components}\n"
+        "step: float | None = clatter.Record([1.0, 2.0], sample_rate_hz=1e3).low_pass(100).step_s\n"
+        "same: bool = clatter.bars(q=0.5, e=0.3) == clatter.zones(q=0.5, e=0.3, threshold=1)\n"
+        "picture: str = clatter.spectrum('drop.csv').plot().svg\n"
+        "text: str = clatter.fit('p.toml', bounces=np.array([0, 0.5])).fitted.text\n"
     )
     package = ROOT / "python" / "clatter"
     mypy = [sys.executable, "-m", "mypy", "--strict", f"--config-file={ROOT / 'pyproject.toml'}", f"--cache-dir={tmp_path}"]
@@ -59,7 +68,7 @@ def test_types(tmp_path):
     assert own.returncode == 0, own.stdout
     found = subprocess.run([*mypy, use], capture_output=True, text=True).stdout
     assert 'Revealed type is "clatter._answer.Answer"' in found
-    assert re.findall(r"use\.py:(\d+): error", found) == ["6", "7"], found
+    assert re.findall(r"use\.py:(\d+): error", found) == ["6", "7", "8", "9"], found
 
 
 def test_readme(tmp_path, monkeypatch):

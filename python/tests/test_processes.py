@@ -79,8 +79,26 @@ def test_forked_processes_answer():
 
 
 def test_importing_loads_no_numpy_and_takes_no_time():
-    code = "import sys, time; t = time.process_time(); import clatter; print(time.process_time() - t, 'numpy' in sys.modules)"
+    code = (
+        "import sys, time; t = time.process_time(); import clatter; t = time.process_time() - t; "
+        "clatter.impacts(q=1, e=0.3, at=[0, 0.5]); print(t, 'numpy' in sys.modules)"
+    )
     runs = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True) for _ in range(3)]
     seconds, numpy = zip(*(run.stdout.split() for run in runs))
     assert set(numpy) == {"False"}
     assert min(map(float, seconds)) < 0.1  # of a processor; 0.02 to 0.03 where nothing else is done
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a program of a shell")
+def test_pytest_says_what_it_builds(tmp_path):
+    cargo = tmp_path / "cargo"
+    cargo.write_text('#!/bin/sh\necho compiles >&2\necho \'{"executable": "/bin/false"}\'\n')
+    cargo.chmod(0o755)
+    environment = {name: value for name, value in os.environ.items() if name != "CLATTER_COMMAND"}
+    environment["PATH"] = f"{tmp_path}{os.pathsep}{environment['PATH']}"
+    test = f"{Path(__file__).parent / 'test_records.py'}::test_words_of_the_command"
+    run = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", test]
+    done = subprocess.run(run, env=environment, capture_output=True, text=True)
+    assert "builds the command clatter to hold the wheel against it" in done.stdout
+    assert "cargo build --release --locked --package=clatter-cli" in done.stdout
+    assert "compiles" in done.stderr  # and what cargo says itself
