@@ -20,9 +20,10 @@ const PAGE: &str = include_str!("../../page/page.html");
 const STYLE: &str = include_str!("../../page/style.css");
 const WORKER: &str = include_str!("../../page/worker.js");
 /// The modules of the page, which are joined to one in this order.
-const MODULES: [&str; 6] = [
+const MODULES: [&str; 7] = [
     include_str!("../../page/engine.js"),
     include_str!("../../page/element.js"),
+    include_str!("../../page/kept.js"),
     include_str!("../../page/film.js"),
     include_str!("../../page/plan.js"),
     include_str!("../../page/product.js"),
@@ -76,8 +77,10 @@ fn compiled(root: &Path, target: &Path) -> Result<Vec<u8>, String> {
         run(Command::new("rustup").args(["target", "add", TARGET]))?;
     }
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let arguments = ["build", "--profile", "web", "-p", "clatter-web", "--lib", "--target", TARGET, "--locked"];
-    run(Command::new(cargo).args(arguments).current_dir(root).env("CARGO_TARGET_DIR", target))?;
+    let arguments = ["rustc", "--profile", "web", "-p", "clatter-web", "--lib", "--target", TARGET, "--locked"];
+    // Else the linker leaves the places of calls and data as wide as it found them.
+    let linker = ["--", "-Clink-arg=--compress-relocations"];
+    run(Command::new(cargo).args(arguments).args(linker).current_dir(root).env("CARGO_TARGET_DIR", target))?;
     let path = target.join(TARGET).join("web/clatter_web.wasm");
     fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
 }
