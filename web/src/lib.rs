@@ -140,7 +140,11 @@ mod tests {
         for (field, given, said) in [
             ("sample_rate", "-3", "sampling rate: -3.0 is not finite and > 0"),
             ("full_scale", "0 gn", "full scale: 0.0 is not finite and > 0"),
-            ("sensitivity", "2 V", "sensitivity: '2 V' is no voltage for an acceleration, such as 100mV/g or 10.2mV/(m/s2)"),
+            (
+                "sensitivity",
+                "2 V",
+                "sensitivity: '2 V' is no voltage for an acceleration, such as 100mV/g or 10.2mV/(m/s2)",
+            ),
         ] {
             let question = serde_json::json!({ "ask": "spectrum", "name": "x.csv", field: given });
             assert_eq!(error(question, ""), said);

@@ -136,9 +136,8 @@ pub(crate) fn within(given: &str, item: Item, by: [f64; 2]) -> [f64; 2] {
     let [length_m, width_m] = file.product.sides_m();
     // What roundings leave out of a whole one is none.
     let whole = |room_m: f64| 1e-6 * (1e6 * room_m + 1e-3).floor().max(0.0);
-    let stopped = |by: f64, [low, high]: [f64; 2], side_m: f64| {
-        by.clamp(-whole(low + 0.5 * side_m), whole(0.5 * side_m - high))
-    };
+    let stopped =
+        |by: f64, [low, high]: [f64; 2], side_m: f64| by.clamp(-whole(low + 0.5 * side_m), whole(0.5 * side_m - high));
     [stopped(by[0], along_m, length_m), across_m.map_or(by[1], |across_m| stopped(by[1], across_m, width_m))]
 }
 
@@ -256,7 +255,8 @@ mod tests {
             for item in (0..9).flat_map(|n| [Item::Component(n), Item::Mass(n)]) {
                 for by in [[9.0, 9.0], [-9.0, -9.0], [0.3, -9.0], [-9.0, 0.01]] {
                     let Ok(text) = moved(text, item, within(text, item, by)) else { continue };
-                    let beyond = products::read(name, &text).err().filter(|said| said.contains("half of the product's"));
+                    let beyond =
+                        products::read(name, &text).err().filter(|said| said.contains("half of the product's"));
                     assert_eq!(beyond, None, "{name}: {item:?} by {by:?}");
                 }
             }
