@@ -173,7 +173,11 @@ function spots(of, thing, { x, y, wide, tall }, long, unit) {
     { anchor: 'start', x: x + wide + 5 * unit, y: foot },
   ];
   if (middle < 0) beside.reverse();
-  const about = [y - 5 * unit, y + tall + 13 * unit].map((y) => ({ anchor: 'middle', x: middle, y }));
+  const about = [y - 5 * unit, y + tall + 13 * unit].flatMap((y) => [
+    { anchor: 'middle', x: middle, y },
+    { anchor: 'end', x: x + wide, y },
+    { anchor: 'start', x, y },
+  ]);
   return [...within, ...beside, ...(of.width_m ? about : [])];
 }
 

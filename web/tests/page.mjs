@@ -439,6 +439,13 @@ for (const colorScheme of ['light', 'dark']) {
         assert.equal(await wide(), width, name);
         assert.deepEqual(await unreadable(), [], name);
       }
+      // Two parts of a plate beside one another, whose names would be one on the other.
+      await page.selectOption('#worked', 'handheld-terminal.toml');
+      await page.waitForSelector('.cross', { state: 'attached' });
+      const beside = (await text()).replace('["-20 mm", "-25 mm"]', '["75 mm", "15 mm"]');
+      await page.fill('#toml', beside);
+      await page.waitForFunction(() => document.querySelector('[data-key="component-2"]').ariaValueText === '75 mm along, 15 mm across');
+      assert.deepEqual(await unreadable(), [], 'beside one another');
       // Names without an end, and what is refused.
       await page.selectOption('#worked', 'scanner-wand.toml');
       const endless = (await text()).replaceAll('display', 'd'.repeat(80)).replaceAll('Scanner wand', 'S'.repeat(80));
