@@ -184,7 +184,7 @@ for (const name of ['handheld-terminal.toml', 'handheld-transit.toml']) {
     });
     await page.selectOption('#worked', name);
     await page.waitForFunction((name) => document.querySelector('#product-command code')?.textContent.includes(name), name, {
-      timeout: 120_000,
+      timeout: 600_000,
     });
     const demands = async (of) =>
       JSON.parse(await answer(of)).components.flatMap((part) => part.limits.map((limit) => limit.demand));
