@@ -53,7 +53,7 @@ function copier(label, text, what) {
 // Figures are files of their own: they can be saved, and no text of a product is read as markup of the page.
 function figure([name, svg]) {
   const image = element('img', { alt: name, src: `data:image/svg+xml,${encodeURIComponent(svg)}` });
-  return element('figure', {}, image, element('figcaption', {}, name));
+  return element('figure', { tabindex: 0 }, image, element('figcaption', {}, name));
 }
 
 function download(name, text) {

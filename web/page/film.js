@@ -5,10 +5,9 @@ const LEAD = 0.7; // of the fall before the first touch and of the flight after 
 const STAGE = { width: 640, height: 250, ground: 200, left: 64, right: 576, tall: 160 };
 const STEMS = { height: 120, base: 104, top: 16 };
 
+const FIRST = { q: 0.5, e: 0.3, threshold: 1 };
 const bar = {
-  q: 0.5,
-  e: 0.3,
-  threshold: 1,
+  ...FIRST,
   flights: [],
   at: 0,
   playing: false,
@@ -116,8 +115,8 @@ function stems() {
   $('stems').replaceChildren(
     drawn('line', { class: 'axis', x1: left - 8, x2: right, y1: STEMS.base, y2: STEMS.base }),
     drawn('line', { class: 'limit', x1: left - 8, x2: right, y1: y(bar.threshold), y2: y(bar.threshold) }),
-    drawn('text', { x: right, y: y(bar.threshold) - 5, 'text-anchor': 'end' }, `survived: ${digits(bar.threshold, 3)} v₀`),
     ...impacts.map(of),
+    drawn('text', { x: right, y: y(bar.threshold) - 5, 'text-anchor': 'end' }, `survived: ${digits(bar.threshold, 3)} v₀`),
   );
 }
 
@@ -248,7 +247,8 @@ function set(values) {
     const slider = $(`${key}-slider`);
     if (slider) slider.value = given;
   }
-  bars();
+  keep();
+  return bars();
 }
 
 function filmBegins() {
@@ -264,7 +264,7 @@ function filmBegins() {
     pause();
     seek(Number(target.value));
   };
-  $('stage').onkeydown = (event) => {
+  $('stage').onkeydown = $('stems').onkeydown = (event) => {
     const keys = {
       ' ': () => $('play').click(),
       ArrowRight: () => step(1),
@@ -302,6 +302,7 @@ function filmBegins() {
     event.preventDefault();
     set({ q: rounded(bar.q + move[0]), e: rounded(bar.e + move[1]) });
   };
-  bars();
+  const { name, text, ...values } = keptBefore();
+  set({ ...FIRST, ...values }).then(() => bar.flights.length || set(FIRST)); // what was kept may be refused
   plane();
 }

@@ -55,11 +55,13 @@ function drawPlan(of, verdicts, zones) {
       ...order.map((i) => things[i]),
       ...(of.width_m ? [centers] : []),
       drawn('g', { id: 'foot' }),
+      drawn('g', { id: 'names' }, ...all.map((thing) => drawn('text', { class: thing.kind }, thing.name))),
     );
     foots(of, height, room);
-    if (focused) svg.querySelector(`[data-key="${focused}"]`)?.focus();
+    if (focused) svg.querySelector(`[data-key="${focused}"]`)?.focus({ preventScroll: true });
   }
-  for (const thing of all) place(of, thing, reach(of, thing), thing.kind === 'component' ? verdicts?.[thing.n] : undefined);
+  const boxes = all.map((thing) => place(of, thing, reach(of, thing), thing.kind === 'component' ? verdicts?.[thing.n] : undefined));
+  named(of, all, boxes);
   zoned(of, all, zones);
   const [cx, cy] = [1e3 * of.center_m[0], -1e3 * of.center_m[1]];
   const r = 7e3 * plan.pixel;
@@ -100,17 +102,15 @@ function movable(thing) {
       onpointerdown: (event) => grab(event, thing),
     },
     drawn('rect', { rx: 2e3 * plan.pixel }),
-    drawn('text', {}, thing.name),
   );
 }
 
 function place(of, thing, [low, high], verdict) {
   const node = $('plan').querySelector(`[data-key="${thing.kind}-${thing.n}"]`);
-  const [rect, text] = node.children;
   const least = 1e3 * 9 * plan.pixel; // so wide that a finger finds it
   const [x, wide] = spread(1e3 * thing.along_m[0], 1e3 * thing.along_m[1], least);
   const [y, tall] = spread(-1e3 * high, -1e3 * low, least);
-  Object.entries({ x, y, width: wide, height: tall }).forEach(([key, value]) => rect.setAttribute(key, value));
+  Object.entries({ x, y, width: wide, height: tall }).forEach(([key, value]) => node.firstChild.setAttribute(key, value));
   node.dataset.verdict = verdict ?? '';
   const [mx, my] = middle(thing);
   Object.entries({
@@ -120,17 +120,65 @@ function place(of, thing, [low, high], verdict) {
     'aria-valuenow': mx,
     'aria-valuetext': `${mx} mm along${of.width_m ? `, ${my} mm across` : ''}`,
   }).forEach(([key, value]) => node.setAttribute(key, value));
-  // The name within, where it fits; else beside, towards the middle. On a plate parts may lie on masses: their names keep to a corner.
-  const room = 7 * thing.name.length * 1e3 * plan.pixel;
-  const inside = wide > room + 1e3 * plan.pixel * 8;
-  node.classList.toggle('within', inside);
-  const left = x + 0.5 * wide > 0;
-  const gap = 5e3 * plan.pixel;
-  const corner = of.width_m && thing.kind === 'mass';
-  text.setAttribute('x', corner ? x + gap : inside ? x + 0.5 * wide : left ? x - gap : x + wide + gap);
-  text.setAttribute('y', corner ? y + 14e3 * plan.pixel : y + 0.5 * tall + 4e3 * plan.pixel);
-  text.setAttribute('text-anchor', corner ? 'start' : inside ? 'middle' : left ? 'end' : 'start');
-  text.toggleAttribute('hidden', Boolean(corner) && !inside);
+  return { x, y, wide, tall };
+}
+
+// Each name where none stands yet: within, where it fits, else beside, towards the middle. On a plate, where parts may lie on masses,
+// the name of a mass keeps to a corner, or there is none.
+function named(of, things, boxes) {
+  const unit = 1e3 * plan.pixel;
+  const [left, top, width, height] = $('plan').getAttribute('viewBox').split(' ').map(Number);
+  const [cx, cy] = [1e3 * of.center_m[0], -1e3 * of.center_m[1]];
+  const taken = of.width_m ? [[cx - 8 * unit, cy - 8 * unit, cx + 8 * unit, cy + 8 * unit]] : [];
+  const isFree = ([x1, y1, x2, y2]) =>
+    x1 >= left &&
+    y1 >= top &&
+    x2 <= left + width &&
+    y2 <= top + height &&
+    taken.every(([a1, b1, a2, b2]) => x2 <= a1 || a2 <= x1 || y2 <= b1 || b2 <= y1);
+  // Names of parts before those of masses.
+  for (const i of [...things.keys()].reverse()) {
+    const text = $('names').children[i];
+    text.removeAttribute('hidden');
+    const long = text.getComputedTextLength();
+    const at = ({ anchor, x, y }) => {
+      const x1 = x - { start: 0, middle: 0.5, end: 1 }[anchor] * long;
+      return [x1, y - 11 * unit, x1 + long, y + 3 * unit];
+    };
+    const all = spots(of, things[i], boxes[i], long, unit);
+    const found = all.find((spot) => isFree(at(spot))) ?? all.find((spot) => !spot.corner);
+    text.toggleAttribute('hidden', !found);
+    if (!found) continue;
+    taken.push(at(found));
+    text.classList.toggle('within', found.within === true);
+    Object.entries({ 'text-anchor': found.anchor, x: found.x, y: found.y }).forEach(([key, value]) => text.setAttribute(key, value));
+  }
+}
+
+// Where a name so long may stand, best first.
+function spots(of, thing, { x, y, wide, tall }, long, unit) {
+  const [middle, foot] = [x + 0.5 * wide, y + 0.5 * tall + 4 * unit];
+  const [high, low] = [y + 14 * unit, y + tall - 5 * unit];
+  const fits = wide > long + 8 * unit && tall > 15 * unit;
+  if (of.width_m && thing.kind === 'mass') {
+    const corners = [high, low].flatMap((y) => [
+      { anchor: 'start', x: x + 5 * unit, y, corner: true },
+      { anchor: 'end', x: x + wide - 5 * unit, y, corner: true },
+    ]);
+    return fits ? corners : [];
+  }
+  const within = fits ? [foot, high, low].map((y) => ({ anchor: 'middle', x: middle, y, within: true })) : [];
+  const beside = [
+    { anchor: 'end', x: x - 5 * unit, y: foot },
+    { anchor: 'start', x: x + wide + 5 * unit, y: foot },
+  ];
+  if (middle < 0) beside.reverse();
+  const about = [y - 5 * unit, y + tall + 13 * unit].flatMap((y) => [
+    { anchor: 'middle', x: middle, y },
+    { anchor: 'end', x: x + wide, y },
+    { anchor: 'start', x, y },
+  ]);
+  return [...within, ...beside, ...(of.width_m ? about : [])];
 }
 
 function spread(low, high, least) {
@@ -173,11 +221,11 @@ function nudge(event, thing) {
   moves = moves.then(() => moved(product.text, thing.item, way, true));
 }
 
-// Moves what stands in a text; where the product has become another one meanwhile, nothing.
-async function moved(text, item, by, isNew) {
+// Moves what stands in a text, up to the edge unless a number was typed; where the product has become another one meanwhile, nothing.
+async function moved(text, item, by, isNew, stops = true) {
   const before = product.text;
   try {
-    const { shown } = await quick.ask({ ask: 'move', text, item, by });
+    const { shown } = await quick.ask({ ask: 'move', text, item, by, stops });
     if (product.text !== before) return false;
     change(shown, { isNew });
     return true;
@@ -193,7 +241,7 @@ function grab(event, thing) {
   const scale = $('plan').getScreenCTM().a;
   let [wanted, running, isNew] = [undefined, false, true];
   node.setPointerCapture(event.pointerId);
-  node.focus();
+  node.focus({ preventScroll: true });
   event.preventDefault();
   node.classList.add('held');
   const go = async () => {
@@ -267,7 +315,7 @@ function field({ name: of }, n, side) {
       if (!Number.isFinite(mm)) return problem($('product-problem'), new Error(`the place of ${thing.name} ${name} is no number`));
       const by = [0, 0];
       by[side] = (mm - middle(thing)[side]) * 1e-3;
-      moves = moves.then(() => moved(product.text, thing.item, by, true));
+      moves = moves.then(() => moved(product.text, thing.item, by, true, false));
     },
   });
 }

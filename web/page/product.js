@@ -13,6 +13,7 @@ function change(text, { isNew = true, name = product.name, typed = false } = {})
   Object.assign(product, { text, name });
   if (!typed) $('toml').value = text;
   $('product-name').value = name;
+  keep();
   judge();
 }
 
@@ -253,5 +254,10 @@ async function productBegins() {
     $('film').scrollIntoView({ behavior: bar.still.matches ? 'auto' : 'smooth' });
   };
   new ResizeObserver(() => product.plan && drawPlan(product.plan, product.verdicts, product.zones)).observe($('plan'));
-  change(worked[0][1], { name: worked[0][0] });
+  // What was kept comes after the example, to which Undo leads back; so does what cannot be read.
+  const [name, text] = worked[0];
+  kept.example = edits({ name, text }, FIRST);
+  const before = keptBefore();
+  change(text, { name });
+  change(before.text ?? text, { name: before.name ?? name });
 }

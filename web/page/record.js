@@ -1,6 +1,8 @@
 // A file of measured accelerations and its shock response spectrum.
 
 const MOST_BYTES = 256e6; // an engine of 4 GB holds what is read of it
+// What a file does not say of itself, by the field that says it.
+const UNSAID = { units: 'units', sample_rate: 'rate', full_scale: 'full-scale', sensitivity: 'sensitivity' };
 const record = { file: undefined, turn: 0 };
 
 async function measured() {
@@ -16,7 +18,7 @@ async function measured() {
         `${name} has ${digits(size / 1e6, 3)} MB, and this page reads at most ${MOST_BYTES / 1e6} MB: clatter spectrum ${name} reads it`,
       );
     const file = new Uint8Array(await record.file.arrayBuffer());
-    const source = { name, units: $('units').value, sample_rate: $('rate').value };
+    const source = { name, ...Object.fromEntries(Object.entries(UNSAID).map(([key, id]) => [key, $(id).value])) };
     const held = await reader.ask({ ask: 'record', ...source }, file);
     if (!current()) return;
     $('record-state').textContent = 'computing the spectrum …';
@@ -47,7 +49,7 @@ function recordBegins() {
     }
     target.value = '';
   };
-  $('units').onchange = $('rate').onchange = measured;
+  for (const id of Object.values(UNSAID)) $(id).onchange = measured;
 }
 
 Engine.module.catch((error) =>

@@ -31,8 +31,8 @@ enum Question {
     Plane,
     /// The places of the parts and masses of a product.
     Plan { name: String, text: String },
-    /// The text of a product with one of them moved by so much, in m.
-    Move { text: String, item: plan::Item, by: [f64; 2] },
+    /// The text of a product with one of them moved by so much, in m; what is dragged `stops` at the edge.
+    Move { text: String, item: plan::Item, by: [f64; 2], stops: bool },
     /// The verdicts; `quick` by instant impacts, which take some milliseconds, of a plate or a box by the first drops of the search.
     Assess { name: String, text: String, quick: bool },
     /// The pictures of an assessment.
@@ -88,7 +88,10 @@ fn told(question: Question, file: &[u8], progress: Progress<'_>) -> Result<Reply
         Question::Zone { q, e, threshold } => bars::zone(q, e, threshold),
         Question::Plane => bars::plane(),
         Question::Plan { name, text } => plan::plan(&name, &text),
-        Question::Move { text, item, by } => Reply::shown(plan::moved(&text, item, by)?),
+        Question::Move { text, item, by, stops } => {
+            let by = if stops { plan::within(&text, item, by) } else { by };
+            Reply::shown(plan::moved(&text, item, by)?)
+        }
         Question::Assess { name, text, quick } => products::assess(&name, &text, quick, progress),
         Question::Figures { name, text } => products::figures(&name, &text, progress),
         Question::Record(source) => records::record(&source, file),
@@ -131,11 +134,21 @@ mod tests {
             error(serde_json::json!({ "ask": "assess", "name": "x.toml", "text": "a = 1", "quick": false }), "");
         let faults = clatter_product::ProductFile::read("a = 1", "x.toml").unwrap_err().to_string();
         assert!(product == faults && product.contains("error: the file has no key `a`"), "{product}");
-        let record = serde_json::json!({ "ask": "record", "name": "x.csv", "units": "", "sample_rate": "" });
+        let record = serde_json::json!({ "ask": "record", "name": "x.csv" });
         let said = error(record, "time [s],a [g]\n0,0\n0.001,1\n0.002,x\n");
         assert!(said.starts_with("x.csv: line 4: 'x' in column 2"), "{said}");
-        let rate = serde_json::json!({ "ask": "spectrum", "name": "x.csv", "units": "", "sample_rate": "-3" });
-        assert_eq!(error(rate, ""), "sampling rate: -3.0 is not finite and > 0");
+        for (field, given, said) in [
+            ("sample_rate", "-3", "sampling rate: -3.0 is not finite and > 0"),
+            ("full_scale", "0 gn", "full scale: 0.0 is not finite and > 0"),
+            (
+                "sensitivity",
+                "2 V",
+                "sensitivity: '2 V' is no voltage for an acceleration, such as 100mV/g or 10.2mV/(m/s2)",
+            ),
+        ] {
+            let question = serde_json::json!({ "ask": "spectrum", "name": "x.csv", field: given });
+            assert_eq!(error(question, ""), said);
+        }
         assert!(error(serde_json::json!({ "ask": "nothing" }), "").contains("unknown variant"), "no question");
     }
 

@@ -123,6 +123,24 @@ pub(crate) fn moved(given: &str, item: Item, by: [f64; 2]) -> Result<String, Str
     Ok(text)
 }
 
+/// Returns so much of a move as keeps a part or a mass on the product, in whole thousandths of a millimeter, to which a text is written; of
+/// a text that cannot be read, in which it may be beyond the edge already, all.
+pub(crate) fn within(given: &str, item: Item, by: [f64; 2]) -> [f64; 2] {
+    let Ok((file, _)) = products::read("", given) else { return by };
+    let has_width = file.product.body.width.is_some();
+    let place = match item {
+        Item::Component(number) => file.components.get(number).map(|part| component(part, has_width)),
+        Item::Mass(number) => masses(given, has_width).into_iter().nth(number),
+    };
+    let Some(Place { along_m, across_m, .. }) = place else { return by };
+    let [length_m, width_m] = file.product.sides_m();
+    // What roundings leave out of a whole one is none.
+    let whole = |room_m: f64| 1e-6 * (1e6 * room_m + 1e-3).floor().max(0.0);
+    let stopped =
+        |by: f64, [low, high]: [f64; 2], side_m: f64| by.clamp(-whole(low + 0.5 * side_m), whole(0.5 * side_m - high));
+    [stopped(by[0], along_m, length_m), across_m.map_or(by[1], |across_m| stopped(by[1], across_m, width_m))]
+}
+
 fn listed<'a>(table: &'a DeTable<'a>, item: Item) -> Option<&'a DeArray<'a>> {
     match item {
         Item::Component(_) => table.get("component")?.get_ref().as_array(),
@@ -219,6 +237,33 @@ mod tests {
         assert_eq!(part(normal, 0.001), r#"position = { normal = ["11 mm", "2 mm"], range = ["6 mm", "16 mm"] }"#);
         let triangular = r#"{ triangular = ["8 mm", "10 mm", "12 mm"] }"#;
         assert_eq!(part(triangular, 0.001), r#"position = { triangular = ["9 mm", "11 mm", "13 mm"] }"#);
+    }
+
+    #[test]
+    fn what_is_dragged_stops_at_the_edge() {
+        let dragged = |text: &str, item, by| moved(text, item, within(text, item, by)).unwrap();
+        let bar = worked("scanner-wand.toml");
+        // 220 mm long: a part of 20 mm at 95 mm, and a mass from -90 to -30 mm.
+        let part = dragged(bar, Item::Component(0), [1.0, 0.0]);
+        assert_eq!(changed(bar, &part), [r#"position = "100 mm""#]);
+        assert_eq!(dragged(&part, Item::Component(0), [1e-3, 0.0]), part, "and goes no further");
+        assert_eq!(changed(&part, &dragged(&part, Item::Component(0), [-1e-3, 0.0])), [r#"position = "99 mm""#]);
+        let mass = dragged(bar, Item::Mass(1), [-1.0, 0.0]);
+        assert!(mass.contains(r#"from = "-110 mm", to = "-50 mm""#), "{mass}");
+        // Edges and parts of any size: the text can be read, at each of them.
+        for [name, text] in WORKED {
+            for item in (0..9).flat_map(|n| [Item::Component(n), Item::Mass(n)]) {
+                for by in [[9.0, 9.0], [-9.0, -9.0], [0.3, -9.0], [-9.0, 0.01]] {
+                    let Ok(text) = moved(text, item, within(text, item, by)) else { continue };
+                    let beyond =
+                        products::read(name, &text).err().filter(|said| said.contains("half of the product's"));
+                    assert_eq!(beyond, None, "{name}: {item:?} by {by:?}");
+                }
+            }
+        }
+        // What is beyond an edge by its text is not held there.
+        let beyond = bar.replace(r#"position = "30 mm""#, r#"position = "130 mm""#);
+        assert!(dragged(&beyond, Item::Component(1), [-0.1, 0.0]).contains(r#"position = "30 mm""#), "back again");
     }
 
     #[test]

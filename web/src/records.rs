@@ -3,7 +3,11 @@
 use clatter_answer::record::{self as record_of, time_s};
 use clatter_answer::spectrum::{self as spectrum_of, Excitation, Measured};
 use clatter_figures::{Against, Trace};
-use clatter_product::{STANDARD_GRAVITY_M_S2, units::FREQUENCY, visible, visible_lines};
+use clatter_product::{
+    STANDARD_GRAVITY_M_S2,
+    units::{ACCELERATION, Dimension, FREQUENCY},
+    visible, visible_lines,
+};
 use clatter_record::{Channel, Options, Record};
 use clatter_shock::DampingRatio;
 use serde::{Deserialize, Serialize};
@@ -11,11 +15,14 @@ use serde::{Deserialize, Serialize};
 use crate::{Reply, json, quoted, text};
 
 /// A file by its name, and what it does not say of itself, as the flags of the command have it; empty where it says it.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
 pub(crate) struct Source {
     name: String,
     units: String,
     sample_rate: String,
+    full_scale: String,
+    sensitivity: String,
 }
 
 /// The quality factor of the parts, unless another is requested.
@@ -24,17 +31,18 @@ const QUALITY: f64 = 10.0;
 impl Source {
     fn read(&self, file: &[u8]) -> Result<Record, String> {
         let mut options = Options::default();
-        let [units, rate] = [&self.units, &self.sample_rate].map(|text| text.trim());
-        if !units.is_empty() {
+        if let Some(units) = given(&self.units) {
             options.units = Some(units.parse().map_err(|error| format!("units: {error}"))?);
         }
-        if !rate.is_empty() {
-            let hz = rate.parse().or_else(|_| FREQUENCY.read(rate).map(|hz| hz.si));
-            let hz = hz.map_err(|error| format!("sampling rate: {error}"))?;
-            if !(hz > 0.0 && hz.is_finite()) {
-                return Err(format!("sampling rate: {hz:?} is not finite and > 0"));
-            }
-            options.sample_rate_hz = Some(hz);
+        if let Some(rate) = given(&self.sample_rate) {
+            options.sample_rate_hz = Some(positive("sampling rate", &FREQUENCY, rate)?);
+        }
+        if let Some(scale) = given(&self.full_scale) {
+            options.full_scale_m_s2 = Some(positive("full scale", &ACCELERATION, scale)?);
+        }
+        if let Some(volts) = given(&self.sensitivity) {
+            let volts = clatter_record::sensitivity(volts).map_err(|error| format!("sensitivity: {error}"))?;
+            options.sensitivity_v_s2_m = Some(volts);
         }
         Record::read(file, &options, |_| ()).map_err(|error| self.refused(&error))
     }
@@ -46,13 +54,31 @@ impl Source {
 
     fn command(&self, name: &str) -> String {
         let mut command = format!("clatter {name} {}", quoted(&self.name));
-        for (flag, given) in [("units", &self.units), ("sample-rate", &self.sample_rate)] {
-            if !given.trim().is_empty() {
-                command.extend([" --", flag, "=", &quoted(given.trim())]);
+        let flags = [
+            ("units", &self.units),
+            ("sample-rate", &self.sample_rate),
+            ("full-scale", &self.full_scale),
+            ("sensitivity", &self.sensitivity),
+        ];
+        for (flag, text) in flags {
+            if let Some(text) = given(text) {
+                command.extend([" --", flag, "=", &quoted(text)]);
             }
         }
         command + " --format=json"
     }
+}
+
+/// Returns what a field holds, if it holds anything.
+fn given(field: &str) -> Option<&str> {
+    Some(field.trim()).filter(|text| !text.is_empty())
+}
+
+/// Reads a number in SI, or a quantity with its unit.
+fn positive(what: &str, dimension: &'static Dimension, text: &str) -> Result<f64, String> {
+    let si = text.parse().or_else(|_| dimension.read(text).map(|quantity| quantity.si));
+    let si = si.map_err(|error| format!("{what}: {error}"))?;
+    if si > 0.0 && si.is_finite() { Ok(si) } else { Err(format!("{what}: {si:?} is not finite and > 0")) }
 }
 
 /// The answer with its file before it, as the command has it.

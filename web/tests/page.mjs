@@ -1,10 +1,10 @@
 // The page in Chromium, held to the command: `web/tests/run`.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, writeFileSync, truncateSync, openSync, closeSync } from 'node:fs';
+import { copyFileSync, mkdtempSync, readFileSync, writeFileSync, truncateSync, openSync, closeSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 import { after, before, beforeEach, afterEach, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 
@@ -12,6 +12,10 @@ const target = fileURLToPath(new URL('../../target/', import.meta.url));
 const { chromium } = createRequire(join(target, 'web/node/'))('playwright-core');
 const address = `file://${join(target, 'web/clatter.html')}`;
 const folder = mkdtempSync(join(tmpdir(), 'clatter-page-'));
+
+// Files that the tests of records hold.
+const records = fileURLToPath(new URL('../../crates/clatter-record/tests/', import.meta.url));
+const [data, cases] = ['data', 'cases'].map((of) => (name) => join(records, of, name));
 
 let browser, context, page, complaints;
 
@@ -145,7 +149,7 @@ test('arrow keys move a part, and it keeps the focus', async () => {
 
 test('on a plate a part moves both ways, and the latest change wins', async () => {
   await page.selectOption('#worked', 'handheld-terminal.toml');
-  await page.waitForFunction(() => document.querySelector('[data-key="component-2"] text')?.textContent === 'gyroscope');
+  await page.waitForFunction(() => document.querySelector('[data-key="component-2"]')?.ariaLabel === 'Part gyroscope');
   const old = await text();
   const wide = (await page.locator('#plan .body').boundingBox()).width;
   const seen = await page.evaluateHandle(() => {
@@ -180,7 +184,7 @@ for (const name of ['handheld-terminal.toml', 'handheld-transit.toml']) {
     });
     await page.selectOption('#worked', name);
     await page.waitForFunction((name) => document.querySelector('#product-command code')?.textContent.includes(name), name, {
-      timeout: 120_000,
+      timeout: 600_000,
     });
     const demands = async (of) =>
       JSON.parse(await answer(of)).components.flatMap((part) => part.limits.map((limit) => limit.demand));
@@ -388,26 +392,299 @@ test('all that is operated has a name, and the order of tabs shows where it is',
   }
 });
 
+// Words of a picture that stand on other words of it, or beyond its side.
+const unreadable = () =>
+  page.evaluate(() =>
+    [...document.querySelectorAll('svg')].flatMap((svg) => {
+      const frame = svg.getBoundingClientRect();
+      const boxes = [...svg.querySelectorAll('text')].map((text) => [text.textContent, text.getBoundingClientRect()]);
+      const seen = boxes.filter(([, box]) => box.width > 0);
+      const beyond = seen.filter(([, box]) => box.left < frame.left - 1 || box.right > frame.right + 1);
+      const on = ([, a], [, b]) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 3 && b.top < a.bottom - 3;
+      const covered = seen.filter((one, i) => seen.some((other, k) => k < i && on(one, other)));
+      return [...beyond, ...covered].map(([words]) => `${svg.id} ${words}`);
+    }),
+  );
+
 for (const colorScheme of ['light', 'dark']) {
-  for (const width of [375, 768, 1280]) {
-    test(`${width} pixels wide, ${colorScheme}: nothing is beyond the side`, async () => {
+  for (const width of [350, 800, 1400]) {
+    test(`${width} pixels wide, ${colorScheme}: nothing is beyond the side, and no words on others`, async () => {
       await open({ colorScheme, viewport: { width, height: 900 } });
       await page.waitForSelector('#product-figures img >> nth=2', { state: 'attached' });
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
+      await page.setInputFiles('#record-open', data('even.uff'));
+      await page.waitForSelector('#record-figures img >> nth=1');
+      await page.evaluate(() => document.querySelectorAll('details').forEach((details) => (details.open = true)));
+      const wide = () => page.evaluate(() => document.documentElement.scrollWidth);
+      assert.equal(await wide(), width);
+      assert.deepEqual(await unreadable(), []);
       await page.screenshot({ path: join(target, `web/${width}-${colorScheme}.png`), fullPage: true });
       // That of README.
-      if (width === 1280 && colorScheme === 'light') {
+      if (width === 1400 && colorScheme === 'light') {
         await page.evaluate(() => {
-          document.getElementById('product-figures').open = false;
+          document.querySelectorAll('#product details').forEach((details) => (details.open = false));
           document.getElementById('state').textContent = '';
         });
         const { x, y } = await page.locator('#product').boundingBox();
         const clip = { x: x - 20, y: y + (await page.evaluate(() => window.scrollY)), width: 1160, height: 818 };
         await page.screenshot({ path: join(target, 'web/page.png'), fullPage: true, clip });
       }
+      if (colorScheme === 'dark') return;
+      for (const name of await page.$$eval('#worked option[value]:not([value=""])', (options) => options.map(({ value }) => value))) {
+        await page.selectOption('#worked', name);
+        // The plan and its names are there; of plates that is enough.
+        await page.waitForFunction((name) => {
+          const [command, state] = ['product-command', 'state'].map((id) => document.getElementById(id).textContent);
+          return command.includes(name) || (document.querySelector('.cross') && /%|first drops/.test(state));
+        }, name);
+        assert.equal(await wide(), width, name);
+        assert.deepEqual(await unreadable(), [], name);
+      }
+      // Two parts of a plate beside one another, whose names would be one on the other.
+      await page.selectOption('#worked', 'handheld-terminal.toml');
+      await page.waitForSelector('.cross', { state: 'attached' });
+      const beside = (await text()).replace('["-20 mm", "-25 mm"]', '["75 mm", "15 mm"]');
+      await page.fill('#toml', beside);
+      await page.waitForFunction(() => document.querySelector('[data-key="component-2"]').ariaValueText === '75 mm along, 15 mm across');
+      assert.deepEqual(await unreadable(), [], 'beside one another');
+      // Names without an end, and what is refused.
+      await page.selectOption('#worked', 'scanner-wand.toml');
+      const endless = (await text()).replaceAll('display', 'd'.repeat(80)).replaceAll('Scanner wand', 'S'.repeat(80));
+      await changed(() => page.fill('#toml', endless), 'd'.repeat(80));
+      assert.equal(await wide(), width, 'long names');
+      await page.fill('#toml', `${endless}\nmore = "${'m'.repeat(300)}"`);
+      await page.waitForSelector('#product-problem:visible');
+      assert.equal(await wide(), width, 'a problem');
     });
   }
 }
+
+test('what is edited is there again after a reload, and Undo leads back to the example', async () => {
+  const example = await text();
+  assert.equal(await page.evaluate(() => localStorage.length), 0, 'of the example nothing is kept');
+  await page.focus('[data-key="component-0"]');
+  await changed(() => page.keyboard.press('ArrowLeft'), 'position = "94 mm"');
+  await page.fill('#product-name', 'mine.toml');
+  await page.keyboard.press('Tab');
+  await page.fill('#q-number', '0.73');
+  await page.fill('#threshold-number', '1.5');
+  const edited = await text();
+  const again = async () => {
+    await answered();
+    await page.waitForFunction(() => JSON.parse(window.clatter.answers.impacts).q === 0.73);
+    assert.equal(await text(), edited);
+    assert.equal(await page.inputValue('#product-name'), 'mine.toml');
+    assert.equal(await page.inputValue('#q-slider'), '0.73');
+    assert.equal(await page.inputValue('#threshold-number'), '1.5');
+    await saved();
+    await repeats('#product-command', 'assess');
+  };
+  await page.reload();
+  await again();
+  // Left, and come back to.
+  await page.goto('about:blank');
+  await page.goto(address);
+  await again();
+  await changed(() => page.click('#undo'), 'position = "95 mm"');
+  assert.equal(await text(), example);
+  await page.fill('#q-number', '0.5');
+  await page.fill('#threshold-number', '1');
+  assert.equal(await page.evaluate(() => localStorage.length), 0, 'nor after the way back');
+  await page.reload();
+  await answered();
+  assert.equal(await text(), example);
+});
+
+test('what cannot be read of what was kept breaks nothing', async () => {
+  const example = await text();
+  const begun = async (kept) => {
+    await page.evaluate((kept) => localStorage.setItem('clatter', kept), kept);
+    await page.reload();
+    await page.waitForFunction(() => window.clatter?.answers.impacts && document.querySelectorAll('#limits tr').length > 0);
+  };
+  for (const kept of ['', '{', 'null', '[]', '7', '{"text":5,"q":"0.7","e":null,"name":{}}', '{"q":9,"e":-1,"threshold":-3}']) {
+    await begun(kept);
+    await answered();
+    assert.equal(await text(), example, kept);
+    assert.equal(JSON.parse(await answer('impacts')).q, 0.5, kept);
+    assert.equal(await page.isVisible('#bar-problem'), false, kept);
+  }
+  await begun(JSON.stringify({ name: 'torn.toml', text: '[product\nlength' }));
+  await page.waitForSelector('#product-problem:visible');
+  assert.match(await words('product-problem'), /torn\.toml/);
+  assert.equal(await text(), '[product\nlength', 'what was written is not lost');
+  assert.equal(await page.locator('#plan .thing').count(), 6, 'the plan of the example');
+  await page.click('#undo');
+  await answered();
+  assert.equal(await text(), example);
+});
+
+test('where nothing can be kept, leaving asks; else it does not', async () => {
+  let asked;
+  page.on('dialog', (dialog) => {
+    asked = dialog.type() === 'beforeunload';
+    dialog.accept();
+  });
+  const asks = async () => {
+    asked = false;
+    await page.reload();
+    await answered();
+    return asked;
+  };
+  const edit = async () => {
+    await page.click('[data-key="component-0"]');
+    await changed(() => page.keyboard.press('ArrowLeft'), 'position = "94 mm"');
+  };
+  await edit();
+  assert.equal(await asks(), false, 'kept');
+  await changed(() => page.click('#undo'), 'position = "95 mm"');
+  // More than is kept.
+  await page.click('#toml');
+  const large = `${await text()}#${'x'.repeat(1_040_000)}\n#${'"'.repeat(5000)}`;
+  await changed(() => page.fill('#toml', large), 'xxx');
+  assert.match(await words('kept'), /save it/);
+  assert.equal(await asks(), true, 'too large');
+  await context.addInitScript(() => {
+    Storage.prototype.setItem = () => {
+      throw new DOMException('no room', 'QuotaExceededError');
+    };
+  });
+  await page.evaluate(() => localStorage.clear());
+  await page.reload();
+  await answered();
+  assert.equal(await asks(), false, 'without edits');
+  await edit();
+  assert.match(await words('kept'), /save it/);
+  assert.equal(await asks(), true, 'no room');
+});
+
+test('what is dragged stops at the edge', async () => {
+  const wide = (await page.locator('#plan .body').boundingBox()).width;
+  await changed(() => drag('component-0', wide), 'position = "100 mm"\nextent = "20 mm"');
+  await changed(() => drag('mass-1', -wide), 'from = "-110 mm", to = "-50 mm"');
+  await page.focus('[data-key="component-1"]');
+  await changed(async () => {
+    for (let k = 0; k < 6; k++) await page.keyboard.press('Shift+ArrowRight');
+  }, 'position = "65 mm"\nextent = "90 mm"');
+  assert.equal(await page.isVisible('#product-problem'), false);
+  // A number that is typed is taken as it is, and told.
+  await page.click('summary:has-text("Places in numbers")');
+  await page.fill('#places input >> nth=3', '170');
+  await page.keyboard.press('Tab');
+  await page.waitForSelector('#product-problem:visible');
+  assert.match(await text(), /position = "170 mm"/);
+  // From beyond the edge it is dragged back.
+  await changed(() => drag('component-0', -0.5 * wide), 'position = "60 mm"');
+});
+
+test('nothing moves under the pointer', async () => {
+  const at = (selector) => page.locator(selector).boundingBox();
+  // A part whose row is at the foot of the window.
+  await page.setViewportSize({ width: 800, height: 600 });
+  await page.evaluate(() => {
+    const rect = document.querySelector('[data-key="component-2"] rect').getBoundingClientRect();
+    window.scrollBy(0, rect.top - window.innerHeight + 8);
+  });
+  const scrolled = () => page.evaluate(() => window.scrollY);
+  const [before, part] = [await scrolled(), await at('[data-key="component-2"] rect')];
+  await page.mouse.move(part.x + part.width / 2, part.y + 4);
+  await page.mouse.down();
+  await page.mouse.move(part.x + part.width / 2 + 30, part.y + 4);
+  await page.mouse.up();
+  await page.waitForFunction(() => !document.getElementById('toml').value.includes('position = "-20 mm"'));
+  assert.equal(await scrolled(), before);
+  await answered();
+  // A plan while its text becomes one that is refused, and one that is warned of.
+  await page.setViewportSize({ width: 1400, height: 900 });
+  await page.evaluate(() => document.getElementById('product').scrollIntoView());
+  const plan = await at('#plan');
+  const good = await text();
+  await page.fill('#toml', `${good}\nmore = 1\n`);
+  await page.waitForSelector('#product-problem:visible');
+  assert.deepEqual(await at('#plan'), plan);
+  const told = await at('#product-problem');
+  assert.ok(told.y > plan.y && told.y + told.height <= 900, 'what is wrong is in sight');
+  await page.fill('#toml', `${good}\n[verdict]\nreliability = 0.99\n`);
+  await page.waitForSelector('#product-warnings:visible');
+  assert.deepEqual(await at('#plan'), plan);
+  await page.fill('#toml', good);
+  await page.waitForSelector('#product-warnings', { state: 'hidden' });
+  // The plane of q and e while a problem goes away.
+  await page.fill('#e-number', '7');
+  await page.waitForSelector('#bar-problem:visible');
+  const frame = await at('#plane .frame');
+  const [x, y] = [frame.x + 0.4 * frame.width, frame.y + 0.25 * frame.height];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.waitForSelector('#bar-problem', { state: 'hidden' });
+  await page.mouse.move(x + 1, y);
+  await page.mouse.up();
+  assert.ok(Math.abs(Number(await page.inputValue('#q-number')) - 0.75) < 0.02, await page.inputValue('#q-number'));
+});
+
+test('a file of each kind is opened, with what the fields say of it', async () => {
+  const rows = Array.from({ length: 200 }, (_, i) => `${i / 1e4}\t${(i < 110 ? 2 * Math.sin((Math.PI * i) / 110) : 0).toFixed(5)}`);
+  writeFileSync(join(folder, 'volts.txt'), `time [s]\tsensor [V]\n${rows.join('\n')}\n`);
+  const kinds = [
+    [cases('h_labview.lvm'), {}],
+    [join(folder, 'volts.txt'), { sensitivity: '100mV/g' }],
+    [data('even.uff'), {}],
+    [data('c_order.npy'), { units: 's,g' }],
+    [data('one_i2_big.npy'), { units: 'g', rate: '10 kHz' }],
+    [data('i16_two.wav'), { 'full-scale': '50g' }],
+    [data('f32.wav'), { units: 'mg' }],
+    [data('plain.mat'), { units: 'g', rate: '1024 Hz' }],
+    [data('daqmx.tdms'), {}],
+  ];
+  for (const [path, fields] of kinds) {
+    const name = basename(path);
+    if (dirname(path) !== folder) copyFileSync(path, join(folder, name));
+    for (const id of ['units', 'rate', 'full-scale', 'sensitivity']) await page.fill(`#${id}`, '');
+    await page.setInputFiles('#record-open', join(folder, name));
+    if (Object.keys(fields).length > 0) {
+      await page.waitForFunction((name) => document.getElementById('record-problem').textContent.startsWith(name), name);
+      for (const [id, value] of Object.entries(fields)) await page.fill(`#${id}`, value);
+      await page.keyboard.press('Tab');
+    }
+    await page.waitForFunction((name) => document.getElementById('record-state').textContent === name, name);
+    assert.equal(await page.isVisible('#record-problem'), false, name);
+    assert.equal(await page.locator('#record-figures img').count(), 2, name);
+    await repeats('#record-commands .command:first-child', 'record');
+    await repeats('#record-commands .command:last-child', 'spectrum');
+    const flags = { units: '--units', rate: '--sample-rate', 'full-scale': '--full-scale', sensitivity: '--sensitivity' };
+    const line = await page.textContent('#record-commands code');
+    for (const id of Object.keys(flags)) assert.equal(line.includes(flags[id]), id in fields, line);
+  }
+  // Fields that say nothing that can be read.
+  for (const [id, given, said] of [
+    ['full-scale', '-5g', /^full scale: .*not finite and > 0/],
+    ['sensitivity', '5 V', /^sensitivity: .*100mV\/g/],
+  ]) {
+    await page.fill(`#${id}`, given);
+    await page.keyboard.press('Tab');
+    await page.waitForSelector('#record-problem:visible');
+    assert.match(await words('record-problem'), said);
+    await page.fill(`#${id}`, '');
+    await page.keyboard.press('Tab');
+    await page.waitForSelector('#record-problem', { state: 'hidden' });
+  }
+});
+
+test('figures are reached by keys, and rolled where they are wider than the window', async () => {
+  await open({ viewport: { width: 350, height: 700 } });
+  await page.waitForSelector('#product-figures img >> nth=2', { state: 'attached' });
+  await page.focus('#product-figures summary');
+  for (const name of await page.$$eval('#product-figures img', (images) => images.map(({ alt }) => alt))) {
+    await page.keyboard.press('Tab');
+    assert.equal(await page.evaluate(() => document.activeElement.querySelector('img')?.alt), name);
+  }
+  await page.focus('#product-figures figure');
+  await page.keyboard.press('ArrowRight');
+  await page.waitForFunction(() => document.activeElement.scrollLeft > 0);
+  await page.focus('#stems');
+  await page.keyboard.press('Home');
+  await page.keyboard.press('ArrowRight');
+  assert.match(await words('caption'), /^Impact 1: end a/);
+});
 
 test('the film begins by itself where motion is welcome', async () => {
   await open({ reducedMotion: 'no-preference' });

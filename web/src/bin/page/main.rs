@@ -1,5 +1,7 @@
 //! This program builds the page: `cargo run --release -p clatter-web` writes `target/web/clatter.html`.
 
+mod lzma;
+
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -16,17 +18,18 @@ const TARGET: &str = "wasm32-wasip1";
 /// The largest number of bytes of the compressed page.
 const MOST: usize = 1 << 20;
 
-const PAGE: &str = include_str!("../../page/page.html");
-const STYLE: &str = include_str!("../../page/style.css");
-const WORKER: &str = include_str!("../../page/worker.js");
+const PAGE: &str = include_str!("../../../page/page.html");
+const STYLE: &str = include_str!("../../../page/style.css");
+const WORKER: &str = include_str!("../../../page/worker.js");
 /// The modules of the page, which are joined to one in this order.
-const MODULES: [&str; 6] = [
-    include_str!("../../page/engine.js"),
-    include_str!("../../page/element.js"),
-    include_str!("../../page/film.js"),
-    include_str!("../../page/plan.js"),
-    include_str!("../../page/product.js"),
-    include_str!("../../page/record.js"),
+const MODULES: [&str; 7] = [
+    include_str!("../../../page/engine.js"),
+    include_str!("../../../page/element.js"),
+    include_str!("../../../page/kept.js"),
+    include_str!("../../../page/film.js"),
+    include_str!("../../../page/plan.js"),
+    include_str!("../../../page/product.js"),
+    include_str!("../../../page/record.js"),
 ];
 
 fn main() -> ExitCode {
@@ -45,7 +48,7 @@ fn main() -> ExitCode {
 fn build() -> Result<String, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the crate is in no workspace")?;
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    let wasm = packed(&compiled(root, &target)?).map_err(|error| error.to_string())?;
+    let wasm = lzma::packed(&compiled(root, &target)?);
     let page = PAGE
         .replace("/*version*/", env!("CARGO_PKG_VERSION"))
         .replace("/*style*/", &lean(STYLE))
@@ -76,8 +79,10 @@ fn compiled(root: &Path, target: &Path) -> Result<Vec<u8>, String> {
         run(Command::new("rustup").args(["target", "add", TARGET]))?;
     }
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let arguments = ["build", "--profile", "web", "-p", "clatter-web", "--lib", "--target", TARGET, "--locked"];
-    run(Command::new(cargo).args(arguments).current_dir(root).env("CARGO_TARGET_DIR", target))?;
+    let arguments = ["rustc", "--profile", "web", "-p", "clatter-web", "--lib", "--target", TARGET, "--locked"];
+    // Else the linker leaves the places of calls and data as wide as it found them.
+    let linker = ["--", "-Clink-arg=--compress-relocations"];
+    run(Command::new(cargo).args(arguments).args(linker).current_dir(root).env("CARGO_TARGET_DIR", target))?;
     let path = target.join(TARGET).join("web/clatter_web.wasm");
     fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
 }
@@ -89,15 +94,6 @@ fn run(command: &mut Command) -> Result<(), String> {
         Ok(status) => Err(format!("{program}: {status}")),
         Err(error) => Err(format!("{program}: {error}")),
     }
-}
-
-/// Packs bytes as small as gzip can, which takes some seconds; a browser unpacks them.
-fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
-    let mut packed = Vec::new();
-    // More blocks each have their own codes: 15 instead of 200 take 13 kB more.
-    let options = zopfli::Options { maximum_block_splits: 200, ..zopfli::Options::default() };
-    zopfli::compress(options, zopfli::Format::Gzip, bytes, &mut packed)?;
-    Ok(packed)
 }
 
 /// Packs bytes as servers send them.
