@@ -8,7 +8,8 @@ use crate::unit::{Kind, Unit, lists};
 use brackets::bracketed;
 pub(crate) use brackets::unbracketed;
 use words::{
-    ACCELERATIONS, BEGINNINGS, CODED, DATES, DEVICES, FUNCTIONS, G_FORCES, GRAMS, INDICES, OTHERS, PLACES, TIMES,
+    ACCELERATIONS, BEGINNINGS, CODED, DATES, DEVICES, FUNCTIONS, FUNCTIONS_WITHIN, G_FORCES, GRAMS, INDICES, OTHERS,
+    PLACES, TIMES,
 };
 
 /// A heading: the name of a column and its unit.
@@ -160,6 +161,7 @@ impl Heading {
     pub(crate) fn function(&self) -> Option<String> {
         let name = self.name.to_lowercase();
         let word = parts(&name).into_iter().find(|word| lists(FUNCTIONS, word));
+        let word = word.or_else(|| FUNCTIONS_WITHIN.split(' ').find(|part| name.contains(part)));
         let begins = name.starts_with(['-', '−', '–', '|']) && name.len() > 1;
         let raised = ["^", "²", "³", "**", "d/dt", "/dt"].iter().find(|mark| name.contains(**mark));
         let factor = parts(&name).into_iter().find(|word| factor::is_marked(word)).map(str::to_owned);

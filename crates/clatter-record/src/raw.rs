@@ -127,7 +127,7 @@ impl Raw {
     fn refuse_dates(&self) -> Result<(), Error> {
         let (span_s, count) = (self.since_s.last().copied().unwrap_or(0.0), float(self.since_s.len().max(2) - 1));
         let is_day = [2e4..8e4, 7e5..8e5, 2.4e6..2.5e6].iter().any(|days| days.contains(&self.start_s));
-        let is_date = self.unit_s == 1.0 && is_day && span_s > 0.0 && span_s < 1e-6 * count;
+        let is_date = self.unit_s.to_bits() == 1.0_f64.to_bits() && is_day && span_s > 0.0 && span_s < 1e-6 * count;
         if !is_date {
             return Ok(());
         }

@@ -202,7 +202,9 @@ impl Record {
         let Rows { channels, times: since_s, printed, numbering, sampled_s, doubled, mut bad, .. } = rows;
         let untimed = |(mut values, Role { name, unit, size, .. }): (Vec<f64>, Role)| {
             if let Some(([slope, offset], _)) = slope {
-                values.iter_mut().for_each(|value| *value = *value * slope + offset * size);
+                for value in &mut values {
+                    *value = *value * slope + offset * size;
+                }
             }
             Untimed { name, unit, values }
         };
@@ -213,8 +215,8 @@ impl Record {
             let given_s = period(hz)?;
             let finding = against_times(given_s, &raw.since_s, rounded_s, "the rate that is given")?;
             // Times that lack samples do so by any rate.
-            let lacks =
-                finding.is_none().then(|| gaps(&raw.since_s, &|sample| At::of(&raw.numbering, sample))).flatten();
+            let is_fine = finding.is_none() && rounded_s < 0.25 * given_s;
+            let lacks = is_fine.then(|| gaps(&raw.since_s, &|sample| At::of(&raw.numbering, sample))).flatten();
             raw.found.extend(finding.or(lacks));
             if let Some((told_s, line)) = rate.filter(|(told_s, _)| (told_s / given_s - 1.0).abs() > SAME_RATE) {
                 let told_hz = told_s.recip();

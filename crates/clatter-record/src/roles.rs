@@ -199,7 +199,10 @@ impl Preview {
         let is_number = |column: usize| {
             self.cells.get(column).is_some_and(|cell| cell.contains(':') || cell.parse::<f64>().is_ok())
         };
-        let is_whole = |column: usize| size(column) == Some(1.0) && all(column, &|number| number.fract() == 0.0);
+        let is_whole = |column: usize| {
+            size(column).is_some_and(|size| size.to_bits() == 1.0_f64.to_bits())
+                && all(column, &|number| number.fract() == 0.0)
+        };
         let whole = columns().find(|column| is_number(*column) && is_whole(*column))?;
         let part = columns().find(|column| {
             let below = |size: f64| size < 1.0 && all(*column, &|number| (0.0..1.0).contains(&(number * size)));
@@ -260,7 +263,7 @@ impl Preview {
         }
         let step = self.steps(column).map(|(a, b)| b - a).find(|step| *step != 0.0);
         let counts = |step: f64| {
-            let is_step = |(a, b): (f64, f64)| b == a || ((b - a) - step).abs() < 0.5;
+            let is_step = |(a, b): (f64, f64)| b.to_bits() == a.to_bits() || ((b - a) - step).abs() < 0.5;
             step >= 1.0 && self.steps(column).all(|(a, b)| is_step((a, b)) && a.fract() == 0.0 && b.fract() == 0.0)
         };
         // What has no numbers counts nothing else, nor does what tells devices apart.

@@ -200,8 +200,8 @@ fn shape(
             .is_some_and(|cell| crate::moment::seconds(cell, form.order).is_some())
         {
             // By a heading such as [hh:mm] they are minutes and no seconds.
-            let spelled = heading.spelled.as_deref().unwrap_or_default().to_lowercase();
-            let in_minutes = spelled.contains(':') && (spelled.ends_with("mm") || spelled.ends_with("min"));
+            let cell = heading.cell.to_lowercase();
+            let in_minutes = (cell.contains(":mm") || cell.contains(":min")) && !cell.contains(":ss");
             let pairs = data.iter().all(|row| row.get(column).is_some_and(|cell| cell.matches(':').count() == 1));
             *heading = heading.clone().with_unit(if in_minutes && pairs { "min" } else { "s" });
         }

@@ -17,7 +17,7 @@ pub(super) const PLACES: &str = "height position pos distance displacement";
 /// These words name other quantities, which are measured beside an acceleration; a unit of acceleration outweighs them.
 pub(super) const OTHERS: &str = "\
     accelerator pedal clutch brake steering gear rpm status range load mag magx magy magz magnetometer sensitivity mass masse weight velocity vel vx vy \
-    vz f frequency freq frequenz frecuencia fréquence order period periode speed force temperature temp voltage current power pressure angular rotation strain magnetic humidity comment \
+    vz f frequency freq frequenz frecuencia fréquence order period periode eigenperiode quefrency speed force temperature temp voltage current power pressure angular rotation strain magnetic humidity comment \
     trigger roll pitch yaw heading azimuth course battery batt rssi setpoint throttle lat lon lng latitude longitude \
     altitude alt baro wx wy wz omega omegax omegay omegaz qw qx qy qz duration dauer delay latency width flags event marker \
     angle euler gyr";
@@ -31,8 +31,10 @@ pub(super) const GRAMS: &str = "tare brutto netto poids peso einwaage füllmenge
 pub(super) const FUNCTIONS: &str = "\
     log log10 20log 20log10 ln lg db psd asd fft spectrum spectral srs squared square sqrt rms variance jerk cumulative integral \
     inverse reciprocal normalized normalised accuracy uncertainty limit limits grenze grenzwert threshold tolerance \
-    stdev sigma kurtosis negated inverted peak max maximum min minimum p2p ptp pp pk pkpk envelope tgf spitzenwert spitze scheitelwert crête hüllkurve effektivwert efficace rmq varianz percentile 最大加速度 \
-    峰值加速度 ピーク 実効値 abs percent prozent promille mille cent";
+    stdev sigma kurtosis negated inverted peak max maximum min minimum p2p ptp pp pk pkpk envelope tgf spitzenwert spitze scheitelwert crête hüllkurve effektivwert efficace eff pico rmq std σ \
+    varianz abweichung toleranz spektrum psa percentile cumulated modulus abs percent prozent promille mille cent";
+/// The same in scripts without blanks: they stand anywhere in a name.
+pub(super) const FUNCTIONS_WITHIN: &str = "最大 峰值 ピーク 実効";
 /// Before a number these words make a factor of it, or an offset.
 pub(super) const FACTORS: &str = "\
     gain div divided divide scale scaled scaling factor faktor mult multiplied multiply multiplier times offset plus \

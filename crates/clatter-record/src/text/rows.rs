@@ -426,7 +426,7 @@ impl Rows {
                 printed = Decimal { digits: CLOCK, ..fraction };
             }
             if self.again.take().is_some_and(|last| since_s <= last) {
-                return Err(self.another_record(self.line - 1));
+                return Err(Self::another_record(self.line - 1));
             }
             self.times.push(since_s);
             self.printed.note(printed);
@@ -440,14 +440,14 @@ impl Rows {
         Ok(())
     }
 
-    fn another_record(&self, line: usize) -> Error {
+    fn another_record(line: usize) -> Error {
         Error::Records(format!("line {line} begins another record: --record=1 reads the first, --record=2 the next"))
     }
 
     /// Numbers follow on lines of text: those are no footer, or another record begins.
     fn go_on(&mut self) -> Result<(), Error> {
         if let Some(line) = self.heading.take().filter(|_| !self.skip_bad && !self.channels[0].is_empty()) {
-            return Err(self.another_record(line));
+            return Err(Self::another_record(line));
         }
         let text = std::mem::take(&mut self.text);
         for (at, what) in &text.first {

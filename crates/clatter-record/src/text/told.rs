@@ -39,7 +39,7 @@ const UNITS: &str =
 const SCALES: &str = "\
     slope, scale, scaling, skalier, factor, faktor, facteur, fattore, multipl, gain, verstärkung, amplif, sensitivity, calib, \
     kalib, cal factor, umrechnung, conversion, coeff, steigung, exponent, decimals, prescale, ymult, yscale, preamp, offset, \
-    intercept, divide, decimation, downsampl, untersetzung, thinning, reduction, save every, 倍率, 係数, 系数, 比例";
+    intercept, divide, maßstab, normalized, power of ten, times 1, werte mal, decimation, downsampl, untersetzung, thinning, reduction, save every, 倍率, 係数, 系数, 比例";
 
 /// The key of a line and what stands behind it.
 fn key_and_value(line: &str) -> Option<(String, &str)> {
@@ -54,7 +54,9 @@ fn key_and_value(line: &str) -> Option<(String, &str)> {
 pub(super) fn of(lines: &[String], form: Form) -> Told {
     let (mut told, mut offset) = (Told::default(), 0.0);
     for (i, line) in lines.iter().enumerate() {
-        let Some((key, value)) = key_and_value(line) else { continue };
+        // A sentence tells a factor as well: `all values times 100`.
+        let sentence = || (uncommented(line).0.to_lowercase(), uncommented(line).0);
+        let (key, value) = key_and_value(line).unwrap_or_else(sentence);
         let is = |keys: &str| keys.split(", ").any(|other| other == key);
         let number = || {
             value.split(|c: char| c.is_whitespace() || matches!(c, ';' | '"')).find_map(|word| word.parse::<f64>().ok())
@@ -90,6 +92,7 @@ pub(super) fn of(lines: &[String], form: Form) -> Told {
                 told.units = all;
             }
         } else if SCALES.split(", ").any(|part| key.contains(part))
+            && !["horizontal", "time", "plot"].iter().any(|other| key.contains(other) && !key.contains("times"))
             && let Some(value) = number()
         {
             match &key[..] {
