@@ -139,8 +139,17 @@ fn merged<'a>(
         if part.names() != fields || all != rows.end - rows.start {
             return Err(damaged(&"its columns or rows are not those of its plan"));
         }
+        let (mut first, again) = (rows.start, study.again(&rows));
         for group in 0..part.rows().len() {
             wanted.or_leave();
+            let next = first + part.rows()[group] as u64;
+            for row in again.iter().filter(|row| (first..next).contains(row)) {
+                let of_row = |column: usize| Ok(part.read(group, column)?[usize::try_from(row - first).unwrap_or(0)]);
+                let told: Result<Vec<f64>, _> = (0..fields.len()).map(of_row).collect();
+                let told = told.map_err(|error| torn(path, &error))?;
+                study.check(*row, &told).map_err(|error| damaged(&error))?;
+            }
+            first = next;
             let read = columns.iter().map(|column| part.read(group, *column));
             let read = read.collect::<Result<Vec<_>, _>>().map_err(|error| torn(path, &error))?;
             merge.take(&read.iter().map(Vec::as_slice).collect::<Vec<_>>()).map_err(|error| damaged(&error))?;
