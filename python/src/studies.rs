@@ -56,9 +56,9 @@ fn draw(
     force: bool,
     wanted: &Wanted,
 ) -> Result<(String, String), Refused> {
+    let study = Study::new(plan, text, origin).map_err(words)?;
     let odd = ProductFile::read_warned(text, origin).map_err(words)?.1;
     let warnings = if odd.warnings().is_empty() { String::new() } else { odd.to_string() };
-    let study = Study::new(plan, text, origin).map_err(words)?;
     let (rows, notes) = (study.rows_of(shard).map_err(words)?, study.notes(shard).map_err(words)?);
     let skipped = !force && is_there(output, &notes, rows.end - rows.start)?;
     if !skipped {
