@@ -131,22 +131,6 @@ impl<R: Read> Read for Bounded<R> {
     }
 }
 
-/// Returns what is odd about a rate that stands in place of times which a table has as well.
-fn other_times(table: &Table, options: &Options) -> Vec<String> {
-    /// Rates that differ by less are one.
-    const SAME: f64 = 0.01;
-    let accelerations_alone = table.columns.iter().all(|column| column.unit.as_deref() == Some("m/s2"));
-    let Some(given_hz) = options.sample_rate_hz.filter(|_| !accelerations_alone) else { return Vec::new() };
-    let by_times = Options { sample_rate_hz: None, ..options.clone() };
-    let Ok(timed) = clatter_record::Record::of_table(table.clone(), &by_times) else { return Vec::new() };
-    #[expect(clippy::cast_precision_loss, reason = "of samples in memory")]
-    let rates = timed.times().into_iter().map(|times| (times.samples() - 1) as f64 / times.duration_s());
-    let others = rates.filter(|hz| (hz / given_hz - 1.0).abs() > SAME);
-    others
-        .map(|hz| format!("the rate that is given, {given_hz} Hz, is not that of the times, {} Hz", figures(hz)))
-        .collect()
-}
-
 /// The answer with its file before it, as the command has it.
 #[derive(Serialize)]
 struct OfFile<'a> {
@@ -207,10 +191,7 @@ impl Record {
             values: numbers.0,
         };
         let table = Table { columns: columns.into_iter().map(column).collect(), left_out, notes: Vec::new() };
-        let record = work::done(py, move |_| {
-            let notes = other_times(&table, &options);
-            clatter_record::Record::of_table(Table { notes, ..table }, &options)
-        });
+        let record = work::done(py, move |_| clatter_record::Record::of_table(table, &options));
         Ok(Self { record: record?.map_err(refused)?, file })
     }
 

@@ -100,7 +100,7 @@ impl Study {
     /// # Errors
     /// [`Error`].
     pub fn new(plan: Plan, product: &str, origin: &str) -> Result<Self, Error> {
-        let begins = |line: &str| line.trim_start().trim_start_matches('[').trim_start().starts_with("product");
+        let begins = |line: &str| line.trim_start_matches(['[', '"', '\'', ' ', '\t']).starts_with("product");
         if !product.lines().any(begins) {
             return Err(Error::NoProduct(origin.to_owned()));
         }

@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use clatter_shock::samples::{LARGEST, float};
 
 use crate::error::Bad;
+use crate::finding::gaps;
 use crate::heading::Heading;
+use crate::plausible::against_times;
 use crate::raw::{Raw, Untimed};
 use crate::record::{one_scale, period};
 use crate::roles::{Preview, Role, Roles};
@@ -52,8 +54,9 @@ impl Record {
         }
         let options = &by_number(options, &columns);
         let seen = seen(&columns, options);
-        let Roles { time, channels, left_out: unused, .. } = seen.roles(options)?;
+        let Roles { time, channels, checked, left_out: unused, .. } = seen.roles(options)?;
         one_scale(&channels, options)?;
+        let against = against_given(&columns, &channels, checked, options)?;
         let sought = Sought::new(&columns, &seen, options, time, &channels)?;
         let mut groups: Vec<(Source, Vec<Role>)> = Vec::new();
         let mut known: HashMap<([u64; 3], usize), usize> = HashMap::new();
@@ -86,9 +89,38 @@ impl Record {
             record.read.insert(0, Finding::LeftOut(unused));
         }
         let left_out = (!left_out.is_empty()).then(|| format!("nothing is made of {}", left_out.join("; ")));
-        record.read.extend(left_out.into_iter().chain(notes).map(Finding::Note));
+        record.read.extend(left_out.into_iter().chain(notes).map(Finding::Note).chain(against));
         Ok(record)
     }
+}
+
+/// Holds a rate that is given against the times and the rates that the file has.
+fn against_given(
+    columns: &[Column],
+    channels: &[Role],
+    checked: Option<(usize, f64)>,
+    options: &Options,
+) -> Result<Vec<Finding>, Error> {
+    let Some(hz) = options.sample_rate_hz else { return Ok(Vec::new()) };
+    let (given_s, mut found) = (period(hz)?, Vec::new());
+    if let Some((time, size)) = checked {
+        let (_, since_s) = columns[time].values.since_first(size);
+        if since_s.iter().all(|since_s| since_s.is_finite()) {
+            let rate = against_times(given_s, &since_s, 0.0, "the rate that is given")?;
+            let lacks = || gaps(&since_s, &|sample| At::Sample(sample + 1));
+            found.extend(rate.or_else(lacks));
+        }
+    }
+    let told = |role: &&Role| columns[role.column].sampled_s.map(|[_, step_s]| step_s);
+    let differs = |role: &&Role| told(role).is_some_and(|step_s| (step_s / given_s - 1.0).abs() > SAME_RATE);
+    if let Some(role) = channels.iter().find(differs) {
+        let own_hz = told(&role).map_or(f64::NAN, f64::recip);
+        found.push(Finding::Note(format!(
+            "the file tells {own_hz} Hz of {}, and the rate that is given is {hz} Hz",
+            role.name
+        )));
+    }
+    Ok(found)
 }
 
 /// Columns that are picked by their whole names, with the groups that they lie in, by their numbers.

@@ -36,6 +36,27 @@ pub(crate) struct Raw {
     pub(crate) found: Vec<Finding>,
 }
 
+/// Returns whether a name says that a channel is the resultant of others.
+fn is_named_resultant(name: &str) -> bool {
+    const WORDS: [&str; 13] = [
+        "result",
+        "résult",
+        "sum",
+        "summe",
+        "somme",
+        "vector",
+        "vektor",
+        "total",
+        "magnitude",
+        "norm",
+        "abs",
+        "betrag",
+        "svm",
+    ];
+    let name = name.to_lowercase();
+    WORDS.iter().any(|word| name.contains(word))
+}
+
 /// The channel that is the root of the sum of the squares of all others, two at least, in every sample.
 fn resultant(channels: &[Untimed]) -> Option<usize> {
     /// As files print it, in parts of the largest value.
@@ -43,13 +64,13 @@ fn resultant(channels: &[Untimed]) -> Option<usize> {
     let is_resultant = |k: &usize| {
         let own = &channels[*k].values;
         let most = own.iter().copied().fold(0.0, f64::max);
-        let root = |i: usize| {
-            let others = channels.iter().enumerate().filter(|(other, _)| other != k);
-            others.fold(0.0, |root, (_, other)| libm::hypot(root, other.values[i]))
-        };
-        most > 0.0 && own.iter().enumerate().all(|(i, value)| (root(i) - value).abs() <= PRINTED * most)
+        let others = || channels.iter().enumerate().filter(|(other, _)| other != k);
+        let root = |i: usize| others().fold(0.0, |root, (_, other)| libm::hypot(root, other.values[i]));
+        let moves = |(_, other): &(usize, &Untimed)| other.values.iter().any(|value| value.abs() > PRINTED * most);
+        // Of one direction alone the resultant is its size, as another sensor beside it may be: the name has to say so.
+        let is_told = others().filter(moves).count() > 1 || is_named_resultant(&channels[*k].name);
+        most > 0.0 && is_told && own.iter().enumerate().all(|(i, value)| (root(i) - value).abs() <= PRINTED * most)
     };
-    // One direction alone is the length of itself: the last, as files have it.
     (0..channels.len()).rev().filter(|_| channels.len() > 2).find(is_resultant)
 }
 

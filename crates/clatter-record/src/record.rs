@@ -190,7 +190,7 @@ impl Record {
         if rows.below().count > 0 {
             found.push(Finding::Below(rows.below().clone()));
         }
-        found.extend(rows.against_told(&roles.channels).into_iter().map(Finding::Note));
+        found.extend(rows.against_header(&roles.channels).into_iter().map(Finding::Note));
         let slope = rows.slope();
         if let Some(([slope, offset], line)) = slope {
             found.push(Finding::Note(format!(

@@ -201,12 +201,15 @@ impl Preview {
         };
         let is_whole = |column: usize| {
             size(column).is_some_and(|size| size.to_bits() == 1.0_f64.to_bits())
+                && self.headings[column].named() != Named::Other
                 && all(column, &|number| number.fract() == 0.0)
         };
         let whole = columns().find(|column| is_number(*column) && is_whole(*column))?;
         let part = columns().find(|column| {
             let below = |size: f64| size < 1.0 && all(*column, &|number| (0.0..1.0).contains(&(number * size)));
-            size(*column).is_some_and(below) && self.numbers(*column).any(|number| number != 0.0)
+            size(*column).is_some_and(below)
+                && self.headings[*column].named() != Named::Other
+                && self.numbers(*column).any(|number| number != 0.0)
         })?;
         Some((whole, part, size(part)?))
     }
@@ -251,7 +254,7 @@ impl Preview {
     /// The column that counts the samples.
     fn counts(&self) -> Option<usize> {
         let is_number =
-            |column: &usize| self.named && self.is_index(*column) && self.numbers(*column).all(f64::is_finite);
+            |column: &usize| self.named && self.is_index(*column) && self.steps(*column).all(|(a, b)| a < b);
         (0..self.headings.len()).filter(|_| self.rows.len() > 1).find(is_number)
     }
 

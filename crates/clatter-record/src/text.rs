@@ -6,6 +6,7 @@ mod cut;
 mod digits;
 mod encoding;
 mod head;
+mod header;
 mod labview;
 mod layout;
 mod list;
@@ -13,7 +14,6 @@ mod records;
 mod rows;
 mod sensors;
 mod series;
-mod told;
 
 use std::borrow::Cow;
 use std::io::Read;
@@ -211,7 +211,7 @@ fn shape(
         form.number(cell).or_else(|| Some(form.measured(cell)?.0)).map_or(f64::NAN, crate::decimal::Decimal::float)
     };
     // A rate that is told stands for times that are not there.
-    let told_s = layout.told_s.map(|(step_s, _)| [layout.told.start_s.map_or(0.0, |(start_s, _)| start_s), step_s]);
+    let told_s = layout.told_s.map(|(step_s, _)| [layout.header.start_s.map_or(0.0, |(start_s, _)| start_s), step_s]);
     let named = layout.named.then(|| lines[..layout.begin].iter().rev().find(|line| !line.trim().is_empty())).flatten();
     let mut seen = Preview {
         headings: layout.headings,
@@ -262,7 +262,7 @@ fn shape(
         columns: seen.headings.len(),
         sampled_s: layout.sampled_s.or(told_s),
         told: layout.told_s,
-        all: layout.told,
+        header: layout.header,
         heading: named.map(|line| line.trim().to_owned()),
         fraction: fraction.map(|(_, column, size)| (column, size)),
         by_other: !options.accelerations.is_empty(),

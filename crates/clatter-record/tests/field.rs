@@ -116,3 +116,70 @@ fn what_does_not_go_together_is_told() {
     let summed = of("resultant1.csv", &[]).expect("a record");
     assert!(summed.channels().iter().all(|one| one.name != "Vector sum" || one.is_resultant()));
 }
+
+/// A heading that comes again joins what is below it by its times; without times it begins another record.
+#[test]
+fn a_heading_that_comes_again_begins_another_record_where_times_do_not_go_on() {
+    let rows = |from: i32| {
+        let mut text = String::new();
+        (from..from + 12).for_each(|k| writeln!(text, "0.{k:03},{}", k % 5).expect("text"));
+        text
+    };
+    let read = |text: &str, options: &Options| Record::read(text.as_bytes(), options, |_| ());
+    let one = read(&format!("t [s],a [g]\n{}t [s],a [g]\n{}", rows(100), rows(112)), &Options::default()).expect("one");
+    assert_eq!(one.channels()[0].values.len(), 24);
+    let back = read(&format!("t [s],a [g]\n{}t [s],a [g]\n{}", rows(100), rows(100)), &Options::default());
+    assert!(back.expect_err("two").to_string().contains("begins another record"));
+    let values = "a [g],b [g]\n1,2\n2,1\n3,4\n4,5\n";
+    let rated = Options { sample_rate_hz: Some(1e3), ..Options::default() };
+    assert!(read(&values.repeat(2), &rated).expect_err("two").to_string().contains("line 6 begins another record"));
+}
+
+/// Whole seconds and what seems their fraction, which goes on beyond a second, are two times.
+#[test]
+fn a_fraction_of_a_second_is_below_one() {
+    let mut text = "sec [s],part [ms],a [g]\n".to_owned();
+    (0..30).for_each(|k| writeln!(text, "{},{},{}", k / 10, 100 * k, k % 3).expect("text"));
+    let error = Record::read(text.as_bytes(), &Options::default(), |_| ()).expect_err("no fraction").to_string();
+    assert!(error.starts_with("line 12: '1000' in column 2 (time) is no fraction of a second"), "{error}");
+}
+
+/// Two sensors of one direction beside one that is still are no directions and their resultant; the file may say so.
+#[test]
+fn one_direction_alone_has_a_resultant_by_its_name() {
+    let text = |name: &str| format!("t [ms],x [g],y [g],{name} [g]\n0,0,0,0\n1,3,0,3\n2,1,0,1\n3,0,0,0\n");
+    let of = |name: &str| Record::read(text(name).as_bytes(), &Options::default(), |_| ()).expect("a record");
+    assert!(!of("top").channels().iter().any(clatter_record::Channel::is_resultant));
+    assert!(of("Vector sum").channels()[2].is_resultant());
+}
+
+/// A rate that is given is held against the times of a table, and against the rate that the file tells of a column.
+#[test]
+fn a_rate_that_is_given_is_held_against_a_table() {
+    use clatter_record::{Column, Table, Values};
+    let column = |name: &str, sampled_s: Option<[f64; 2]>, values: Vec<f64>| Column {
+        name: name.to_owned(),
+        group: String::new(),
+        unit: None,
+        sampled_s,
+        values: Values::Float(values),
+    };
+    let values = |count: usize| (0..count).map(|k| if k == 20 { 100.0 } else { 0.0 }).collect::<Vec<_>>();
+    let times = |kept: fn(&i32) -> bool| (0..60).filter(kept).map(|k| 1e-3 * f64::from(k)).collect::<Vec<_>>();
+    let found = |columns: Vec<Column>, hz: f64| {
+        let options = Options { sample_rate_hz: Some(hz), ..Options::default() };
+        let record = Record::of_table(Table { columns, ..Table::default() }, &options);
+        record.map(|record| record.findings(100.0).iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+    };
+    let timed = |times: Vec<f64>| vec![column("a [g]", None, values(times.len())), column("time [s]", None, times)];
+    let told = |columns, hz, word: &str| {
+        let found = found(columns, hz).unwrap_or_else(|error| error.to_string());
+        assert!(found.contains(word), "{word}: {found}");
+    };
+    assert!(!found(timed(times(|_| true)), 1e3).expect("a record").contains("rate"));
+    told(timed(times(|_| true)), 2e3, "the rate that is given, 2000 Hz, is not that of the times, 1000 Hz");
+    told(timed(times(|k| *k != 30)), 1e3, "samples are missing");
+    let sampled = || vec![column("a [g]", Some([0.0, 1e-3]), values(60))];
+    told(sampled(), 2e3, "the file tells 1000 Hz of a, and the rate that is given is 2000 Hz");
+    assert!(!found(sampled(), 1e3).expect("a record").contains("rate"));
+}

@@ -14,7 +14,7 @@ use crate::{Failure, text};
 #[command(next_help_heading = "Of several channels or records")]
 pub(crate) struct Several {
     /// Also the resultant of the channels of each record: the root of the sum of their squares, which the length of the response
-    /// vector does not exceed
+    /// vector does not exceed; a channel that is the resultant of the others already is left out of it
     #[arg(long)]
     pub(super) resultant: bool,
     /// Also the envelope: the largest of all channels of all records

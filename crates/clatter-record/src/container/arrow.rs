@@ -5,7 +5,7 @@
 
 mod schema;
 
-pub(super) use schema::{Told, schema_message, told};
+pub(super) use schema::{ArrowTime, schema_message, told};
 
 use super::bytes::Bytes;
 use super::number::{Number, number};

@@ -34,7 +34,7 @@ mod write;
 pub use groups::RowGroups;
 pub use write::{RowGroupWriter, Series, write};
 
-use super::arrow::Told;
+use super::arrow::ArrowTime;
 use super::number::{HALF, Number};
 use super::stored::Stored;
 use super::{TableBuilder, arrow, refuse};
@@ -57,7 +57,7 @@ pub(super) fn read(bytes: &[u8], table: &mut TableBuilder) -> Result<(), Error> 
     let metadata = metadata(bytes)?;
     let told = told(metadata.key_value_metadata.as_deref().unwrap_or_default());
     for (place, leaf) in leaves(&metadata.schema)?.into_iter().enumerate() {
-        let Told { unit, tick_ns } = told.get(&leaf.path).cloned().unwrap_or_default();
+        let ArrowTime { unit, tick_ns } = told.get(&leaf.path).cloned().unwrap_or_default();
         let kept = match (leaf.kept(), tick_ns) {
             (Ok(Kept::Stored(Stored::Number(Number::I64))), Some(tick)) => {
                 Ok(Kept::Stored(Stored::Time(Number::I64, tick)))
@@ -133,7 +133,7 @@ fn metadata(bytes: &[u8]) -> Result<FileMetaData, Error> {
 }
 
 /// What the schema of Arrow tells of the columns by name. It is no part of the numbers: a damaged one tells nothing.
-fn told(entries: &[KeyValue]) -> HashMap<String, Told> {
+fn told(entries: &[KeyValue]) -> HashMap<String, ArrowTime> {
     let schema = entries.iter().find(|entry| entry.key == ARROW_SCHEMA).and_then(|entry| entry.value.as_ref());
     let message = schema.and_then(|schema| STANDARD.decode(schema).ok()).unwrap_or_default();
     arrow::told(&message).unwrap_or_default()

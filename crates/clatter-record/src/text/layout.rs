@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::block::{Numbers, begin};
 use super::cells::{ARROW, Form};
 use super::head;
-use super::told::{self, Told};
+use super::header::{self, Header};
 use crate::Error;
 use crate::heading::{Heading, Named, unbracketed};
 use crate::unit::{Kind, Unit};
@@ -24,7 +24,7 @@ pub(super) struct Layout {
     /// Time between samples that a line above tells, and the number of the line, from 1.
     pub(super) told_s: Option<(f64, usize)>,
     /// What else lines above tell of all numbers.
-    pub(super) told: Told,
+    pub(super) header: Header,
     /// A line whose rate may be read in two ways.
     pub(super) unclear: Option<usize>,
     /// How many samples there are by a line above, from 1, that is one number.
@@ -94,7 +94,7 @@ impl Layout {
             form,
             begin,
             told_s: head::step(&lines[..begin]),
-            told: told::of(&lines[..begin], form),
+            header: header::of(&lines[..begin], form),
             unclear: lines[..begin].iter().position(|line| head::in_groups(line)),
             measured: found.measured.clone(),
             ..Self::default()
@@ -106,12 +106,12 @@ impl Layout {
             heading.is_text = !found.columns.contains(&column);
         }
         // Numbers that have a unit of their own have been calibrated.
-        if layout.told.unit.is_none()
+        if layout.header.unit.is_none()
             || layout.headings.iter().any(|heading| heading.kind() == Some(Kind::Acceleration))
         {
-            layout.told.slope = None;
+            layout.header.slope = None;
         }
-        layout.take_told(found.counts);
+        layout.take_names(found.counts);
         layout.read_scope(lines);
         let first: Vec<Cow<'_, str>> = form.cells(&lines[begin]);
         for (column, heading) in layout.headings.iter_mut().enumerate() {
@@ -128,8 +128,8 @@ impl Layout {
 
     /// Takes names and units from the lines that tell them, for columns that have none, or for those behind the time, which may stand
     /// behind the number of the row.
-    fn take_told(&mut self, counts: bool) {
-        let Told { names, units, .. } = &self.told;
+    fn take_names(&mut self, counts: bool) {
+        let Header { names, units, .. } = &self.header;
         let count = self.headings.len();
         let first = count.saturating_sub(names.len());
         if !self.named && !names.is_empty() && (first < 2 || first == 2 && counts) {

@@ -74,8 +74,8 @@ pub(crate) struct Rows {
     text: Bad,
     /// The first of them that is a heading.
     heading: Option<usize>,
-    /// The last time above a heading that came again.
-    again: Option<f64>,
+    /// The last time above a heading that came again, and the line of that.
+    again: Option<(f64, usize)>,
     /// The last empty line, and how many there are between lines of numbers.
     empty: Option<usize>,
     breaks: (usize, usize),
@@ -248,7 +248,7 @@ impl Rows {
                 )));
             }
             if self.again.is_none() && self.text.count == 0 && self.shape.heading.as_deref() == Some(text) {
-                self.again = Some(self.times.last().copied().unwrap_or(f64::INFINITY));
+                self.again = Some((self.times.last().copied().unwrap_or(f64::INFINITY), self.line));
                 self.lines.heading += 1;
                 return Ok(());
             }
@@ -409,6 +409,7 @@ impl Rows {
         if self.numbering.last().is_none_or(|(first, begin)| begin.after(sample - first) != at) {
             self.numbering.push((sample, at));
         }
+        let again = self.again.take();
         if let Some(time) = self.time {
             let first = *self.first_time.get_or_insert(time);
             let mut since_s = time.above(first) * self.time_size + self.days_s;
@@ -425,11 +426,14 @@ impl Rows {
                 // As exact as the fraction is, wherever the seconds are.
                 printed = Decimal { digits: CLOCK, ..fraction };
             }
-            if self.again.take().is_some_and(|last| since_s <= last) {
-                return Err(Self::another_record(self.line - 1));
-            }
             self.times.push(since_s);
             self.printed.note(printed);
+        }
+        // Numbers below a heading that came again go on where their times do, which they have.
+        if let Some((last, line)) = again
+            && !(self.time.is_some() && self.times.last().is_some_and(|time| *time > last))
+        {
+            return Err(Self::another_record(line));
         }
         for (channel, value) in self.channels.iter_mut().zip(&self.row) {
             channel.push(*value);
@@ -468,10 +472,10 @@ impl Rows {
         self.shape.fraction.map_or(self.time_size, |(_, size)| size)
     }
     /// What lines above the numbers tell that does not go with them.
-    pub(crate) fn against_told(&self, channels: &[Role]) -> Vec<String> {
+    pub(crate) fn against_header(&self, channels: &[Role]) -> Vec<String> {
         let own: Vec<_> = channels.iter().map(|role| (role.name.clone(), role.unit.clone())).collect();
         let start_s = self.first_time.map(|_| self.start_s());
-        let mut found = self.shape.all.against(self.lines.rows + self.lines.bad, start_s, &own);
+        let mut found = self.shape.header.against(self.lines.rows + self.lines.bad, start_s, &own);
         let (skips, line) = self.skips;
         if skips > 0 {
             found.push(format!(
@@ -482,6 +486,6 @@ impl Rows {
     }
     /// The slope and the offset by which numbers without a unit of their own become accelerations, and the line that tells them.
     pub(crate) fn slope(&self) -> Option<([f64; 2], usize)> {
-        self.shape.all.slope
+        self.shape.header.slope
     }
 }

@@ -226,14 +226,14 @@ fn count(field: &FieldRef<'_>, left: &mut usize, depth: usize) -> Result<(usize,
 
 /// What a schema tells of a column beyond its numbers.
 #[derive(Debug, Clone, Default)]
-pub(in crate::container) struct Told {
+pub(in crate::container) struct ArrowTime {
     pub(in crate::container) unit: Option<String>,
     /// Nanoseconds of one, where it is a duration.
     pub(in crate::container) tick_ns: Option<i64>,
 }
 
 /// What a schema in a message, as Parquet files carry it, tells of the columns by their names.
-pub(in crate::container) fn told(message: &[u8]) -> Result<HashMap<String, Told>, Error> {
+pub(in crate::container) fn told(message: &[u8]) -> Result<HashMap<String, ArrowTime>, Error> {
     use ipc::planus::ReadAsRoot;
     // The mark and the length of the message may stand before it.
     let message = match message {
@@ -251,7 +251,7 @@ pub(in crate::container) fn told(message: &[u8]) -> Result<HashMap<String, Told>
 }
 
 /// Adds a field, and those of a structure.
-fn tell(field: &FieldRef<'_>, above: &str, depth: usize, told: &mut HashMap<String, Told>) -> Result<(), Error> {
+fn tell(field: &FieldRef<'_>, above: &str, depth: usize, told: &mut HashMap<String, ArrowTime>) -> Result<(), Error> {
     let own = field.name().map_err(damaged)?.unwrap_or_default();
     let name = if above.is_empty() { own.to_owned() } else { format!("{above}.{own}") };
     if told.len() > MOST_FIELDS || depth > DEEPEST {
@@ -264,7 +264,7 @@ fn tell(field: &FieldRef<'_>, above: &str, depth: usize, told: &mut HashMap<Stri
         Some(TypeRef::Duration(duration)) => Some(tick_ns(duration.unit().map_err(damaged)?)),
         _ => None,
     };
-    told.insert(name, Told { unit: unit(field)?, tick_ns });
+    told.insert(name, ArrowTime { unit: unit(field)?, tick_ns });
     Ok(())
 }
 

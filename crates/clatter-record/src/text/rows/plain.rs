@@ -46,11 +46,15 @@ impl Rows {
                     }
                     let number = number.float();
                     let value = number * self.sizes[*k];
-                    if value.abs() > LARGEST || number.abs() >= NO_VALUE || self.shape.all.fill == Some(number) {
+                    if value.abs() > LARGEST || number.abs() >= NO_VALUE || self.shape.header.fill == Some(number) {
                         return None;
                     }
                     self.row.push(value);
                 } else if let Use::Fraction = use_of {
+                    let size = self.shape.fraction.map_or(1.0, |(_, size)| size);
+                    if !(0.0..1.0).contains(&(number.float() * size)) {
+                        return None;
+                    }
                     self.fraction = Some(number);
                 } else if let Use::Count = use_of {
                     self.count = Some(number);

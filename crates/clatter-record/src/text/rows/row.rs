@@ -114,7 +114,8 @@ impl Rows {
             }
             Use::Fraction => {
                 self.fraction = Some(number);
-                None
+                let whole = !(0.0..1.0).contains(&(number.float() * self.shape.fraction.map_or(1.0, |(_, size)| size)));
+                whole.then(|| format!("'{}' in {} is no fraction of a second", visible(cell), self.called(column)))
             }
             Use::Count => {
                 self.count = Some(number);
@@ -149,7 +150,7 @@ impl Rows {
         if (NO_VALUE..1e38).contains(&number.float().abs()) {
             return Some(format!("{} is what instruments write for no value", what()));
         }
-        if self.shape.all.fill == Some(number.float()) {
+        if self.shape.header.fill == Some(number.float()) {
             return Some(format!("{} stands for no value, by a line above", what()));
         }
         if value.abs() > LARGEST {

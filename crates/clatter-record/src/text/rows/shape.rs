@@ -2,8 +2,8 @@
 
 use crate::text::cells::Form;
 use crate::text::encoding::Letters;
+use crate::text::header::Header;
 use crate::text::sensors::Word;
-use crate::text::told::Told;
 
 /// The form of the lines of numbers.
 #[derive(Debug, Clone, Default)]
@@ -17,7 +17,7 @@ pub(in crate::text) struct Shape {
     /// Time between samples that a line above tells, and the line.
     pub(in crate::text) told: Option<(f64, usize)>,
     /// What else lines above tell.
-    pub(in crate::text) all: Told,
+    pub(in crate::text) header: Header,
     /// The line right above the numbers, where it names the columns: it may come again.
     pub(in crate::text) heading: Option<String>,
     /// The column of the fraction of a second, beside one of seconds, and the size of its unit.

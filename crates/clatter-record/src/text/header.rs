@@ -6,7 +6,7 @@ use crate::unit::{Kind, Unit};
 
 /// What the lines above the numbers tell; each with its line, from 1, where a message names it.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Told {
+pub(super) struct Header {
     /// How many samples there are.
     pub(super) samples: Option<(usize, usize)>,
     /// Time of the first sample, in seconds.
@@ -51,8 +51,8 @@ fn key_and_value(line: &str) -> Option<(String, &str)> {
 }
 
 /// Of lines above numbers.
-pub(super) fn of(lines: &[String], form: Form) -> Told {
-    let (mut told, mut offset) = (Told::default(), 0.0);
+pub(super) fn of(lines: &[String], form: Form) -> Header {
+    let (mut header, mut offset) = (Header::default(), 0.0);
     for (i, line) in lines.iter().enumerate() {
         // A sentence tells a factor as well: `all values times 100`.
         let sentence = || (uncommented(line).0.to_lowercase(), uncommented(line).0);
@@ -73,44 +73,44 @@ pub(super) fn of(lines: &[String], form: Form) -> Told {
                 reason = "it is whole and in this range"
             )]
             let count = number().filter(|n| n.fract() == 0.0 && (1.0..1e12).contains(n)).map(|n| n as usize);
-            told.samples = told.samples.or_else(|| Some((count?, i + 1)));
+            header.samples = header.samples.or_else(|| Some((count?, i + 1)));
         } else if is(STARTS) {
             let seconds = value.trim_end_matches('s').trim_end().parse().ok();
-            told.start_s = told.start_s.or_else(|| Some((seconds?, i + 1)));
+            header.start_s = header.start_s.or_else(|| Some((seconds?, i + 1)));
         } else if is(FILLS) {
-            told.fill = told.fill.or_else(&number);
-        } else if is(NAMES) && told.names.is_empty() {
-            told.names = listed();
+            header.fill = header.fill.or_else(&number);
+        } else if is(NAMES) && header.names.is_empty() {
+            header.names = listed();
         } else if is(UNITS) {
             let all = listed();
             let of = |unit: &String| Unit::of_kind(unit, Kind::Acceleration);
             if let [unit, ..] = &all[..]
                 && of(unit).is_some()
-                && told.unit.is_none()
+                && header.unit.is_none()
             {
-                told.unit = all.iter().all(|other| of(other) == of(unit)).then(|| (unit.clone(), i + 1));
-                told.units = all;
+                header.unit = all.iter().all(|other| of(other) == of(unit)).then(|| (unit.clone(), i + 1));
+                header.units = all;
             }
         } else if SCALES.split(", ").any(|part| key.contains(part))
             && !["horizontal", "time", "plot"].iter().any(|other| key.contains(other) && !key.contains("times"))
             && let Some(value) = number()
         {
             match &key[..] {
-                "slope" => told.slope = told.slope.or(Some(([value, 0.0], i + 1))),
+                "slope" => header.slope = header.slope.or(Some(([value, 0.0], i + 1))),
                 "offset" => offset = value,
                 _ => {}
             }
             let is_offset = key.ends_with("offset") || key == "intercept";
             if value.to_bits() != (if is_offset { 0.0_f64 } else { 1.0 }).to_bits() {
-                told.scales.push((uncommented(line).0.trim_end().to_owned(), i + 1));
+                header.scales.push((uncommented(line).0.trim_end().to_owned(), i + 1));
             }
         }
     }
-    told.slope = told.slope.map(|([slope, _], line)| ([slope, offset], line));
-    told
+    header.slope = header.slope.map(|([slope, _], line)| ([slope, offset], line));
+    header
 }
 
-impl Told {
+impl Header {
     /// Returns what does not go with the numbers that are read: so many rows, times from a first one on, and channels in these units of
     /// their own.
     pub(super) fn against(&self, rows: usize, start_s: Option<f64>, own: &[(String, String)]) -> Vec<String> {
@@ -152,9 +152,9 @@ mod tests {
             .split('\n')
             .map(str::to_owned)
             .collect::<Vec<_>>();
-        let told = of(&lines, Form::new(Some(b'\t'), b'.'));
+        let header = of(&lines, Form::new(Some(b'\t'), b'.'));
         let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
-        let right = Told {
+        let right = Header {
             samples: Some((600, 1)),
             start_s: Some((-0.002, 2)),
             fill: Some(-999.0),
@@ -164,6 +164,6 @@ mod tests {
             slope: Some(([0.01, 0.0], 5)),
             scales: vec![("Slope,0.01".to_owned(), 5)],
         };
-        assert_eq!(told, right);
+        assert_eq!(header, right);
     }
 }
