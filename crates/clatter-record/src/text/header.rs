@@ -50,6 +50,14 @@ fn key_and_value(line: &str) -> Option<(String, &str)> {
     Some((key, value.trim_start_matches([':', '=', '\t', ',', ';', ' ']).trim_end()))
 }
 
+/// Returns the number that a word is, with a sign of a product before it, and with a comma for its point; none where three digits stand
+/// behind that, which may be a group.
+fn number(word: &str) -> Option<f64> {
+    let word = word.trim_start_matches(['x', '×', '*']);
+    let grouped = word.split_once(',').is_some_and(|(_, behind)| behind.len() == 3);
+    if grouped { None } else { word.replace(',', ".").parse().ok() }
+}
+
 /// Of lines above numbers.
 pub(super) fn of(lines: &[String], form: Form) -> Header {
     let (mut header, mut offset) = (Header::default(), 0.0);
@@ -58,9 +66,7 @@ pub(super) fn of(lines: &[String], form: Form) -> Header {
         let sentence = || (uncommented(line).0.to_lowercase(), uncommented(line).0);
         let (key, value) = key_and_value(line).unwrap_or_else(sentence);
         let is = |keys: &str| keys.split(", ").any(|other| other == key);
-        let number = || {
-            value.split(|c: char| c.is_whitespace() || matches!(c, ';' | '"')).find_map(|word| word.parse::<f64>().ok())
-        };
+        let number = || value.split(|c: char| c.is_whitespace() || matches!(c, ';' | '"')).find_map(number);
         let listed = || -> Vec<String> {
             let separator = form.separator.map_or('\t', char::from);
             let cells = value.split(separator).map(|cell| cell.trim().trim_matches('"').to_owned());
@@ -145,6 +151,25 @@ impl Header {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn factors_in_any_language_and_in_sentences() {
+        let scales = |line: &str| of(&[line.to_owned()], Form::default()).scales.len();
+        for line in [
+            "Skalierungsfaktor: 0,01",
+            "Facteur: 0,01",
+            "Amplifier gain x100",
+            "Divide by 100 to get g",
+            "倍率: 100",
+            "Decimation=2",
+        ] {
+            assert_eq!(scales(line), 1, "{line}");
+        }
+        for line in ["Gain: 1", "Offset = 0", "Scale: 1,000", "Horizontal Scale,0.004", "Factor: none", "Range: 100 g"]
+        {
+            assert_eq!(scales(line), 0, "{line}");
+        }
+    }
 
     #[test]
     fn lines_of_a_key_and_a_value() {
